@@ -11,25 +11,31 @@ local step, all, any, condition = liana.step, liana.all, liana.any, liana.condit
 local at_rest, servo_done, servo_failed = liana.at_rest, liana.servo_done, liana.servo_failed
 
 -- Numbers to tune. The way in is the z of tip, payload and adapter.
-local kBeforeMechanism_m = 0.5 -- of the tip from the grapple, where the servo takes over
+local kNearPick_deg, kNearSite_deg = -45, -15 -- of the first joint, from `install`: where joint motion ends and lines begin
+local kBeforeMechanism_m = 0.2 -- of the tip from the grapple, where the servo takes over
+local kAtGrapple_m = 0.003 -- of the tip before the grapple's face; the end effector takes what is within 20 mm
 local kRetreat_m = 0.5 -- out of the transfer mechanism
-local kBeforeAdapter_m = 0.003 -- of the pins' tips from the socket's face, where force control takes over: inside the funnels
+local kBeforeSite_m = { 0.015, 0.020, -0.53 } -- source: off the place in which the servo ends, 608 mm between the faces
+local kBeforeAdapter_m = 0.005 -- of the pins' tips from the socket's face, where force control takes over: inside the funnels
 local kBackOff_m = 0.05
 local kForce_N = 30 -- source
 local kPushLimit_s = 40 -- a push that has not captured by then is jammed; source: 7 to 8 s
 local kTries = 2 -- more, after the first
 local kLight_N = 5 -- what the adapter may still feel 1 s after the capture
 local kLockLimit_s = 400 -- source: 298 s
+local kServo = { axis = "z", tolerance_m = 0.0006, tolerance_deg = 0.4 } -- else as servo_target has it
 
 -- ---- places -------------------------------------------------------------------------------------------------------
 
-local function moved_along_z(pose, way_m)
+-- `pose` moved in its own axes.
+local function moved(pose, way_m)
   local q = { pose[4], pose[5], pose[6], pose[7] }
-  local p = geometry.add({ pose[1], pose[2], pose[3] }, geometry.rotated({ 0, 0, way_m }, q))
+  local p = geometry.add({ pose[1], pose[2], pose[3] }, geometry.rotated(way_m, q))
   return { p[1], p[2], p[3], q[1], q[2], q[3], q[4] }
 end
 
-local function part_pose(arm, name)
+-- Where the scene's drawing has a part.
+local function drawn(arm, name)
   local part = arm.part_of_scene(name)
   local p, q = part.position_m, part.quaternion_wxyz
   return { p[1], p[2], p[3], q[1], q[2], q[3], q[4] }
@@ -37,13 +43,40 @@ end
 
 -- The tip from where it is commanded to be, along its own z.
 local function along_z(way_m)
-  return function(arm) arm.move_cp { goal = moved_along_z(arm.state.setpoint_cp, way_m) } end
+  return function(arm) arm.move_cp { goal = moved(arm.state.setpoint_cp, { 0, 0, way_m }) } end
 end
 
-local function to_before_mechanism(arm) arm.move_cp { goal = moved_along_z(part_pose(arm, "payload"), -kBeforeMechanism_m) } end
+-- Joints as at `install`, the first one turned: nothing is in the way there.
+local function near_install(turned_deg)
+  return function(arm)
+    local goal_deg = { table.unpack(arm.named_pose "install") }
+    goal_deg[1] = goal_deg[1] + turned_deg
+    arm.move_jp { goal_deg = goal_deg }
+  end
+end
+
+local function near(turned_deg)
+  return condition("joints at their goal", function(arm)
+    return math.abs(arm.state.setpoint_js_deg[1] - arm.named_pose("install")[1] - turned_deg) < 0.01
+  end)
+end
+
+-- Of the tip from the adapter's face, with the payload in hand.
+local function at_adapter_m(arm) return -arm.part_of_scene("payload").length_m - kBeforeAdapter_m end
+
+local function before_mechanism(arm) arm.move_cp { goal = moved(drawn(arm, "payload"), { 0, 0, -kBeforeMechanism_m }) } end
+
+local function before_site(arm)
+  local way_m = { kBeforeSite_m[1], kBeforeSite_m[2], at_adapter_m(arm) + kBeforeSite_m[3] }
+  arm.move_cp { goal = moved(drawn(arm, "adapter"), way_m) }
+end
 
 local function servo_to(target, offset_m)
-  return function(arm) arm.servo_target { target = target, axis = "z", offset = { 0, 0, offset_m(arm), 1, 0, 0, 0 } } end
+  return function(arm)
+    local fields = { target = target, offset = { 0, 0, offset_m(arm), 1, 0, 0, 0 } }
+    for field, value in pairs(kServo) do fields[field] = value end
+    arm.servo_target(fields)
+  end
 end
 
 -- ---- what the states say --------------------------------------------------------------------------------------------
@@ -89,21 +122,29 @@ return liana.mission "payload_install" {
   -- 2 Payload out of the airlock
   step "2 hatch open" (of_station "open hatch"),
   step "2 transfer mechanism out" (of_station("mechanism out", {
-    { step = "3 to the site", when = begins_on_arm },
+    { step = "3 mutual mode", when = begins_on_arm },
   })),
 
   -- 3 Operations of the arms
+  step "3 near the transfer mechanism" {
+    device = "none",
+    enter = at_rest(),
+    run = near_install(kNearPick_deg),
+    exit = all { near(kNearPick_deg), at_rest() },
+    time_limit_s = 300,
+    on_fail = "hold",
+  },
   step "3 before the transfer mechanism" {
     device = "none",
     enter = at_rest(),
-    run = to_before_mechanism,
+    run = before_mechanism,
     exit = at_rest(),
-    time_limit_s = 400,
+    time_limit_s = 200,
     on_fail = "hold",
   },
   step "3 servo to the payload" {
     device = "none",
-    run = servo_to("payload", function() return 0 end),
+    run = servo_to("grapple", function() return -kAtGrapple_m end),
     exit = all { servo_done(), at_rest() },
     fail_when = servo_failed(),
     time_limit_s = 130,
@@ -114,8 +155,10 @@ return liana.mission "payload_install" {
     device = "none",
     run = liana.tool "grapple",
     exit = liana.tool_done(),
+    fail_when = condition("the end effector has failed", function(arm) return arm.state.tool.phase == "failed" end),
     time_limit_s = 30,
     on_fail = "hold",
+    next = { { step = "3 before the transfer mechanism", on = "failure", at_most = kTries } },
   },
   step "3 clamps open" (of_station "open clamps"),
   step "3 retreat" {
@@ -126,19 +169,27 @@ return liana.mission "payload_install" {
     time_limit_s = 100,
     on_fail = "hold",
   },
-  -- The large arm is locked throughout: this robot moves the joints of the small one.
+  -- The large arm is locked throughout: this robot moves the joints of the small one, all of them together.
   step "3 to the site" {
     device = "none",
     enter = at_rest(),
-    run = liana.move_to "install",
-    exit = all { liana.at_pose("install", 0.1), at_rest() },
-    time_limit_s = 600,
+    run = near_install(kNearSite_deg),
+    exit = all { near(kNearSite_deg), at_rest() },
+    time_limit_s = 300,
+    on_fail = "hold",
+  },
+  step "3 before the adapter" {
+    device = "none",
+    enter = at_rest(),
+    run = before_site,
+    exit = at_rest(),
+    time_limit_s = 200,
     on_fail = "hold",
   },
   step "3 servo to the adapter" {
     device = "none",
     enter = at_rest(),
-    run = servo_to("adapter", function(arm) return -arm.part_of_scene("payload").length_m - kBeforeAdapter_m end),
+    run = servo_to("adapter", at_adapter_m),
     exit = all { servo_done(), at_rest() },
     fail_when = servo_failed(), -- target lost, base moving, not there in time
     time_limit_s = 130,
