@@ -82,10 +82,8 @@ constexpr std::array kServoTarget{
     number("lost_s", 0.2, 10.0, "without a usable image for so long the target is lost").otherwise(1.0),
     number("tau_s", 0.05, 20.0, "time constant of the low-pass on what the camera sees").otherwise(4.0),
     number("gain_1_s", 0.05, 1.0, "k: speed for a way to go").otherwise(0.45),
-    number("speed_m_s", 1e-4, 1.0, "fastest along the way in; the robot's own limit holds besides")
-        .otherwise(0.028),
-    number("lateral_speed_m_s", 1e-4, 1.0, "fastest across it; the robot's own limit holds besides")
-        .otherwise(0.008),
+    number("speed_m_s", 1e-4, 1.0, "fastest along the way in; the robot's own limit holds besides").otherwise(0.028),
+    number("lateral_speed_m_s", 1e-4, 1.0, "fastest across it; the robot's own limit holds besides").otherwise(0.008),
     number("rate_deg_s", 0.01, 30.0, "fastest turn; the robot's own limit holds besides").otherwise(0.5),
     number("accel_m_s2", 1e-4, 1.0, "acceleration of the goal that is led").otherwise(0.005),
     number("accel_deg_s2", 0.01, 30.0, "the same of its turn").otherwise(0.25),

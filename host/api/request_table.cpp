@@ -56,8 +56,9 @@ constexpr std::array kTable{
                .in_missions = true,
                .motion = Motion::kStreams},
     RequestRow{.op = "servo_target",
-               .doc = "The tip goes to a place beside a target that the tip camera sees, stays there for the dwell, and "
-                      "the servo ends by itself.",
+               .doc =
+                   "The tip goes to a place beside a target that the tip camera sees, stays there for the dwell, and "
+                   "the servo ends by itself.",
                .fields = kServoTarget,
                .owner_only = true,
                .in_missions = true,

@@ -72,8 +72,7 @@ class ArmDesk : public Desk {
                  {"move_path", [this](const auto& r) { arbiter_.move_path(outputs(), path_request<Arm>(r.fields)); }},
                  {"move_cp", [this](const auto& r) { arbiter_.move_line(outputs(), r.fields.pose("goal")); }},
                  {"servo_cp", [this](const auto& r) { arbiter_.servo_tip(outputs(), r.fields.pose("goal")); }},
-                 {"servo_target",
-                  [this](const auto& r) { arbiter_.servo_target(outputs(), servo_request(r.fields)); }},
+                 {"servo_target", [this](const auto& r) { arbiter_.servo_target(outputs(), servo_request(r.fields)); }},
                  {"retract", [this](const MotionRequest& r) { retract(r.fields); }},
                  {"hold", [this](const MotionRequest&) { hold(); }}};
   }

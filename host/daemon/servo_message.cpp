@@ -16,9 +16,12 @@ servo::ServoRequest servo_request(const api::Arguments& fields) {
   out.timeout_s = fields.number("timeout_s");
   out.lost_s = fields.number("lost_s");
   out.tau_s = fields.number("tau_s");
-  out.limits = {fields.number("gain_1_s"),           fields.number("speed_m_s"),
-                fields.number("lateral_speed_m_s"),  fields.number("rate_deg_s") * kDegree,
-                fields.number("accel_m_s2"),         fields.number("accel_deg_s2") * kDegree,
+  out.limits = {fields.number("gain_1_s"),
+                fields.number("speed_m_s"),
+                fields.number("lateral_speed_m_s"),
+                fields.number("rate_deg_s") * kDegree,
+                fields.number("accel_m_s2"),
+                fields.number("accel_deg_s2") * kDegree,
                 fields.has("axis") ? static_cast<std::size_t>(fields.text("axis").front() - 'x') : 0};
   return out;
 }

@@ -10,10 +10,10 @@ namespace liana::servo {
 
 // Figures of the payload's approach, found by simulation (docs/visual-servo.md).
 struct ApproachLimits {
-  double gain_1_s = 0.45;             // of all three
-  double speed_m_s = 0.028;           // along the way in
-  double lateral_speed_m_s = 0.008;   // across it
-  double rate_rad_s = 0.00873;        // 0.5 deg/s
+  double gain_1_s = 0.45;            // of all three
+  double speed_m_s = 0.028;          // along the way in
+  double lateral_speed_m_s = 0.008;  // across it
+  double rate_rad_s = 0.00873;       // 0.5 deg/s
   double accel_m_s2 = 0.005;
   double angular_accel_rad_s2 = 0.00436;  // 0.25 deg/s2
   std::size_t axis = 0;                   // of the target, 0 to 2: the way in
@@ -37,8 +37,8 @@ class Approach {
 
   // Starts from rest, where the tip is commanded to be.
   void begin(const Pose& tip_command) { *this = Approach(limits_, tip_command); }
-  // The tip goal for the next `dt_s`. `tip_measured` decides what is left to go; what has been asked for and the command
-  // has not done yet counts as done, or the lag of whatever follows would turn into overshoot.
+  // The tip goal for the next `dt_s`. `tip_measured` decides what is left to go; what has been asked for and the
+  // command has not done yet counts as done, or the lag of whatever follows would turn into overshoot.
   Pose next(const Pose& target_in_base, const Pose& goal, const Pose& tip_measured, const Pose& tip_command,
             double dt_s);
   // The tip goal for the next `dt_s` while it is not known where to go: comes to rest.

@@ -1,6 +1,6 @@
-// The visual servo of the payload's mission (requirement B16): the tip goes to where it should be beside a target that a
-// camera sees, stays there for the dwell, and the servo ends by itself. It gives tip goals, one in a command interval;
-// who verifies and releases them is no business of this.
+// The visual servo of the payload's mission (requirement B16): the tip goes to where it should be beside a target that
+// a camera sees, stays there for the dwell, and the servo ends by itself. It gives tip goals, one in a command
+// interval; who verifies and releases them is no business of this.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct ServoRequest {
   Pose tip_in_target{};         // where the tip should be: D, with the standing distance along the way in
   double tolerance_m = 0.0006;  // xi: of each of the target's axes
   double tolerance_rad = 0.00698;
-  double dwell_s = 1.0;    // so long within it
+  double dwell_s = 1.0;  // so long within it
   double timeout_s = 120.0;
   double lost_s = 1.0;  // without a usable image
   double tau_s = 4.0;   // of the low-pass on images
@@ -78,7 +78,7 @@ class TargetServo {
   TargetTrack track_;
   Approach approach_;
   ServoReport report_;
-  bool saw_ = false;          // since the last look
+  bool saw_ = false;  // since the last look
   double begun_s_ = 0.0;
   double last_seen_s_ = 0.0;  // when the last usable image came
   double within_since_s_ = 0.0;

@@ -48,8 +48,7 @@ ImageUse TargetTrack::take(double capture_s, const Pose& seen_in_base) {
     ++agreed_;
     const double gain = std::clamp((capture_s - last_used_s_) / tau_s_, 1.0 / static_cast<double>(agreed_), 1.0);
     target_in_base_.position_m = add(target_in_base_.position_m, scale(off_m, gain));
-    target_in_base_.quaternion =
-        normalize(multiply(quaternion_of(scale(off_rad, gain)), target_in_base_.quaternion));
+    target_in_base_.quaternion = normalize(multiply(quaternion_of(scale(off_rad, gain)), target_in_base_.quaternion));
   }
   last_used_s_ = capture_s;
   return ImageUse::kUsed;

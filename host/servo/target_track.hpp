@@ -1,6 +1,7 @@
-// Where a target is in the arm's base, from images of it one after another: each image is carried to now by the measured
-// motion of the tip since its exposure, which puts it into the base, where a target at rest stands still; there it is
-// low-passed. Errors of the arm's geometry drop out of what is left to go, since target and tip are measured alike.
+// Where a target is in the arm's base, from images of it one after another: each image is carried to now by the
+// measured motion of the tip since its exposure, which puts it into the base, where a target at rest stands still;
+// there it is low-passed. Errors of the arm's geometry drop out of what is left to go, since target and tip are
+// measured alike.
 #pragma once
 
 #include <cstdint>

@@ -30,8 +30,7 @@ std::optional<Pose> TipHistory::at(double time_s) const {
     if (i == 0) return before.tip_in_base;
     const Note& after = back(i - 1);
     const double share = (time_s - before.time_s) / (after.time_s - before.time_s);
-    const Vec3 turn =
-        rotation_vector(multiply(after.tip_in_base.quaternion, conjugate(before.tip_in_base.quaternion)));
+    const Vec3 turn = rotation_vector(multiply(after.tip_in_base.quaternion, conjugate(before.tip_in_base.quaternion)));
     return interpolated_pose(before.tip_in_base, after.tip_in_base, turn, share < 0.0 ? 0.0 : share);
   }
   return std::nullopt;

@@ -143,6 +143,7 @@ function Runner:after()
 end
 
 function Runner:send_hold(hold)
+  if self.arm.robot.kind == "serial" then return end -- it holds no angles
   if ways.same_hold(hold, self.current_hold) then return end
   local held = {}
   for theta, target_deg in pairs(hold) do held[#held + 1] = { theta = theta, target_deg = target_deg } end

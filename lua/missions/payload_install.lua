@@ -233,6 +233,13 @@ return liana.mission "payload_install" {
     time_limit_s = 3600,
     on_fail = "hold",
   },
+  step "3 out of the push" { -- giving way is from rest
+    device = "none",
+    run = function(arm) arm.hold() end,
+    exit = at_rest(),
+    time_limit_s = 30,
+    on_fail = "hold",
+  },
   step "3 lock" {
     device = "none",
     run = function(arm)

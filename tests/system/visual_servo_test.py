@@ -14,7 +14,12 @@ def product(a, b):
     """Of two quaternions."""
     w, x, y, z = a
     p, q, r, s = b
-    return (w * p - x * q - y * r - z * s, w * q + x * p + y * s - z * r, w * r - x * s + y * p + z * q, w * s + x * r - y * q + z * p)
+    return (
+        w * p - x * q - y * r - z * s,
+        w * q + x * p + y * s - z * r,
+        w * r - x * s + y * p + z * q,
+        w * s + x * r - y * q + z * p,
+    )
 
 
 def turned(quaternion, vector):
@@ -24,7 +29,7 @@ def turned(quaternion, vector):
 
 
 class VisualServo(SystemTest):
-    """req:B16 req:B24"""
+    """Flown by liana run."""
 
     def flown(self, *words):
         folder = Path(tempfile.mkdtemp(prefix="liana-servo-"))
@@ -32,6 +37,7 @@ class VisualServo(SystemTest):
         done = run("liana", "run", "servo_reach", "--robot", "micro", "--time", "fast", *words, "--json", report)
         return done, json.loads(report.read_text(encoding="utf-8"))
 
+    # req:B16 req:B24
     def test_the_tip_ends_within_a_millimetre_of_its_place_in_the_sources_time(self):
         folder = Path(tempfile.mkdtemp(prefix="liana-servo-")) / "record"
         done, report = self.flown("--scene", "target_ahead", "--seed", "40017", "--record", folder)

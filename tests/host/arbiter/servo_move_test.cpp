@@ -1,4 +1,4 @@
-// The visual servo as a way of moving, of a serial arm. req:B16
+// The visual servo as a way of moving, of a serial arm.
 #include <gtest/gtest.h>
 
 #include <functional>

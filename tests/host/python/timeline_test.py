@@ -11,8 +11,22 @@ TIMELINE = {
     "zero": "servo begins",
     "events": [
         {"event": "servo begins", "step": "servo", "edge": "begin", "flight_s": 0},
-        {"event": "servo ends", "step": "servo", "edge": "end", "flight_s": 40, "after": "servo begins", "within_s": [25, 45]},
-        {"event": "captured", "step": "push", "edge": "end", "flight_s": 311, "after": "servo ends", "within_s": [5, 300]},
+        {
+            "event": "servo ends",
+            "step": "servo",
+            "edge": "end",
+            "flight_s": 40,
+            "after": "servo begins",
+            "within_s": [25, 45],
+        },
+        {
+            "event": "captured",
+            "step": "push",
+            "edge": "end",
+            "flight_s": 311,
+            "after": "servo ends",
+            "within_s": [5, 300],
+        },
     ],
 }
 
@@ -23,10 +37,12 @@ def report(*steps):
 
 
 class Timeline(unittest.TestCase):
-    """req:B27"""
+    """Rows of the comparison."""
 
     def test_a_run_within_its_times_has_no_fault(self):
-        rows = compare(report(("prepare", 5.0, "success"), ("servo", 31.0, "success"), ("push", 8.0, "success")), TIMELINE)
+        rows = compare(
+            report(("prepare", 5.0, "success"), ("servo", 31.0, "success"), ("push", 8.0, "success")), TIMELINE
+        )
         self.assertEqual([row.fault for row in rows], ["", "", ""])
         self.assertEqual([row.ours_s for row in rows], [0.0, 31.0, 39.0])
         self.assertIn("| servo ends | 40.0 | 31.0 | 31.0 after servo begins |  |", text(rows))
@@ -48,6 +64,7 @@ class Timeline(unittest.TestCase):
         self.assertEqual(main([str(ROOT / "README.md"), str(ROOT / "README.md")]), 2)
         self.assertEqual(main([]), 2)
 
+    # req:B27
     def test_the_payloads_timeline_names_steps_of_its_mission_and_events_of_its_own(self):
         timeline = json.loads((ROOT / "lua/missions/payload_timeline.json").read_text(encoding="utf-8"))
         mission = (ROOT / "lua/missions/payload_install.lua").read_text(encoding="utf-8")

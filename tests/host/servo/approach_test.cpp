@@ -1,4 +1,3 @@
-// req:B16
 #include "host/servo/approach.hpp"
 
 #include <gtest/gtest.h>
@@ -81,7 +80,8 @@ TEST(Approach, TheWayInIsTheAxisThatIsNamed) {
     goal.position_m = add(kTarget.position_m, rotate(kTarget.quaternion, {1.0, 1.0, 1.0}));
     for (int i = 0; i < 1000; ++i) tip = approach.next(kTarget, goal, kTarget, tip, kStep_s);
     const Pose next = approach.next(kTarget, goal, kTarget, tip, kStep_s);
-    const Vec3 now = rotate(conjugate(kTarget.quaternion), scale(subtract(next.position_m, tip.position_m), 1 / kStep_s));
+    const Vec3 now =
+        rotate(conjugate(kTarget.quaternion), scale(subtract(next.position_m, tip.position_m), 1 / kStep_s));
     for (std::size_t i = 0; i < 3; ++i)
       EXPECT_NEAR(now[i], i == axis ? limits.speed_m_s : limits.lateral_speed_m_s / std::sqrt(2.0), 1e-9);
   }

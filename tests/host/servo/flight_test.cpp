@@ -1,5 +1,5 @@
 // The servo flown: the core's own tip filter, an arm 0.3 s behind it whose measured pose is beside the true one, and a
-// camera that is late, noisy and drops images. The study's table, on seeds that nothing was tuned on. req:B16 req:B24
+// camera that is late, noisy and drops images. The study's table, on seeds that nothing was tuned on.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,8 +30,7 @@ struct Camera {
 };
 
 // Limits of lua/robots/micro.lua.
-const TipFilterConfig kFilter{
-    {0.10, 0.10, 0.4}, {3 * kDegree, 3 * kDegree, 12 * kDegree}, kTick_s};
+const TipFilterConfig kFilter{{0.10, 0.10, 0.4}, {3 * kDegree, 3 * kDegree, 12 * kDegree}, kTick_s};
 
 struct Flight {
   ServoPhase phase = ServoPhase::kStandby;
@@ -189,6 +188,7 @@ Table fly_all(const char* name, const Camera& camera, std::uint64_t first_seed, 
 
 constexpr std::uint64_t kUnseenSeed = 70001;
 
+// req:B16 req:B24 req:B28
 TEST(Flight, TheStudysCameraLeadsToItsPlaceWithinAMillimetreInTheSourcesTime) {
   const Table table = fly_all("10 Hz, 2 mm", {10.0, 0.2, 0.002, 0.2 * kDegree, 0.0}, kUnseenSeed, 200);
   EXPECT_EQ(table.done, 200);
@@ -202,7 +202,8 @@ TEST(Flight, TheStudysCameraLeadsToItsPlaceWithinAMillimetreInTheSourcesTime) {
 
 TEST(Flight, ASlowerCameraAndOneThatDropsAThirdOfItsImagesDoToo) {
   const Table slow = fly_all("5 Hz, 2 mm", {5.0, 0.2, 0.002, 0.2 * kDegree, 0.0}, kUnseenSeed, 100);
-  const Table dropping = fly_all("10 Hz, 2 mm, a third dropped", {10.0, 0.2, 0.002, 0.2 * kDegree, 0.33}, kUnseenSeed, 100);
+  const Table dropping =
+      fly_all("10 Hz, 2 mm, a third dropped", {10.0, 0.2, 0.002, 0.2 * kDegree, 0.33}, kUnseenSeed, 100);
   for (const Table& table : {slow, dropping}) {
     EXPECT_GE(table.done, 99);
     EXPECT_LT(table.exit_95_s, 40.0);
@@ -211,7 +212,8 @@ TEST(Flight, ASlowerCameraAndOneThatDropsAThirdOfItsImagesDoToo) {
 }
 
 TEST(Flight, ABetterCameraErrsLess) {
-  const Table table = fly_all("10 Hz, 2 mm = 3 sigma", {10.0, 0.2, 0.002 / 3, 0.2 / 3 * kDegree, 0.0}, kUnseenSeed, 100);
+  const Table table =
+      fly_all("10 Hz, 2 mm = 3 sigma", {10.0, 0.2, 0.002 / 3, 0.2 / 3 * kDegree, 0.0}, kUnseenSeed, 100);
   EXPECT_EQ(table.done, 100);
   EXPECT_LT(table.error_most_m, 0.0008);
 }

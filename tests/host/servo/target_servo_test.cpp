@@ -1,4 +1,3 @@
-// req:B16
 #include "host/servo/target_servo.hpp"
 
 #include <gtest/gtest.h>
@@ -51,6 +50,7 @@ TEST(TargetServo, StandsByUntilItIsAskedFor) {
   EXPECT_EQ(bench.goals, 0);
 }
 
+// req:B16
 TEST(TargetServo, ArrivesDwellsAndEndsByItself) {
   Bench bench;
   bench.servo.begin(near_request(), bench.tip);
@@ -107,19 +107,15 @@ TEST(TargetServo, ATargetThatIsLostOnTheWayIsSaidToBeForItsReason) {
   const Pose stuck = compose(inverse(Pose{{1.89, 0.0, 0.0}, {1, 0, 0, 0}}), kTarget);
   const Loss losses[] = {
       {"it is not seen", [](double, TargetServo&, const Pose&) {}},
-      {"not seen",
-       [](double now_s, TargetServo& servo, const Pose& tip) {
-         servo.see("transfer mechanism", now_s, compose(inverse(tip), kTarget));
-       }},
+      {"not seen", [](double now_s, TargetServo& servo,
+                      const Pose& tip) { servo.see("transfer mechanism", now_s, compose(inverse(tip), kTarget)); }},
       {"30 mm or 3 deg",
        [](double now_s, TargetServo& servo, const Pose& tip) {
          servo.see("adapter", now_s, compose(inverse(tip), Pose{{2.0, 0.05, 0.0}, {1, 0, 0, 0}}));
        }},
       {"do not change", [stuck](double now_s, TargetServo& servo, const Pose&) { servo.see("adapter", now_s, stuck); }},
-      {"not remembered",
-       [](double now_s, TargetServo& servo, const Pose& tip) {
-         servo.see("adapter", now_s + 1.0, compose(inverse(tip), kTarget));
-       }},
+      {"not remembered", [](double now_s, TargetServo& servo,
+                            const Pose& tip) { servo.see("adapter", now_s + 1.0, compose(inverse(tip), kTarget)); }},
       {"older than one before",
        [](double, TargetServo& servo, const Pose& tip) { servo.see("adapter", 0.5, compose(inverse(tip), kTarget)); }},
   };

@@ -1,4 +1,3 @@
-// req:B16
 #include "host/servo/target_track.hpp"
 
 #include <gtest/gtest.h>
@@ -15,8 +14,7 @@ Pose seen_from(const Pose& tip) { return compose(inverse(tip), kTarget); }
 // Ten images a second of a tip that moves.
 TargetTrack settled(double until_s) {
   TargetTrack track;
-  for (int i = 0; 0.1 * i < until_s; ++i)
-    track.see(0.1 * i, seen_from(tip_at(0.01 * i)), tip_at(0.01 * i));
+  for (int i = 0; 0.1 * i < until_s; ++i) track.see(0.1 * i, seen_from(tip_at(0.01 * i)), tip_at(0.01 * i));
   return track;
 }
 

@@ -1,4 +1,3 @@
-// req:B16
 #include "host/servo/tip_history.hpp"
 
 #include <gtest/gtest.h>
