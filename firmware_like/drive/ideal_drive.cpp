@@ -3,6 +3,7 @@
 #include <array>
 
 #include "firmware_like/drive/cia402.hpp"
+#include "firmware_like/math/convert.hpp"
 
 namespace liana {
 namespace {
@@ -40,6 +41,16 @@ DriveFeedback ideal_feedback(const DriveFeedback& last, const DriveCommand& told
   }
   feedback.feedback_age_ticks = 1;
   feedback.heartbeat_age_ticks = feedback.emergency_code = 0;
+  return feedback;
+}
+
+DriveFeedback ideal_torque_feedback(const DriveFeedback& last, const DriveCommand& told, std::int32_t target_before,
+                                    std::int16_t torque_permille) noexcept {
+  DriveFeedback feedback = ideal_feedback(last, told, torque_permille);
+  if (decode(feedback.statusword) != DriveState::kOperationEnabled) return feedback;
+  const std::int64_t moved = std::int64_t{told.target_counts} - target_before;
+  const std::int64_t caught_up = (std::int64_t{target_before} - last.position_counts) / kIdealCatchUp;
+  feedback.position_counts = narrow<std::int32_t>(last.position_counts + moved + caught_up);
   return feedback;
 }
 
