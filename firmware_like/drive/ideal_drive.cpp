@@ -1,9 +1,10 @@
 #include "firmware_like/drive/ideal_drive.hpp"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 
 #include "firmware_like/drive/cia402.hpp"
-#include "firmware_like/math/convert.hpp"
 
 namespace liana {
 namespace {
@@ -50,7 +51,10 @@ DriveFeedback ideal_torque_feedback(const DriveFeedback& last, const DriveComman
   if (decode(feedback.statusword) != DriveState::kOperationEnabled) return feedback;
   const std::int64_t moved = std::int64_t{told.target_counts} - target_before;
   const std::int64_t caught_up = (std::int64_t{target_before} - last.position_counts) / kIdealCatchUp;
-  feedback.position_counts = narrow<std::int32_t>(last.position_counts + moved + caught_up);
+  using Counts = std::numeric_limits<std::int32_t>;
+  const std::int64_t there = last.position_counts + moved + caught_up;
+  feedback.position_counts =
+      static_cast<std::int32_t>(std::clamp(there, std::int64_t{Counts::min()}, std::int64_t{Counts::max()}));
   return feedback;
 }
 
