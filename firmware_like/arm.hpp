@@ -60,7 +60,8 @@ concept Arm = std::is_trivially_copyable_v<A> && ArmTable<typename A::Table> &&
   { seen.report(told) } -> std::same_as<void>;
   // The twin's nominal plant: torque that a drive which goes where it is told shows after this report.
   { A::planned_permille(table, report, drive) } -> std::same_as<std::int16_t>;
-  // And the sensors of the next tick, when nothing happens to them.
+  // Whether the drives follow torques; and the sensors of the next tick, when nothing happens to them.
+  { A::gives_torque(table) } -> std::same_as<bool>;
   { A::imagined(sensors) } -> std::same_as<typename A::Sensors>;
 };
 

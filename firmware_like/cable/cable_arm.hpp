@@ -74,6 +74,7 @@ class CableArm {
   // What the twin's drives show beside what they are told: the planned tension.
   static std::int16_t planned_permille(const RobotTable& table, const Report& report, std::int32_t drive) noexcept;
 
+  static bool gives_torque(const RobotTable&) noexcept { return false; }
   static NoSensors imagined(const NoSensors& last) noexcept { return last; }
 
   // Motion stage, for the verifier's predictions and for tests.

@@ -1,6 +1,8 @@
 #include "firmware_like/drive/ideal_drive.hpp"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 
 #include "firmware_like/drive/cia402.hpp"
 
@@ -40,6 +42,19 @@ DriveFeedback ideal_feedback(const DriveFeedback& last, const DriveCommand& told
   }
   feedback.feedback_age_ticks = 1;
   feedback.heartbeat_age_ticks = feedback.emergency_code = 0;
+  return feedback;
+}
+
+DriveFeedback ideal_torque_feedback(const DriveFeedback& last, const DriveCommand& told, std::int32_t target_before,
+                                    std::int16_t torque_permille) noexcept {
+  DriveFeedback feedback = ideal_feedback(last, told, torque_permille);
+  if (decode(feedback.statusword) != DriveState::kOperationEnabled) return feedback;
+  const std::int64_t moved = std::int64_t{told.target_counts} - target_before;
+  const std::int64_t caught_up = (std::int64_t{target_before} - last.position_counts) / kIdealCatchUp;
+  using Counts = std::numeric_limits<std::int32_t>;
+  const std::int64_t there = last.position_counts + moved + caught_up;
+  feedback.position_counts =
+      static_cast<std::int32_t>(std::clamp(there, std::int64_t{Counts::min()}, std::int64_t{Counts::max()}));
   return feedback;
 }
 

@@ -85,13 +85,13 @@ ForceMotion SerialArm::give_way(bool allowed) noexcept {
 
 std::uint32_t SerialArm::advance(bool allowed) noexcept {
   ForceMotion wanted;
-  if (gives_torque() && is_force(motion_.to.kind)) {
+  if (gives_torque(table_) && is_force(motion_.to.kind)) {
     wanted = give_way(allowed && !motion_.braking);
   } else {
     advance_motion(table_, allowed, motion_);
-    if (gives_torque()) wanted = planned_motion(table_, dynamics_, motion_.limiter, told_);
+    if (gives_torque(table_)) wanted = planned_motion(table_, dynamics_, motion_.limiter, told_);
   }
-  if (gives_torque()) tell_torque(table_, wanted, measured_rad(), motion_.limiter, told_);
+  if (gives_torque(table_)) tell_torque(table_, wanted, measured_rad(), motion_.limiter, told_);
   return motion_.limits;
 }
 
@@ -100,7 +100,7 @@ std::uint32_t SerialArm::propose(const Orders& orders, const DriveCommands&, boo
   for (std::size_t i = 0; i < table_.joints(); ++i) {
     const DriveTable& drive = table_.drive[i];
     out[i].target_counts = counts_at_joint(drive, motion_.limiter.joint_rad[i]);
-    if (!gives_torque()) continue;
+    if (!gives_torque(table_)) continue;
     out[i].mode = DriveMode::kCyclicTorque;
     out[i].torque_permille = drive.direction * told_.torque_Nm[i] / drive.torque_per_permille_Nm;
     out[i].rate_counts_s = drive.direction * told_.rate_rad_s[i] / drive.rad_per_count;

@@ -50,6 +50,7 @@ class SerialArm {
   // What the twin's drives show beside what they are told: nothing, in orbit and without a load.
   static std::int16_t planned_permille(const RobotTable&, const Report&, std::int32_t) noexcept { return 0; }
 
+  static bool gives_torque(const RobotTable& table) noexcept { return table.torque.gives_torque != 0; }
   // The sensors that the twin imagines for the next tick.
   static Sensors imagined(const Sensors& last) noexcept { return serial::imagined(last); }
 
@@ -80,7 +81,6 @@ class SerialArm {
   }
 
   JointVector measured_rad() const noexcept;
-  bool gives_torque() const noexcept { return table_.torque.gives_torque != 0; }
   ForceMotion give_way(bool allowed) noexcept;
 
   RobotTable table_{};

@@ -112,10 +112,6 @@ void visit(A& a, T& d) {
   a("operational", d.operational);
 }
 
-// Sensors of an arm that has nothing but its drives.
-template <class A, Like<NoSensors> T>
-void visit(A&, T&) {}
-
 // All of Inputs but the telecommand, which follows as TelecommandFields; the arm's own sensors last.
 template <class A, class T>
 requires std::derived_from<T, CycleInputs>
@@ -126,7 +122,7 @@ void visit(A& a, T& i) {
   a("twice_mask", i.twice_mask);
   a("request", i.request);
   visit_first(a, "drive", i.drive, counts_of_visitor(a).drives);
-  if constexpr (requires { i.sensors; }) a("sensors", i.sensors);
+  if constexpr (!std::same_as<std::remove_cvref_t<decltype(i.sensors)>, NoSensors>) a("sensors", i.sensors);
 }
 
 template <class A, Like<Fault> T>

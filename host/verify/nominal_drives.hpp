@@ -1,6 +1,7 @@
 // The nominal plant of the twin: drives that go where they are told, one tick late.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "firmware_like/controller_io.hpp"
@@ -20,8 +21,10 @@ class NominalDrives {
   liana::Inputs<Arm> next_inputs(std::uint64_t tick, const liana::Outputs<Arm>& told) {
     for (std::int32_t drive = 0; drive < table_.drive_count(); ++drive) {
       const std::size_t i = as_index(drive);
-      last_[i] = ideal_feedback(last_[i], told.drive[i], Arm::planned_permille(table_, told, drive));
+      last_[i] = next_feedback(last_[i], told.drive[i], i, Arm::planned_permille(table_, told, drive));
+      target_before_[i] = told.drive[i].target_counts;
     }
+    has_told_ = true;
     liana::Inputs<Arm> inputs;
     inputs.tick = tick;
     inputs.drive = last_;
@@ -30,8 +33,18 @@ class NominalDrives {
   }
 
  private:
+  // Before the first command of its own it is not known how the target has moved: then it has not.
+  DriveFeedback next_feedback(const DriveFeedback& last, const DriveCommand& told, std::size_t i,
+                              std::int16_t torque_permille) const {
+    if (!Arm::gives_torque(table_)) return ideal_feedback(last, told, torque_permille);
+    const std::int32_t before = has_told_ ? target_before_[i] : told.target_counts;
+    return ideal_torque_feedback(last, told, before, torque_permille);
+  }
+
   const typename Arm::Table& table_;
   DriveFeedbacks last_;
+  std::array<std::int32_t, kMaxDrives> target_before_{};
+  bool has_told_ = false;
   [[no_unique_address]] typename Arm::Sensors sensors_;
 };
 

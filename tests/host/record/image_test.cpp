@@ -97,7 +97,7 @@ TEST(Image, WhatWouldLeadTheCoreOutOfItsArraysIsRefusedAndNamed) {
   expect_refused("faults.count", std::int32_t{-1}, "0..16");
   expect_refused("faults.fault[2].number", std::uint16_t{77}, "a value that has a meaning");
   expect_refused("supervisor.phase", std::uint8_t{11}, "a value that has a meaning");
-  expect_refused("active.setpoint.kind", std::uint8_t{6}, "a value that has a meaning");
+  expect_refused("active.setpoint.kind", std::uint8_t{8}, "a value that has a meaning");
   expect_refused("active.setpoint.node[1].node", std::int32_t{6}, "0..5");
   expect_refused("arm.cable_watch.newest", std::uint8_t{2}, "0..1");
   expect_refused("arm.cable_watch.segment", std::int32_t{5}, "0..4");

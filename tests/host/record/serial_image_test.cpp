@@ -96,7 +96,7 @@ TEST(SerialImage, WhatWouldLeadTheCoreOutOfItsArraysIsRefusedAndNamed) {
   expect_refused("faults.fault[2].number", std::uint16_t{77}, "a value that has a meaning");
   expect_refused("faults.fault[2].index", std::int16_t{32}, "-1..31");
   expect_refused("supervisor.phase", std::uint8_t{11}, "a value that has a meaning");
-  expect_refused("active.setpoint.kind", std::uint8_t{6}, "a value that has a meaning");
+  expect_refused("active.setpoint.kind", std::uint8_t{8}, "a value that has a meaning");
   expect_refused("arm.joints.reading[6].heard", std::uint8_t{2}, "0..1");
   expect_refused("arm.joints.reading[6].jumped", std::uint8_t{255}, "0..1");
   expect_refused("arm.joints.reading[0].joint_rad", 1001.0, "a finite number up to 1000");
