@@ -28,11 +28,11 @@ struct Words {
   const char* which_drive;
 };
 
-constexpr Words kRobotWords{"the arm needs",
-                            "another drive is connected under this node id, or the robot table is wrong",
-                            "set it with the maker's tool, or slow the arm down in the robot table",
-                            "the drive is set up for another motor or drum, or the robot table is wrong",
-                            "is it the drive of the robot table?"};
+constexpr Words kRobotWords{
+    "the arm needs", "another drive is connected under this node id, or the robot table is wrong",
+    "set it with the maker's tool, or slow the arm down in the robot table",
+    "the drive is set up for another motor or drum, or the robot table or its drive type is wrong",
+    "is it the drive of the robot table?"};
 constexpr Words kDeskWords{"this way needs", "this drive is not of the type that --type names: name its own",
                            "set it with the maker's tool, or ask for less (--speed, --by)",
                            "set it with the maker's tool, or correct the drive type (docs/drives.md)",

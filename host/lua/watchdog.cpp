@@ -14,11 +14,15 @@
 #include <new>
 #include <stdexcept>
 
+#ifndef __has_feature  // clang says it so, g++ by a macro
+#define __has_feature(name) 0
+#endif
+
 namespace liana::script {
 namespace {
 
 constexpr long kPoll_ns = 20'000'000;
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__) || __has_feature(address_sanitizer)
 constexpr bool kIsSanitized = true;  // its shadow is larger than any limit
 #else
 constexpr bool kIsSanitized = false;

@@ -25,9 +25,9 @@ enum class Mark : std::uint8_t {
 
 // The mark before a table of this kind of arm.
 template <class Arm>
-constexpr Mark kRobotMark = Mark::kRobot;
+inline constexpr Mark kRobotMark = Mark::kRobot;
 template <>
-constexpr Mark kRobotMark<serial::SerialArm> = Mark::kSerialRobot;
+inline constexpr Mark kRobotMark<serial::SerialArm> = Mark::kSerialRobot;
 
 struct Count {
   std::uint32_t clocks;       // of SysTick

@@ -13,6 +13,7 @@
 #include "host/arbiter/cable_arbiter.hpp"
 #include "tests/firmware_like/ideal_drives.hpp"
 #include "tests/firmware_like/panel_slit.hpp"
+#include "tests/rounds.hpp"
 
 namespace liana::arbiter {
 namespace {
@@ -186,7 +187,7 @@ TEST(Continuity, NoStepFromAnyModeToAnyOtherAtAThousandRandomInstants) {
   LedArm arm(7);
   int engaged = 0;
   double farthest_m = 0.0;
-  for (std::size_t instant = 0; instant < 1024; ++instant) {  // every pair of modes sixteen times
+  for (std::size_t instant = 0; instant < rounds(std::size_t{1024}); ++instant) {  // every pair of modes sixteen times
     const std::size_t pair = instant % (kModes.size() * kModes.size());
     arm.switch_to(kModes[pair / kModes.size()]);
     arm.run(5 + static_cast<int>(random() % 20));
@@ -212,7 +213,7 @@ TEST(Continuity, NoStepFromAnyModeToAnyOtherAtAThousandRandomInstants) {
   EXPECT_LE(steps.payout_m_s, kRounding * limits.cable_speed_m_s);
   EXPECT_LE(steps.target_m_s, 1.05 * limits.tip_speed_m_s);
   EXPECT_LE(steps.target_m_s2, 1.05 * limits.tip_accel_m_s2);
-  EXPECT_GT(engaged, 200) << "or nobody has steered";
+  EXPECT_GT(engaged, rounds(200)) << "or nobody has steered";
   EXPECT_GT(farthest_m, 0.01);
 }
 

@@ -9,6 +9,7 @@
 #include "host/clearance/arm_clearance.hpp"
 #include "host/clearance/self_clearance.hpp"
 #include "tests/host/clearance/draw.hpp"
+#include "tests/rounds.hpp"
 
 namespace liana::clearance {
 namespace {
@@ -53,7 +54,7 @@ AlongMotion<ArmClearance> along(const StraightMotion& motion, const config::Scen
 TEST(AlongMotion, IsNeverAboveWhatDenseLooksFindAndCloseBelowIt) {
   Draw draw(21);
   int free = 0;
-  for (int i = 0; i < 150; ++i) {
+  for (int i = 0; i < rounds(150); ++i) {
     const StraightMotion motion(draw.axis(40, 0.05), draw.axis(40, 0.05), 200);
     const config::SceneConfig scene = draw.scene(1, 2, 1.5, i % 3);
     const AlongMotion<ArmClearance> found = along(motion, scene, kNoObstacle_m);
@@ -67,7 +68,7 @@ TEST(AlongMotion, IsNeverAboveWhatDenseLooksFindAndCloseBelowIt) {
     EXPECT_EQ(found.nearest.distance_m(), arm_clearance(motion.pose(found.pose), kRadius_m, scene).distance_m());
     free += dense_m > 0.0 ? 1 : 0;
   }
-  EXPECT_GT(free, 20);
+  EXPECT_GT(free, rounds(150) / 8);
 }
 
 // The arm jumps across a plate of 0.1 mm between two poses, both far from it.
@@ -119,7 +120,7 @@ TEST(AlongMotion, LooksLessWhereMoreMayStayUnseen) {
 
 TEST(AlongMotion, OfTheArmItselfTakesBothLinksAsMoving) {
   Draw draw(22);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < rounds(100); ++i) {
     const StraightMotion motion(draw.axis(40, 0.05), draw.axis(40, 0.05), 100);
     const AlongMotion<SelfClearance> found =
         least_along({motion.gone_m, 2.0, kNoObstacle_m, 0.0},

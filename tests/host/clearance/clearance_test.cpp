@@ -7,11 +7,12 @@
 
 #include "firmware_like/math/trig.hpp"
 #include "tests/host/clearance/draw.hpp"
+#include "tests/rounds.hpp"
 
 namespace liana::clearance {
 namespace {
 
-constexpr int kCases = 3000;
+constexpr int kCases = rounds(3000);
 constexpr int kSamples = 2000;  // of the axis
 
 double point_distance_m(const Vec3& p, const config::SceneSphere& sphere) {

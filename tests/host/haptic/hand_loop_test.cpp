@@ -13,6 +13,7 @@
 
 #include "tests/host/bus/allocation_count.hpp"
 #include "tests/host/haptic/bilateral_rig.hpp"
+#include "tests/rounds.hpp"
 
 namespace liana::haptic {
 namespace {
@@ -181,7 +182,7 @@ Plane random_wall(operator_side::RandomStream& random) {
 // req:C14
 TEST(HandLoop, ThePortNeverGivesMoreThanATenthOfAJouleForAnyLawDelayOrHand) {
   int at_stake = 0;
-  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+  for (std::uint64_t seed = 1; seed <= rounds(100u); ++seed) {
     rig::BilateralRig rig(random_rig(seed));
     operator_side::RandomStream random(seed, 52);
     double least_J = 0.0;
@@ -194,12 +195,12 @@ TEST(HandLoop, ThePortNeverGivesMoreThanATenthOfAJouleForAnyLawDelayOrHand) {
     ASSERT_GE(least_J, -0.1) << "seed " << seed;
     if (least_J < -0.05) ++at_stake;
   }
-  EXPECT_GT(at_stake, 20);
+  EXPECT_GT(at_stake, rounds(100) / 5);
 }
 
 // The rate limit of the law is what is felt of every switch, loss and return; the tank only ever takes.
 TEST(HandLoop, ForceMovesByNoMoreThanItsRateAtSwitchesLossAndReturn) {
-  for (std::uint64_t seed = 101; seed <= 130; ++seed) {
+  for (std::uint64_t seed = 101; seed <= 100 + rounds(30u); ++seed) {
     rig::RigTable table = random_rig(seed);
     table.loop.damping_N_s_m = 0.0;  // of the hand, felt at once
     table.loop.tank.start_J = table.loop.tank.most_J = std::numeric_limits<double>::infinity();
@@ -219,7 +220,7 @@ TEST(HandLoop, ForceMovesByNoMoreThanItsRateAtSwitchesLossAndReturn) {
 }
 
 TEST(HandLoop, WithTheTankNoForceGrowsFasterThanItsRateAndItsReturn) {
-  for (std::uint64_t seed = 131; seed <= 160; ++seed) {
+  for (std::uint64_t seed = 131; seed <= 130 + rounds(30u); ++seed) {
     rig::RigTable table = random_rig(seed);
     table.loop.damping_N_s_m = 0.0;
     rig::BilateralRig rig(table);

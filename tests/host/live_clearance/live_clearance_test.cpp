@@ -5,6 +5,7 @@
 
 #include "host/clearance/arm_clearance.hpp"
 #include "tests/host/live_clearance/true_world.hpp"
+#include "tests/rounds.hpp"
 
 namespace liana::live_clearance {
 namespace {
@@ -44,7 +45,7 @@ Course course(TrueWorld& world, Spoil spoil, const config::SceneConfig& scene = 
 // req:A47
 TEST(LiveClearance, IsALowerBoundOfTheTruthInSeededWorlds) {
   Course all;
-  for (std::uint64_t seed = 100; seed < 108; ++seed) {
+  for (std::uint64_t seed = 100; seed < 100 + rounds(8u); ++seed) {
     TrueWorld world(seed, {.length_m = 30e-6, .shift_m = 0.01, .turn_deg = 1.0});
     const Course one = course(world, nothing_spoiled);
     all.claims += one.claims;
@@ -56,7 +57,7 @@ TEST(LiveClearance, IsALowerBoundOfTheTruthInSeededWorlds) {
 
 TEST(LiveClearance, IsALowerBoundWithoutACameraWhereTheSceneIsAsDrawn) {
   Course all;
-  for (std::uint64_t seed = 200; seed < 208; ++seed) {
+  for (std::uint64_t seed = 200; seed < 200 + rounds(8u); ++seed) {
     TrueWorld world(seed, {.length_m = 30e-6});
     const Course one = course(world, swallow);
     all.claims += one.claims;
@@ -72,7 +73,7 @@ TEST(LiveClearance, WithoutACameraTheScenesAllowanceIsTakenOff) {
   allowed.margins.shift_m = 0.01;
   allowed.margins.turn_deg = 1.0;
   Course all;
-  for (std::uint64_t seed = 300; seed < 304; ++seed) {
+  for (std::uint64_t seed = 300; seed < 300 + rounds(4u); ++seed) {
     TrueWorld world(seed, {.length_m = 30e-6, .shift_m = 0.01, .turn_deg = 1.0});
     const Course one = course(world, swallow, allowed);
     all.claims += one.claims;
@@ -86,7 +87,7 @@ TEST(Outlook, OfADistanceThatIsFoundByItTheRestIsTrueAlsoWhereTheSceneStandsBesi
   const config::SceneConfig scene = panel_slit();
   int claims = 0, above = 0;
   double worst_m = 0.0;
-  for (std::uint64_t seed = 400; seed < 404; ++seed) {
+  for (std::uint64_t seed = 400; seed < 400 + rounds(4u); ++seed) {
     TrueWorld world(seed, {.length_m = 30e-6, .shift_m = 0.01, .turn_deg = 1.0});
     LiveClearance live(zhu2022_config(), scene);
     std::uint64_t tick = 0;

@@ -128,7 +128,7 @@ TEST(Replay, AFlippedByteAnywhereIsNoticedBeforeTheCoreSeesIt) {
   for (int i = 0; i < 100; ++i) {
     std::string bad = good;
     char& byte = bad[draw() % bad.size()];
-    byte = static_cast<char>(byte ^ (1 + draw() % 255));
+    byte = static_cast<char>(static_cast<unsigned char>(byte) ^ (1 + draw() % 255));
     std::ofstream(file, std::ios::binary) << bad;
     try {
       const ReplayResult result = replay(folder);
