@@ -24,8 +24,9 @@ UniqueFd connect_to(const std::string& option, const std::string& path, double t
     if (fd.get() >= 0 && ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
       return fd;
     if (std::chrono::steady_clock::now() >= deadline) {
-      throw std::runtime_error("cannot reach lianad at " + path + ": " + std::strerror(errno) +
-                               "; is it running with " + option + " " + path + "?");
+      std::string text = "cannot reach lianad at " + path + ": " + std::strerror(errno);
+      text.append("; is it running with ").append(option).append(" ").append(path).append("?");
+      throw std::runtime_error(text);
     }
     ::usleep(kRetry_us);
   }

@@ -77,7 +77,7 @@ void DriveLine::collect(const timing::TickStart& start, CycleInputs& inputs) noe
     if (master_.on_frame(received.bus, received.frame, start.tick)) continue;
     take_rate(received.bus, received.frame, inputs);
     const canopen::FrameRoute route = canopen::route(received.frame.id);
-    const std::int8_t drive = drive_of_node_[static_cast<std::size_t>(received.bus)][route.node];
+    const int drive = drive_of_node_[static_cast<std::size_t>(received.bus)][route.node];
     if (drive < 0) continue;
     if (route.kind == canopen::FrameKind::kRpdo1) voices_[static_cast<std::size_t>(drive)].is_another = true;
     if (route.kind == canopen::FrameKind::kTpdo1)

@@ -166,7 +166,7 @@ Json CableDesk::ask(const MotionRequest& request) {
 
 // What a released command was made of, and where the twin ends with it, is told to the devices.
 std::optional<LastVerdict> CableDesk::release_next(bool may_release, std::uint32_t owner) {
-  const std::optional<LastVerdict> verdict = ArmDesk::release_next(may_release, owner);
+  std::optional<LastVerdict> verdict = ArmDesk::release_next(may_release, owner);
   if (!verdict || !verdict->released) return verdict;
   const arbiter::DeviceSteer& steer = arbiter_.device();
   device_state_.note_release(verdict->first_tick, steer.engaged() ? steer.made_of_us() : -1);

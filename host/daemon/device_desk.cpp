@@ -86,9 +86,10 @@ device::Kind DeviceDesk::kind_of(const std::string& name) const {
   if (name == device::kind_name(device::Kind::kNone)) return device::Kind::kNone;
   const std::vector<device::Device*> fitting = that_fit(name);
   if (fitting.size() == 1) return fitting.front()->capability().kind;
-  if (fitting.empty())
+  if (fitting.empty()) {
     throw api::RequestError("no_device", "device = " + name + ": no such device is connected; connected: " +
                                              names_of(door_.devices()) + ": start its driver, or name one of them");
+  }
   throw api::RequestError("no_device",
                           "device = " + name + ": more than one fits: " + names_of(fitting) + ": give the name of one");
 }
@@ -121,11 +122,12 @@ void DeviceDesk::tell(const DeviceState& state, const arbiter::DeviceSteer& stee
 
 std::vector<event::Event> DeviceDesk::take_events() {
   std::vector<event::Event> events;
-  for (const device::DoorNews& news : door_.take_news())
+  for (const device::DoorNews& news : door_.take_news()) {
     events.push_back({.kind = event::EventKind::kDevice,
                       .number = event::number_of(event_of(news.what)),
                       .subject = news.name,
                       .text = news.text});
+  }
   return events;
 }
 

@@ -148,9 +148,10 @@ device::DoorPlace devices_of(const Options& options) {
 int serve_cable_arm(const Setup& setup) {
   const Options& options = setup.options;
   liana::config::RobotConfig robot = liana::config::load_robot(options.robot, options.physics, setup.buses);
-  if (!options.calibration.empty())
+  if (!options.calibration.empty()) {
     liana::calibration::apply(
         liana::calibration::load_calibration(options.calibration, robot, liana::calibration::today_utc()), robot);
+  }
   const auto link = std::make_unique<liana::control::ArmLink<cable::CableArm>>(robot.table);
   liana::daemon::CableDesk desk(robot, setup.scene, options.in_pose, setup.mode, *link, devices_of(options));
   if (options.fixtures == "off") desk.leave_out_fixtures();

@@ -65,9 +65,10 @@ void Service::wait_for(const std::vector<api::Role>& roles, double timeout_s) {
   for (const api::Role role : roles) {
     while (!server_.has_role(role)) {
       server_.pump(0.05);
-      if (Clock::now() > deadline)
+      if (Clock::now() > deadline) {
         throw std::runtime_error("--expect: a client with role '" + std::string(api::role_name(role)) +
                                  "' did not come within the time");
+      }
     }
   }
 }

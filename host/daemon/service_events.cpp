@@ -62,12 +62,14 @@ event::Event boot_goes_on_event() {
 
 std::vector<event::Event> boot_failed_events(const std::vector<control::BootProblem>& problems) {
   std::vector<event::Event> events;
-  for (const control::BootProblem& problem : problems)
+  events.reserve(problems.size());
+  for (const control::BootProblem& problem : problems) {
     events.push_back({.kind = event::EventKind::kBootProblem,
                       .number = event::number_of(problem.number),
                       .subject = drive_name(problem.drive),
                       .values = {{"drive", static_cast<double>(problem.drive)}},
                       .text = problem.text});
+  }
   events.push_back({.kind = event::EventKind::kBoot,
                     .number = event::number_of(event::BootEvent::kFailed),
                     .text = "booting failed: " + control::text_of(problems)});

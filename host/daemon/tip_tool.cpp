@@ -19,9 +19,10 @@ Json TipTool::ask(const std::string& command, double time_s, bool is_connected) 
 }
 
 void TipTool::hear(const api::Arguments& report, std::uint64_t due_tick) {
-  if (report.integer("number") != number_ || !is_under_way())
+  if (report.integer("number") != number_ || !is_under_way()) {
     throw api::RequestError("refused", "number = " + std::to_string(report.integer("number")) +
                                            ": no such command is under way; report on the last one only");
+  }
   heard_.push_back({due_tick, report.text("phase"), report.has("reason") ? report.text("reason") : ""});
 }
 

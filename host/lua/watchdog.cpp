@@ -14,19 +14,12 @@
 #include <new>
 #include <stdexcept>
 
-#ifndef __has_feature  // clang says it so, g++ by a macro
-#define __has_feature(name) 0
-#endif
+#include "host/file/address_space.hpp"
 
 namespace liana::script {
 namespace {
 
 constexpr long kPoll_ns = 20'000'000;
-#if defined(__SANITIZE_ADDRESS__) || __has_feature(address_sanitizer)
-constexpr bool kIsSanitized = true;  // its shadow is larger than any limit
-#else
-constexpr bool kIsSanitized = false;
-#endif
 
 double seconds(clockid_t clock) {
   timespec now{};
@@ -40,7 +33,7 @@ void limit_itself() {
     const rlimit both{most, most};
     ::setrlimit(resource, &both);  // a lower limit that is there already stays
   };
-  if (!kIsSanitized) limit(RLIMIT_AS, 1u << 30);
+  file::limit_address_space(1u << 30);
   limit(RLIMIT_FSIZE, 64u << 20);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_NPROC, 0);

@@ -5,7 +5,6 @@
 #include <sched.h>
 #include <signal.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -21,6 +20,7 @@
 #include <tuple>
 #include <utility>
 
+#include "host/file/address_space.hpp"
 #include "host/places/places.hpp"
 
 namespace liana::system {
@@ -41,8 +41,7 @@ std::vector<char*> exec_arguments(const std::vector<std::string>& argv) {
 [[noreturn]] void become(std::vector<char*>& argv, int out_fd, int error_fd, int realtime_priority) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  const rlimit address_space{kMostAddressSpace, kMostAddressSpace};
-  setrlimit(RLIMIT_AS, &address_space);  // a lower limit that is there already stays
+  file::limit_address_space(kMostAddressSpace);
   sched_param parameters{};
   parameters.sched_priority = realtime_priority;
   if (realtime_priority > 0) sched_setscheduler(0, SCHED_FIFO, &parameters);

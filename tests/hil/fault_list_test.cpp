@@ -56,6 +56,28 @@ TEST(FaultList, IsReadWithDrivesParametersAndConditions) {
   EXPECT_EQ(faults[2].parameters.tension_N, 55.0);
 }
 
+// req:B26
+TEST(FaultList, OfAPayloadNamesNoDrive) {
+  const auto faults = faults_of(R"([{"kind":"jam","pin":2,"depth_m":0.012,"at_slot":3,"for_slots":9},
+                                   {"kind":"base_moved","z_m":-0.003,"slots":25,"at_slot":4},
+                                   {"kind":"capture_early","at_slot":5}])");
+  EXPECT_TRUE(faults[0].drives.empty());
+  EXPECT_EQ(faults[0].parameters.pin, 2.0);
+  EXPECT_EQ(faults[0].parameters.depth_m, 0.012);
+  EXPECT_EQ(faults[1].parameters.z_m, -0.003);
+  EXPECT_EQ(faults[1].parameters.slots, 25.0);
+  EXPECT_EQ(fault_of(faults[2].kind), FaultOf::kPayload);
+}
+
+TEST(FaultList, OfAPayloadIsRefusedByACableArm) {
+  try {
+    run_with(R"([{"kind":"sensor_failed","at_slot":3}])", 5);
+    FAIL() << "accepted";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("sensor_failed"), std::string::npos);
+  }
+}
+
 TEST(FaultList, RefusesWhatItDoesNotUnderstandWithFieldAndWhatIsAllowed) {
   struct Case {
     const char* fault;
@@ -77,6 +99,12 @@ TEST(FaultList, RefusesWhatItDoesNotUnderstandWithFieldAndWhatIsAllowed) {
       {R"({"drive":3,"kind":"silent","at_slot":1,"for_slots":0})", {"/0/for_slots", "0"}},
       {R"({"drive":3,"kind":"silent","at_slot":1,"counts":5})", {"/0/counts", "not known"}},
       {R"({"drive":3,"kind":"encoder_jump","at_slot":1})", {"/0/counts", "missing"}},
+      {R"({"kind":"jam","pin":4,"depth_m":0.01,"at_slot":1})", {"/0/pin", "4", "1 to 3"}},
+      {R"({"kind":"jam","pin":1,"at_slot":1})", {"/0/depth_m", "missing"}},
+      {R"({"kind":"jam","drive":1,"pin":1,"depth_m":0.01,"at_slot":1})", {"/0/drive", "not known"}},
+      {R"({"kind":"base_moved","at_slot":1})", {"/0", "by nothing", "x_m"}},
+      {R"({"kind":"base_moved","x_m":0.06,"at_slot":1})", {"/0/x_m", "0.06", "0.05"}},
+      {R"({"kind":"base_moved","x_m":0.01,"at_slot":1,"for_slots":5})", {"/0/for_slots", "not known"}},
       {R"({"drive":3,"kind":"encoder_jump","at_slot":1,"counts":0.5})", {"/0/counts", "whole"}},
       {R"({"drive":3,"kind":"noisy","at_slot":1})", {"counts or permille"}},
       {R"({"drive":3,"kind":"late","at_slot":1,"cycles":0})", {"/0/cycles", "0"}},

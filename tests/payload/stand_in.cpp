@@ -15,6 +15,7 @@ namespace {
 constexpr double kMass[6] = {500, 500, 500, 100, 100, 100};
 constexpr double kDamping[6] = {3000, 3000, 4000, 1500, 1500, 1500};
 constexpr double kDead[6] = {1, 1, 0, 0.5, 0.5, 0.5};
+constexpr double kFilter_s = 0.1;
 constexpr double kCountsPerRad = 1048576.0 / 6.283185307179586;
 constexpr double kRated_Nm = 150.0;
 
@@ -76,8 +77,9 @@ TorqueCommand ForceLaw::step(double tick_s, const serial::JointVector& joint_rad
     const double wanted = k == 2 ? set_N + met[2] : beyond(met[k], kDead[k]);
     const double decay = tick_s * kDamping[k] / kMass[k];
     velocity_[k] = (velocity_[k] + tick_s * wanted / kMass[k]) / (1.0 + decay);
+    met_[k] += tick_s / kFilter_s * (met[k] - met_[k]);
     if (!feed_forward) continue;
-    for (std::size_t i = 0; i < 7; ++i) command.feed_forward_Nm[i] -= rows[k][i] * met[k];
+    for (std::size_t i = 0; i < 7; ++i) command.feed_forward_Nm[i] -= rows[k][i] * met_[k];
   }
   command.rate_rad_s = least_rates(rows, velocity_);
   return command;

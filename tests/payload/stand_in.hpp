@@ -32,6 +32,8 @@ struct TorqueCommand {
 };
 
 // M_d dv/dt = C_F (F - F_e) - K_D v, v and forces of the payload's plate in the tip's frame; q' = J# v, tau = J^T F_e.
+// F_e of the feed-forward is low-passed with 0.1 s: the sensor feels the payload's inertia, too, and fed back at once
+// that swings the wrist against the payload at some 8 Hz.
 class ForceLaw {
  public:
   ForceLaw(const serial::RobotTable& table, double plate_m) : table_(table), plate_m_(plate_m) {}
@@ -44,6 +46,7 @@ class ForceLaw {
   serial::RobotTable table_;
   double plate_m_;
   std::array<double, 6> velocity_{};  // linear, angular
+  std::array<double, 6> met_{};       // force and torque, low-passed
 };
 
 class Stand {

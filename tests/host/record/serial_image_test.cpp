@@ -10,6 +10,7 @@
 
 #include "host/record/serialise.hpp"
 #include "tests/firmware_like/serial_rig.hpp"
+#include "tests/firmware_like/zhu2022.hpp"
 #include "tests/host/record/field_finder.hpp"
 
 namespace liana::record {
@@ -134,7 +135,7 @@ TEST(SerialImage, ATableThatWouldLeadTheCoreOutOfItsArraysIsRefused) {
 
 TEST(SerialImage, AnImageOfACableArmIsRefused) {
   const serial::micro::Rig rig = moving_rig(1);
-  EXPECT_NE(refusal_of(state_of(cable::Controller(cable::RobotTable{})), rig.robot), "");
+  EXPECT_NE(refusal_of(state_of(cable::Controller(cable::zhu2022::table())), rig.robot), "");
 }
 
 // Thousands of images nobody wrote: the core lives through every one that is taken.
