@@ -178,8 +178,8 @@ void judge_distances(const MotionRules& rules, const simulate::Motion& motion, T
   }
 }
 
-// When the tip passes a wall of the fixture from between them, and by how much; nothing where it does not. A tip that is
-// beyond a wall already may go back, and by what the noise of a measured pose gives away no farther; one in the room
+// When the tip passes a wall of the fixture from between them, and by how much; nothing where it does not. A tip that
+// is beyond a wall already may go back, and by what the noise of a measured pose gives away no farther; one in the room
 // behind a wall, where it came past none, is no concern of theirs.
 void judge_walls(const MotionRules& rules, const config::SceneFixture& walls, const simulate::Motion& motion,
                  SimulationVerdict& verdict) {
