@@ -12,13 +12,13 @@
 
 #include "host/control/tick_guard.hpp"
 
-extern "C" {
+extern "C" {  // NOLINTBEGIN(bugprone-reserved-identifier): glibc calls them so
 void* __libc_malloc(size_t size);
 void* __libc_calloc(size_t count, size_t size);
 void* __libc_realloc(void* p, size_t size);
 void* __libc_memalign(size_t alignment, size_t size);
 void __libc_free(void* p);
-}
+}  // NOLINTEND(bugprone-reserved-identifier)
 
 namespace {
 

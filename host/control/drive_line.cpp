@@ -57,7 +57,7 @@ DriveLine::DriveLine(const std::vector<canopen::DriveExpectation>& drives, const
       most_bring_back_ticks_(static_cast<std::uint32_t>(std::lround(kBringBack_s * buses.rate_hz))) {
   for (auto& nodes : drive_of_node_) nodes.fill(-1);
   for (std::size_t i = 0; i < drives_.size(); ++i) {
-    drive_of_node_[static_cast<std::size_t>(drives_[i].bus)][drives_[i].node] = static_cast<std::int8_t>(i);
+    drive_of_node_[static_cast<std::size_t>(drives_[i].bus)][drives_[i].node] = static_cast<int>(i);
     has_drives_[static_cast<std::size_t>(drives_[i].bus)] = true;
   }
 }
@@ -145,7 +145,7 @@ void DriveLine::take_emergencies(CycleInputs& inputs) noexcept {
   for (std::size_t i = 0; i < drives_.size(); ++i) inputs.drive[i].emergency_code = 0;
   canopen::Emergency emergency;
   while (master_.emergencies().take(emergency)) {
-    const std::int8_t drive = drive_of_node_[static_cast<std::size_t>(emergency.bus)][emergency.node];
+    const int drive = drive_of_node_[static_cast<std::size_t>(emergency.bus)][emergency.node];
     if (drive >= 0) inputs.drive[static_cast<std::size_t>(drive)].emergency_code = emergency.code;
   }
 }

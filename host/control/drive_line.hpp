@@ -76,7 +76,7 @@ class DriveLine {
   std::uint32_t most_bring_back_ticks_;
   std::uint32_t bring_back_ticks_ = 0;
   std::uint64_t bring_back_tick_ = 0;  // the last one in which somebody wanted them back
-  std::array<std::array<std::int8_t, 128>, bus::kMaxDriveBuses> drive_of_node_{};  // -1: not ours
+  std::array<std::array<int, 128>, bus::kMaxDriveBuses> drive_of_node_{};  // -1: not ours
   // Who speaks under the identifiers of a drive: two nodes of one id, or another master.
   struct Voices {
     std::optional<std::array<std::uint8_t, 8>> report;  // its first of this tick

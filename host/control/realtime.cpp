@@ -17,7 +17,7 @@ namespace {
 
 // Touches the pages that the thread's ticks will use.
 void touch_stack() {
-  std::array<volatile char, 256 * 1024> stack;
+  std::array<volatile char, std::size_t{256} * 1024> stack;
   for (std::size_t i = 0; i < stack.size(); i += 4096) stack[i] = 0;
 }
 

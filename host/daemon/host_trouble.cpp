@@ -43,9 +43,10 @@ void HostTrouble::look_at(const std::string& name, const bus::DriveBusStats& now
     out.push_back(trouble(what, bus, {"count", static_cast<double>(count)}, bus + text));
   };
   const std::string state = bus_state_name(now.state);
-  if (now.state != seen.stats.state)
+  if (now.state != seen.stats.state) {
     out.push_back(trouble(event::HostTroubleEvent::kBusState, bus, {"state", static_cast<double>(now.state)},
                           bus + " is " + state + advice(now.state)));
+  }
   const std::uint64_t errors = now.errors - seen.stats.errors, dropped = now.dropped - seen.stats.dropped;
   if (now.state == seen.stats.state && errors != 0)
     say(event::HostTroubleEvent::kErrorFrames, errors, " reported " + number(errors) + " error frames and is " + state);
@@ -67,9 +68,10 @@ std::vector<event::Event> HostTrouble::changes(const config::BusesConfig& buses,
   std::vector<event::Event> out;
   for (std::size_t b = 0; b < buses.buses.size(); ++b) look_at(buses.buses[b].name, report.bus[b], seen_[b], out);
   const std::uint64_t lost = report.overruns.lost_ticks - lost_ticks_;
-  if (lost != 0)
+  if (lost != 0) {
     out.push_back(trouble(event::HostTroubleEvent::kTicksLost, "control thread", {"count", static_cast<double>(lost)},
                           number(lost) + " control deadlines were lost"));
+  }
   lost_ticks_ = report.overruns.lost_ticks;
   return out;
 }

@@ -77,9 +77,10 @@ std::size_t WayFile::record_bytes() const { return 8 * (joints_ + 3); }
 
 void WayFile::open() {
   fd_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_NONBLOCK | O_CLOEXEC | O_NOFOLLOW, 0600);
-  if (fd_ < 0)
+  if (fd_ < 0) {
     throw std::runtime_error("--way-out: '" + path_ + "': cannot be written: " + std::strerror(errno) +
                              "; give a file in a folder that exists");
+  }
   if (::flock(fd_, LOCK_EX | LOCK_NB) == 0) return;
   ::close(fd_);
   throw std::runtime_error("--way-out: '" + path_ +
@@ -93,9 +94,10 @@ void WayFile::read(const std::string& robot) {
   Header header;
   const bool has_header = is_file && read_at(fd_, &header, sizeof header, 0) &&
                           std::equal(kMagic.begin(), kMagic.end(), header.magic.begin());
-  if (!is_file || (status.st_size > 0 && !has_header))
+  if (!is_file || (status.st_size > 0 && !has_header)) {
     throw std::runtime_error("--way-out: '" + path_ + "': holds no way back of " + robot +
                              "; give another file, or one that does not exist yet");
+  }
   const bool is_ours = has_header && header.robot_crc == robot_crc_ && header.joints == joints_ &&
                        header.crc == crc_of(&header, offsetof(Header, crc)) && header.first <= header.end &&
                        header.end - header.first <= arbiter::kMostPathPoints;
