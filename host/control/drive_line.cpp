@@ -95,7 +95,7 @@ void DriveLine::collect(const timing::TickStart& start, CycleInputs& inputs) noe
 // TPDO2, of torque drives only.
 void DriveLine::take_rate(int bus, const bus::CanFrame& frame, CycleInputs& inputs) noexcept {
   if (frame.id <= kTpdo2Base || frame.id >= kTpdo2Base + 128) return;
-  const std::int8_t drive = drive_of_node_[static_cast<std::size_t>(bus)][frame.id - kTpdo2Base];
+  const int drive = drive_of_node_[static_cast<std::size_t>(bus)][frame.id - kTpdo2Base];
   if (drive < 0 || !drives_[static_cast<std::size_t>(drive)].type.is_cst) return;
   (void)decode_tpdo2({frame.data.data(), frame.length}, inputs.drive[static_cast<std::size_t>(drive)].rate_counts_s);
 }
