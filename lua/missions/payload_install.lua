@@ -16,14 +16,22 @@ local kBeforeMechanism_m = 0.2 -- of the tip from the grapple, where the servo t
 local kAtGrapple_m = 0.003 -- of the tip before the grapple's face; the end effector takes what is within 20 mm
 local kRetreat_m = 0.5 -- out of the transfer mechanism
 local kBeforeSite_m = { 0.015, 0.020, -0.53 } -- source: off the place in which the servo ends, 608 mm between the faces
-local kBeforeAdapter_m = 0.005 -- of the pins' tips from the socket's face, where force control takes over: inside the funnels
+local kBeforeAdapter_m = 0.008 -- of the pins' tips from the socket's face, where force control takes over: inside the funnels
 local kBackOff_m = 0.05
 local kForce_N = 30 -- source
 local kPushLimit_s = 40 -- a push that has not captured by then is jammed; source: 7 to 8 s
 local kTries = 2 -- more, after the first
 local kLight_N = 5 -- what the adapter may still feel 1 s after the capture
 local kLockLimit_s = 400 -- source: 298 s
-local kServo = { axis = "z", tolerance_m = 0.0006, tolerance_deg = 0.4 } -- else as servo_target has it
+-- The end effector takes what is within 20 mm, a pin's funnel what is within 30 mm: a base that still swings a little is no harm. With the
+-- payload in hand the arm is as heavy as what it stands on: it keeps still against the swing instead of working against it, and goes slowly.
+local kServoToPayload = { -- else as servo_target has it
+  axis = "z", tolerance_m = 0.003, tolerance_deg = 0.8, swing_s = 25, quicker_swing_s = 8,
+}
+local kServoToAdapter = {
+  axis = "z", tolerance_m = 0.004, tolerance_deg = 0.6, swing_s = 19, quicker_swing_s = 8, calming = 0,
+  speed_m_s = 0.015, lateral_speed_m_s = 0.004, accel_m_s2 = 0.001, gain_1_s = 0.2, timeout_s = 200,
+}
 
 -- ---- places -------------------------------------------------------------------------------------------------------
 
@@ -71,10 +79,10 @@ local function before_site(arm)
   arm.move_cp { goal = moved(drawn(arm, "adapter"), way_m) }
 end
 
-local function servo_to(target, offset_m)
+local function servo_to(target, offset_m, how)
   return function(arm)
     local fields = { target = target, offset = { 0, 0, offset_m(arm), 1, 0, 0, 0 } }
-    for field, value in pairs(kServo) do fields[field] = value end
+    for field, value in pairs(how) do fields[field] = value end
     arm.servo_target(fields)
   end
 end
@@ -144,10 +152,10 @@ return liana.mission "payload_install" {
   },
   step "3 servo to the payload" {
     device = "none",
-    run = servo_to("grapple", function() return -kAtGrapple_m end),
+    run = servo_to("grapple", function() return -kAtGrapple_m end, kServoToPayload),
     exit = all { servo_done(), at_rest() },
     fail_when = servo_failed(),
-    time_limit_s = 130,
+    time_limit_s = 210,
     on_fail = "hold",
     next = { { step = "3 before the transfer mechanism", on = "failure", at_most = kTries } },
   },
@@ -189,10 +197,10 @@ return liana.mission "payload_install" {
   step "3 servo to the adapter" {
     device = "none",
     enter = at_rest(),
-    run = servo_to("adapter", at_adapter_m),
+    run = servo_to("adapter", at_adapter_m, kServoToAdapter),
     exit = all { servo_done(), at_rest() },
     fail_when = servo_failed(), -- target lost, base moving, not there in time
-    time_limit_s = 130,
+    time_limit_s = 210,
     on_fail = "hold",
     next = { { step = "3 away from the adapter", on = "failure", at_most = kTries }, { step = "3 mutual mode" } },
   },
