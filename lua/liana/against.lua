@@ -40,14 +40,6 @@ local function action_suits(where, field, action, own, robot, refusal_of)
   accepted(("%s: %s: %s"):format(where, field, use.action), robot, refusal_of, use.command, fields)
 end
 
--- What a function of the script's own asks for without looking at the arm is looked at like an action's.
-local function goal_suits(where, step, robot, refusal_of, attempt)
-  step.goal = goals.of(step.run, robot, attempt)
-  if step.goal == nil or uses.of(step.run).command then return end
-  where = at_call(where, step.goal.at, step.at)
-  accepted(("%s: run: %s"):format(where, step.goal.action), robot, refusal_of, step.goal.command, step.goal.fields)
-end
-
 local kTipValues = 6 -- position and attitude, which the tip keeps while angles go to where they are held
 
 local function holds_fit(where, hold, robot)
@@ -58,6 +50,26 @@ local function holds_fit(where, hold, robot)
   refuse(where, "hold", held .. (held == 1 and " angle" or " angles"),
     ("at most %d (robot %s has %d angles, of which its tip needs %d)"):format(most, robot.name, angles, kTipValues),
     "hold fewer, or turn the angles with move_jp")
+end
+
+-- The list `hold` of move_cp, which holds in place of what the step does.
+local function held_on_the_way_fit(where, list, robot)
+  local hold = {}
+  for _, held in ipairs(list) do
+    if hold[held.theta] then refuse(where, "hold", "theta " .. held.theta .. " twice", "every angle once", "leave one out") end
+    hold[held.theta] = held.target_deg
+  end
+  holds_fit(where, hold, robot)
+end
+
+-- What a function of the script's own asks for without looking at the arm is looked at like an action's.
+local function goal_suits(where, step, robot, refusal_of, attempt)
+  step.goal = goals.of(step.run, robot, attempt)
+  if step.goal == nil then return end
+  where = at_call(where, step.goal.at, step.at)
+  where = ("%s: run: %s"):format(where, step.goal.action)
+  if not uses.of(step.run).command then accepted(where, robot, refusal_of, step.goal.command, step.goal.fields) end
+  if step.goal.fields.hold then held_on_the_way_fit(where, step.goal.fields.hold, robot) end
 end
 
 local function step_suits(where, step, robot, refusal_of, attempt)

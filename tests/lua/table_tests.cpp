@@ -391,6 +391,16 @@ TEST(Eval, AGoalThatIsKnownIsLookedAtBeforeTheStartAndAComputedOneInItsTime) {
            {"liana.move_cp { goal = { 3, 0, 0, 1, 0, 0 } }", "goal = 6 entries: allowed an array of 7 numbers"},
            {"liana.move_cp { goal = { 3, 0, 0, 0.5, 0, 0, 0 } }", "the quaternion qw,qx,qy,qz"},
            {"liana.move_cp { goal = { 3, 0, 0, 1, 0, 0, 0 }, hold = { { theta = 11, target_deg = 0 } } }", "theta"},
+           {"liana.move_cp { goal = { 3, 0, 0, 1, 0, 0, 0 }, hold = { { theta = 1, target_deg = 0 }, { theta = 1, "
+            "target_deg "
+            "= 2 } } }",
+            "run: move_cp: hold: theta 1 twice: allowed every angle once"},
+           {"function(arm) arm.move_cp { goal = { 3, 0, 0, 1, 0, 0, 0 }, hold = { { theta = 1, target_deg = 0 }, { "
+            "theta = "
+            "2, target_deg = 0 }, { theta = 3, target_deg = 0 }, { theta = 4, target_deg = 0 }, { theta = 5, "
+            "target_deg = "
+            "0 } } } end",
+            "run: move_cp: hold: 5 angles: allowed at most 4"},
            {"liana.move_cp(3)", "move_cp: fields: 3: allowed a table"}}) {
     EXPECT_NE(eval(run).error.find(message), std::string::npos) << run << ": " << eval(run).error;
   }
