@@ -141,7 +141,7 @@ Json described_files(const Loaded& loaded) {
 
 }  // namespace
 
-void check_against_robot(Script& script, const Json& robot) {
+void check_against_robot(Script& script, const Json& robot, Looks looks) {
   lua_State* state = script.state();
   api::RequestBounds bounds = api::request_bounds(robot);
   script.require("liana.against");
@@ -150,7 +150,12 @@ void check_against_robot(Script& script, const Json& robot) {
   lua_pushcfunction(state, push_refusal_protected);
   lua_pushlightuserdata(state, &bounds);
   script.call(1, 1);
-  script.call(3, 0);
+  if (looks == Looks::kIntoFunctions) {
+    lua_pushcfunction(state, attempt);
+  } else {
+    lua_pushnil(state);
+  }
+  script.call(4, 0);
 }
 
 void load_mission(Script& script, const LuaFolders& lua_folders, const std::string& name) {
@@ -181,7 +186,7 @@ std::string evaluate_mission(Script& script, const LuaFolders& lua_folders, cons
     const Json robot = Json::parse(robot_json);
     const Loaded loaded = push_mission(script, file);
     for (const Loaded::Plan& plan : loaded.plans) check_robot_of_plan(plan, robot);
-    check_against_robot(script, robot);
+    check_against_robot(script, robot, Looks::kIntoFunctions);
     result = describe(script, file.display);
     const std::vector<std::string> folders = recording_folders(lua_folders, file.folder);
     check_recordings(result, folders);

@@ -21,6 +21,7 @@
 #include "host/config/serial_robot.hpp"
 #include "host/places/places.hpp"
 #include "host/system/errors.hpp"
+#include "host/system/mission_goals.hpp"
 #include "host/system/mission_steps.hpp"
 #include "host/system/output.hpp"
 #include "host/system/plan_file.hpp"
@@ -230,10 +231,11 @@ Json mission_checked_with(const std::string& robot, const std::string& mission) 
   }
 }
 
+void note(const std::string& text) { std::fprintf(stderr, "note: %s\n", text.c_str()); }
+
 void look_at_mission(const Json& mission, const config::SceneConfig& scene) {
   check_scene_parts(mission, scene);
-  for (const Json& note : mission.value("notes", Json::array()))
-    std::fprintf(stderr, "note: %s\n", note.text().c_str());
+  for (const Json& each : mission.value("notes", Json::array())) note(each.text());
 }
 
 // The start pose, too, is looked at: a robot that begins inside a body fails much later, and for no visible reason.
@@ -249,7 +251,10 @@ std::string check_options_of_cable_robot(const RunOptions& options, const std::s
   const StartPose start =
       start_pose_of(robot, is_plan && options.start_pose.empty() ? start_of_plan(options.mission) : options.start_pose);
   if (options.simulated_arm) check_start_is_free(robot, plan.scene, start);
-  if (plan.mission.is_object()) check_steps(plan.mission, robot, plan.scene, options.simulated_arm ? &start : nullptr);
+  if (plan.mission.is_object()) {
+    check_steps(plan.mission, robot, plan.scene, options.simulated_arm ? &start : nullptr);
+    for (const std::string& text : look_at_tip_goals(plan.mission, robot, start.angles_deg)) note(text);
+  }
   return options.simulated_arm ? start.text : "";
 }
 
@@ -269,6 +274,12 @@ std::string check_options_of_serial_robot(const RunOptions& options, const std::
   refuse("--physics", options.physics != "nominal", "its bench knows nominal only; leave it out");
   refuse("mission", options.mission.ends_with(".json"), "plans are for cable arms; give a mission");
   return start_pose_of(robot, options.start_pose).text;
+}
+
+void look_at_goals_of_serial_robot(const Json& mission, const RunOptions& options, const std::string& text) {
+  const auto robot = checked([&] { return config::parse_serial_robot(text, options.robot); });
+  const StartPose start = start_pose_of(robot, options.start_pose);
+  for (const std::string& each : look_at_tip_goals(mission, robot, start.angles_deg)) note(each);
 }
 
 void write_tables(const SystemLayout& plan, const std::string& robot, const std::string& scene,
@@ -316,7 +327,10 @@ SystemLayout make_layout(const RunOptions& given) {
   if (has_mission && !plan.is_serial) plan.mission = mission_checked_with(robot.json, options.mission);
   options.start_pose = plan.is_serial ? check_options_of_serial_robot(options, robot.json, plan.buses)
                                       : check_options_of_cable_robot(options, robot.json, plan);
-  if (has_mission && plan.is_serial) plan.mission = mission_checked_with(robot.json, options.mission);
+  if (has_mission && plan.is_serial) {
+    plan.mission = mission_checked_with(robot.json, options.mission);
+    look_at_goals_of_serial_robot(plan.mission, options, robot.json);
+  }
   if (plan.mission.is_object()) look_at_mission(plan.mission, plan.scene);
   if (options.is_dry_run) check_virtual(plan.buses);
   check_interfaces(plan.buses);

@@ -224,6 +224,13 @@ local function described_parts(step)
   return out
 end
 
+-- A list of { theta, target_deg } as commands have it, of what a step holds.
+local function held_list(hold)
+  local held = {}
+  for theta, target_deg in pairs(hold) do held[#held + 1] = { theta = theta, target_deg = target_deg } end
+  return held
+end
+
 -- What is allowed, and may yet not be what was meant.
 local function notes_of(mission)
   local notes, first = {}, {}
@@ -243,11 +250,13 @@ function check.describe(mission)
   check.require_mission(mission)
   local steps = {}
   for i, step in ipairs(mission.steps) do
+    local goal = step.goal or { fields = {} } -- as liana.against has found it
     steps[i] = {
       name = step.name, device = step.device, held_theta = sorted_held(step.hold), time_limit_s = step.time_limit_s,
       on_fail = step.on_fail, confirm = step.confirm, task = step.task, at = step.at, enter = step.enter.text, exit = step.exit.text,
       fail_when = step.fail_when.text, next = described_ways(step), plan = step.plan, start_deg = step.start_deg,
-      goal_deg = step.goal_deg, goal_pose = uses.of(step.run).pose, parts = described_parts(step),
+      goal_deg = step.goal_deg or goal.fields.goal_deg, goal_pose = uses.of(step.run).pose, goal_tip = goal.fields.goal,
+      goal_hold = goal.fields.hold or held_list(step.hold), goal_at = goal.at, parts = described_parts(step),
     }
   end
   return { format = 1, kind = "mission", name = mission.name, steps = steps, notes = notes_of(mission) }
