@@ -71,7 +71,7 @@ ScriptFile find_script(const LuaFolders& lua_folders, const std::string& kind, c
   const auto folder = kFolders.find(kind);
   if (folder == kFolders.end())
     throw std::runtime_error("kind: " + kind +
-                             ": allowed robot, scene, buses, drive, budget, mission: use one of these words");
+                             ": allowed robot, scene, buses, drive, budget, mission, mission_tables: use one of these words");
   const bool is_file =
       name.find('/') != std::string::npos || name.ends_with(".lua") || (kind == "mission" && name.ends_with(".json"));
   if (is_file) return read_script(name, name);

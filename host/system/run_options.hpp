@@ -10,9 +10,9 @@ namespace liana::system {
 
 struct RunOptions {
   std::string mission;        // empty: none (liana latency, liana console)
-  std::string robot;          // empty: that of the plan, zhu2022 for a mission
-  std::string scene;          // empty: that of the plan; for a mission panel_slit, for a serial arm none
-  std::string bus;            // empty: as buses_of (tables.hpp) has it
+  std::string robot;          // empty: that of the plan or the mission, else zhu2022
+  std::string scene;          // empty: that of the plan or the mission, else panel_slit, for a serial arm none
+  std::string bus;            // empty: that of the mission with its own robot, else as buses_of (tables.hpp) has it
   std::string time;           // empty: fast, or real on SocketCAN
   bool simulated_arm = true;  // false: real drives are on the buses, there is no bench
   std::string physics = "nominal";

@@ -1,5 +1,5 @@
 -- A payload is installed by the small arm on the locked large one (Liu et al., 2022): preparation, out of the airlock, the arms' operations,
--- self-test and restoring. `liana run payload_install --robot macro_micro --scene payload_adapter --buses embedded_payload`.
+-- self-test and restoring. `liana run payload_install`.
 --
 -- What goes wrong has a way of its own: a target that is lost or not reached, a jam, no capture, a capture before any contact: back off and
 -- try again, so often; a sensor or a drive that fails latches a fault, and a lock that does not close is tried again: then the arm holds, and
@@ -114,6 +114,10 @@ local function of_station(name, next)
 end
 
 return liana.mission "payload_install" {
+  robot = "macro_micro",
+  scene = "payload_adapter",
+  bus = "embedded_payload",
+
   -- 1 Preparation
   step "1 power on" (of_station "power on"),
   step "1 arms tested" (of_station "test arms"),
