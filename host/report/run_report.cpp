@@ -6,6 +6,8 @@
 #include <fstream>
 
 #include "host/json/json.hpp"
+#include "host/report/payload_text.hpp"
+#include "host/report/timeline.hpp"
 #include "host/report/truth.hpp"
 #include "host/report/truth_figures.hpp"
 
@@ -80,6 +82,16 @@ void add_claims(Json& report, const TruthLog& truth, const Rows& rows, const std
                                     {"most_above_truth_m", claimed->most_above_m}};
 }
 
+void add_payload(Json& report, const TruthLog& truth, const ReportSources& sources, const Window& window,
+                 double period_s) {
+  const PayloadSources payload{truth, sources.stages, sources.payload_length_m, period_s};
+  const Json faults = read_json(sources.bench_summary_file).value("faults", Json::array());
+  report["timeline"] = timeline_of(payload, steps_with_ticks(sources), faults, window.first_tick);
+  add_payload_figures(report, payload);
+  const bool is_told = !sources.stages.empty() && sources.stages.back().says_captured;
+  if (is_told) report["truly_captured"] = truth.at(truth.row_count() - 1, "captured") > 0.0;
+}
+
 // Figures over the experiment, of a run that failed over all that came after it, too; why a success is none.
 std::string add_truth(Json& report, const ReportSources& sources, const Window& window, double period_s) {
   const TruthLog truth = TruthLog::load(sources.truth_file);
@@ -96,6 +108,7 @@ std::string add_truth(Json& report, const ReportSources& sources, const Window& 
     report["contact"] = contact_in(truth, rows, sources.body_at, window.first_tick, period_s);
   add_claims(report, truth, rows, sources.claims, period_s);
   if (!success) add_aftermath(report, truth, end, period_s);
+  if (has_payload(truth)) add_payload(report, truth, sources, window, period_s);
   return judge(report, sources.criteria);
 }
 
@@ -280,6 +293,7 @@ std::string report_text(const Json& report) {
   if (report.contains("operator_rate_hz"))
     text += line("operator's samples %.0f a second at least\n", report["operator_rate_hz"].get<double>());
   text += operator_text(report);
+  if (report.contains("timeline")) text += payload_text(report);
   for (const Json& bus : report.value("buses", Json::array())) {
     text += "bus " + bus.value("name", "") + line(": %.0f frames", bus.value("frames", 0.0)) +
             line(", load %.1f %%", 100.0 * bus.value("measured_load", 0.0)) +

@@ -138,6 +138,9 @@ std::string judge(Json& report, const Criteria& criteria) {
       first = in_words(what, least ? "below" : "above", value.get<double>(), limit, unit) + " (" + name + ")";
   };
   report["criteria"] = Json::array();
+  if (report.contains("truly_captured"))
+    hold("truly_captured", "the pins were told to be captured and truly captured", "(0: no, 1: yes)",
+         report["truly_captured"].get<bool>() ? 1.0 : 0.0, 1.0, true);
   if (criteria.least_motor_tension_N && report.contains("cable_tension_N"))
     hold("tension_at_motor", "the least tension at a motor", "N", report["cable_tension_N"]["min_motor"],
          *criteria.least_motor_tension_N, true);

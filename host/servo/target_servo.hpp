@@ -36,6 +36,7 @@ const char* servo_phase_name(ServoPhase phase);
 struct ServoReport {
   ServoPhase phase = ServoPhase::kStandby;
   std::string target;
+  std::optional<Pose> place;       // where the tip should be, in the target's frame; nothing before the first
   std::optional<PoseError> error;  // left to go by the low-passed images; nothing before enough of them agree
   std::int64_t images_used = 0;
   std::int64_t images_rejected = 0;

@@ -256,8 +256,8 @@ std::string check_options_of_cable_robot(const RunOptions& options, const std::s
   if (!options.in_pose.empty()) check_in_pose(robot, options.in_pose);
   check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
   if (is_plan(options)) check_plan_file(options.mission, robot, plan.scene);
-  const StartPose start =
-      start_pose_of(robot, is_plan(options) && options.start_pose.empty() ? start_of_plan(options.mission) : options.start_pose);
+  const StartPose start = start_pose_of(
+      robot, is_plan(options) && options.start_pose.empty() ? start_of_plan(options.mission) : options.start_pose);
   if (options.simulated_arm) check_start_is_free(robot, plan.scene, start);
   if (plan.mission.is_object()) check_steps(plan.mission, robot, plan.scene, options.simulated_arm ? &start : nullptr);
   return options.simulated_arm ? start.text : "";

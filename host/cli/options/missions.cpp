@@ -11,12 +11,14 @@ void add_mission_options(CLI::App& sub, system::RunOptions& run) {
   sub.add_option(
       "--robot", run.robot,
       "robot table: a name under lua/robots or a file; where not given that of the plan or the mission, else zhu2022");
-  sub.add_option("--scene", run.scene,
-                 "scene table: a name under lua/scenes or a file; where not given that of the plan or the mission, else "
-                 "panel_slit, for a serial arm none");
-  sub.add_option("--bus", run.bus,
-                 "bus table: a name under lua/buses or a file; where not given that of the mission with its own robot, else "
-                 "embedded_ROBOT if there is such a table, else one for the robot's drives on simulated buses");
+  sub.add_option(
+      "--scene", run.scene,
+      "scene table: a name under lua/scenes or a file; where not given that of the plan or the mission, else "
+      "panel_slit, for a serial arm none");
+  sub.add_option(
+      "--bus", run.bus,
+      "bus table: a name under lua/buses or a file; where not given that of the mission with its own robot, else "
+      "embedded_ROBOT if there is such a table, else one for the robot's drives on simulated buses");
   sub.add_option("--start-pose", run.start_pose,
                  "where the simulated arm begins: a named pose of the robot, or all its angles, t1,t2,... deg; where "
                  "not given the table's start_pose, else prepare or zero");
