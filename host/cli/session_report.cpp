@@ -34,6 +34,7 @@ report::ReportSources report_sources(const system::RunOptions& options, const sy
   sources.mission = options.mission;
   sources.physics = options.physics;
   sources.seed = options.seed;
+  sources.fault = options.fault;
   sources.outcome = end.outcome;
   sources.reason = end.message.substr(0, end.message.find('\n'));
   sources.time_mode = plan.time_mode;

@@ -10,9 +10,9 @@
 namespace liana::report {
 namespace {
 
-constexpr std::array kFigures{"servo_error_m", "servo_error_deg", "settling_s",       "lateral_sway_m",
-                              "force_rise_s",  "force_N",         "load_duration_s",  "peak_joint_torque_Nm",
-                              "insertion_m",   "unload_s",        "base_deflection_m"};
+constexpr std::array kFigures{"servo_error_m", "servo_error_deg", "settling_s",      "lateral_sway_m",
+                              "force_rise_s",  "force_N",         "load_duration_s", "peak_joint_torque_Nm",
+                              "peak_force_N",  "insertion_m",     "unload_s",        "base_deflection_m"};
 
 Rows rows_of(const TruthLog& truth, const Span& span) {
   return {truth.row_of_slot(span.begin_tick), truth.row_of_slot(span.end_tick)};
@@ -141,6 +141,7 @@ void add_push(Json& report, const PayloadSources& from) {
   const Rows loaded{rows.first, is_unloaded ? unloaded : rows.last};
   add_force(report, from, pressing);
   report["insertion_m"] = deepest_m(truth, pressing);
+  report["peak_force_N"] = truth.largest("contact_peak_N", loaded.first, loaded.last);
   report["peak_joint_torque_Nm"] = most_torque_Nm(truth, loaded);
   report["base_deflection_m"] = truth.largest("base_deflection_m", loaded.first, loaded.last);
   if (!is_unloaded) return;

@@ -16,9 +16,10 @@ constexpr double kUnloaded_s = 1.0;
 // What the servo has to come within (requirement B28).
 constexpr double kSettled_m = 0.001;
 constexpr double kSettled_deg = 0.5;
-// Share of `force_N` at which the force has risen, and what a force is the mean over, so that no impact counts.
+// Share of `force_N` at which the force has risen, and what a force is the mean over, so that an impact does
+// not count for what is held.
 constexpr double kRisen = 0.95;
-constexpr double kForceMean_s = 0.1;
+constexpr double kForceMean_s = 0.5;
 
 struct PayloadSources {
   const TruthLog& truth;

@@ -25,6 +25,7 @@ std::string payload_text(const Json& report) {
               words(report, "settling_s", ", settled after %.1f s") +
                   words(report, "lateral_sway_m", ", sway %.2f mm", 1e3)) +
          line(words(report, "force_N", "force %.1f N"), words(report, "force_rise_s", " after %.1f s") +
+                                                            words(report, "peak_force_N", " (hardest %.1f N)") +
                                                             words(report, "insertion_m", ", %.1f mm in", 1e3) +
                                                             words(report, "unload_s", ", unloaded %.2f s later")) +
          line(words(report, "peak_joint_torque_Nm", "joint torque %.1f N m at most meanwhile"),

@@ -82,6 +82,32 @@ void add_claims(Json& report, const TruthLog& truth, const Rows& rows, const std
                                     {"most_above_truth_m", claimed->most_above_m}};
 }
 
+std::string line(const char* format, double value) {
+  char text[128];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+// The fault that was asked for, and when it began, as the bench says; null where it did not.
+Json fault_of(const ReportSources& sources, double period_s, std::uint64_t first_tick) {
+  Json fault = {{"name", sources.fault}, {"begun_s", nullptr}};
+  for (const Json& each : read_json(sources.bench_summary_file).value("faults", Json::array())) {
+    const Json& slot = each.member_or_null("begun_slot");
+    if (!slot.is_number()) continue;
+    const double begun_s = (slot.get<double>() - static_cast<double>(first_tick)) * period_s;
+    if (fault["begun_s"].is_null() || begun_s < fault["begun_s"].get<double>()) fault["begun_s"] = begun_s;
+  }
+  return fault;
+}
+
+// In words.
+std::string fault_text(const Json& fault) {
+  const Json& begun_s = fault.member_or_null("begun_s");
+  const std::string name = "fault " + fault.value("name", "");
+  return begun_s.is_number() ? name + line(" began after %.1f s\n", begun_s.get<double>())
+                             : name + " never began: what it waits for did not happen\n";
+}
+
 void add_payload(Json& report, const TruthLog& truth, const ReportSources& sources, const Window& window,
                  double period_s) {
   const PayloadSources payload{truth, sources.stages, sources.payload_length_m, period_s};
@@ -129,12 +155,6 @@ Json buses_of(const Json& state, const Json& stats) {
     buses.push_back(entry);
   }
   return buses;
-}
-
-std::string line(const char* format, double value) {
-  char text[128];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
 }
 
 std::string clearance_text(const Json& report) {
@@ -231,6 +251,7 @@ Json make_report(const ReportSources& sources) {
   } else if (report["outcome"] != "success") {
     report["reason"] = sources.reason.empty() ? mission.value("reason", "") : sources.reason;
   }
+  if (!sources.fault.empty()) report["fault"] = fault_of(sources, welcome.value("period_s", 0.0), window.first_tick);
   if (state.contains("friction")) report["friction"] = state["friction"];
   if (sources.operator_rate_hz) report["operator_rate_hz"] = *sources.operator_rate_hz;
   const Json of_operator = read_json(sources.operator_file);
@@ -251,6 +272,7 @@ std::string report_text(const Json& report) {
     text += "fault " + std::to_string(fault.value("number", 0)) + " " + fault.value("name", "") + ": " +
             fault.value("text", "") + "\n";
   }
+  if (report.contains("fault")) text += fault_text(report["fault"]);
   for (const Json& step : report.value("steps", Json::array())) {
     text += line("  %7.1f s  ", step.value("duration_s", 0.0)) + step.value("outcome", "") + "  " +
             step.value("name", "") + " (" + step.value("device", "none") + ")" + ended_by(step) + "\n";

@@ -36,6 +36,7 @@ struct ReportSources {
   std::string robot, mission, physics;  // as they were given
   Json mission_files;                   // what the mission was made of: [{"file","sha256"}]; null: unknown
   std::uint64_t seed = 0;
+  std::string fault;  // of the mission's own, that was asked for; empty: none
   std::string time_mode;
   std::string truth_file;  // of the bench
   std::string bench_summary_file;

@@ -24,6 +24,7 @@ struct RunOptions {
                              // simulated one does
   std::string cross_wired;   // empty, or two drives whose cables are exchanged, e.g. 3,4
   std::string faults;        // empty, or the bench's fault list: a file (docs/hil.md)
+  std::string fault;         // empty, or the name of a fault list of the mission's own (mission_faults.hpp)
   std::string scene_offset;  // empty, or MM,DEG: the simulated scene is so far from where the table has it
   double gravity_share = 0.0;  // what counterweights leave of the simulated arm's weight, 0 to 1
   double linkage_error = 0.0;  // share by which the simulated joints of a segment bend unevenly at most, 0 to 0.5

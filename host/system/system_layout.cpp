@@ -21,6 +21,7 @@
 #include "host/config/serial_robot.hpp"
 #include "host/places/places.hpp"
 #include "host/system/errors.hpp"
+#include "host/system/mission_faults.hpp"
 #include "host/system/mission_steps.hpp"
 #include "host/system/output.hpp"
 #include "host/system/plan_file.hpp"
@@ -329,6 +330,7 @@ SystemLayout make_layout(const RunOptions& given) {
                                       : check_options_of_cable_robot(options, robot.json, plan);
   if (has_mission && plan.is_serial) plan.mission = mission_checked_with(robot.json, options.mission);
   if (plan.mission.is_object()) look_at_mission(plan.mission, plan.scene);
+  if (!options.fault.empty()) options.faults = fault_file(plan.mission, options.fault);
   if (options.is_dry_run) check_virtual(plan.buses);
   check_interfaces(plan.buses);
   plan.time_mode = time_mode_of(options, plan.buses);

@@ -28,6 +28,10 @@ void add_mission_options(CLI::App& sub, system::RunOptions& run) {
   sub.add_option("--faults", run.faults,
                  "to try it out: faults of the simulated drives, cables and camera (docs/hil.md)")
       ->check(CLI::ExistingFile);
+  sub.add_option("--fault", run.fault,
+                 "to try it out: a fault that the mission is shipped with, by its name (MISSION/faults/NAME.json "
+                 "beside it)")
+      ->excludes("--faults");
   sub.add_option("--true-physics", run.true_physics,
                  "to try it out: nominal, ideal or worn; the simulated arm's friction, where it is not what lianad is "
                  "told with --physics")
