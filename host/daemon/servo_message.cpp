@@ -31,6 +31,7 @@ servo::ServoRequest servo_request(const api::Arguments& fields) {
 Json servo_json(const servo::ServoReport& report) {
   Json out{{"phase", servo::servo_phase_name(report.phase)},
            {"target", report.target},
+           {"place", report.place ? pose_json(*report.place) : Json()},
            {"error_m", nullptr},
            {"error_deg", nullptr},
            {"swing_m", report.swing_m},

@@ -44,10 +44,11 @@ int push_refusal_protected(lua_State* state) {
   return 1;
 }
 
-// Replaces the mission on the stack by its description; refuses anything that is no mission.
-Json describe(Script& script, const std::string& display) {
+// Replaces the mission on the stack by what liana.check says of it (`describe`, `tables`); refuses anything that is no
+// mission.
+Json told(Script& script, const char* function, const std::string& display) {
   script.require("liana.check");
-  lua_getfield(script.state(), -1, "describe");
+  lua_getfield(script.state(), -1, function);
   lua_pushvalue(script.state(), -3);
   script.call(1, 1);
   Json description = to_json(script.state(), -1, display);
@@ -162,7 +163,7 @@ void load_mission(Script& script, const LuaFolders& lua_folders, const std::stri
   const ScriptFile file = find_script(lua_folders, "mission", name);
   naming_file(file.display, [&] {
     push_mission(script, file);
-    check_recordings(describe(script, file.display), recording_folders(lua_folders, file.folder));
+    check_recordings(told(script, "describe", file.display), recording_folders(lua_folders, file.folder));
   });
 }
 
@@ -178,6 +179,16 @@ std::string evaluate(Script& script, const LuaFolders& lua_folders, const std::s
   return config::check_table(kind, result, file.display);
 }
 
+std::string evaluate_mission_tables(Script& script, const LuaFolders& lua_folders, const std::string& name) {
+  const ScriptFile file = find_script(lua_folders, "mission", name);
+  Json result;
+  naming_file(file.display, [&] {
+    push_mission(script, file);
+    result = told(script, "tables", file.display);
+  });
+  return config::canonical_json(result);
+}
+
 std::string evaluate_mission(Script& script, const LuaFolders& lua_folders, const std::string& name,
                              const std::string& robot_json) {
   const ScriptFile file = find_script(lua_folders, "mission", name);
@@ -187,7 +198,7 @@ std::string evaluate_mission(Script& script, const LuaFolders& lua_folders, cons
     const Loaded loaded = push_mission(script, file);
     for (const Loaded::Plan& plan : loaded.plans) check_robot_of_plan(plan, robot);
     check_against_robot(script, robot, Looks::kIntoFunctions);
-    result = describe(script, file.display);
+    result = told(script, "describe", file.display);
     const std::vector<std::string> folders = recording_folders(lua_folders, file.folder);
     check_recordings(result, folders);
     result["recordings"] = folders;

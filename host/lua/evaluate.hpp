@@ -12,6 +12,10 @@ namespace liana::script {
 // Canonical JSON of a robot, scene or buses table. Throws std::runtime_error with one message.
 std::string evaluate(Script& script, const LuaFolders& lua_folders, const std::string& kind, const std::string& name);
 
+// Canonical JSON of the tables that a mission says it runs with: `robot`, `scene`, `bus`, each where it says one.
+// Throws as evaluate does.
+std::string evaluate_mission_tables(Script& script, const LuaFolders& lua_folders, const std::string& name);
+
 // Canonical JSON of a mission's structure, after a check that the robot (canonical JSON) can do it. Throws as evaluate
 // does.
 std::string evaluate_mission(Script& script, const LuaFolders& lua_folders, const std::string& name,

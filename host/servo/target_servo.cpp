@@ -74,6 +74,7 @@ void TargetServo::begin(const ServoRequest& request, const Pose& tip_command) {
   report_ = {};
   report_.phase = ServoPhase::kApproaching;
   report_.target = request.target;
+  report_.place = request.tip_in_target;
   begun_s_ = last_seen_s_ = now_s_;
   saw_ = false;
   trouble_.clear();

@@ -39,6 +39,7 @@ const char* servo_phase_name(ServoPhase phase);
 struct ServoReport {
   ServoPhase phase = ServoPhase::kStandby;
   std::string target;
+  std::optional<Pose> place;       // where the tip should be, in the target's frame; nothing before the first
   std::optional<PoseError> error;  // left to go by the low-passed images; nothing before enough of them agree
   double swing_m = 0.0;            // how far the target swings in the arm's base
   std::int64_t images_used = 0;

@@ -33,6 +33,7 @@ class RunSession {
   RunEnd run();
 
   const std::vector<report::StateSample>& states() const { return states_; }
+  const std::vector<report::Stage>& stages() const { return stages_; }
   const std::vector<report::ClearanceClaim>& claims() const { return claims_; }
   // Samples of the operator's device in the slowest second [Hz]; nothing when no device was used for a second.
   std::optional<double> operator_rate_hz() const { return operator_rate_hz_; }
@@ -71,6 +72,7 @@ class RunSession {
   Json welcome_;
   Json last_state_;
   std::vector<report::StateSample> states_;
+  std::vector<report::Stage> stages_;
   std::vector<report::ClearanceClaim> claims_;
   std::vector<report::ReportedStep> announced_;
   std::optional<double> operator_rate_hz_;

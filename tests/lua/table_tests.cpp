@@ -583,6 +583,33 @@ TEST(Eval, AMissionIsCheckedAgainstTheRobotThatIsNamed) {
       << ended.error;
 }
 
+// req:B1
+TEST(Eval, AMissionSaysTheTablesThatItRunsWithAndIsCheckedAgainstItsOwnRobot) {
+  const TemporaryFolder folder;
+  const auto mission = [&](const std::string& fields) {
+    return folder.write("given.lua", "local liana = require 'liana'\nreturn liana.mission 'm' { " + fields +
+                                         "liana.step 'a' { device = 'none', run = liana.move_to 'install', exit = "
+                                         "liana.at_rest(), time_limit_s = 1, on_fail = 'hold' } }\n");
+  };
+  const std::string own = mission("robot = 'macro_micro', scene = 'none', bus = 'embedded_payload', ");
+  EXPECT_EQ(run_program("eval mission " + own).code, 0);
+  EXPECT_EQ(run_program("eval mission " + own + " --robot zhu2022").code, 2);
+  const Json said = Json::parse(run_program("eval mission_tables " + own).out);
+  EXPECT_EQ(said["robot"], "macro_micro");
+  EXPECT_EQ(said["scene"], "none");
+  EXPECT_EQ(said["bus"], "embedded_payload");
+  EXPECT_FALSE(Json::parse(run_program("eval mission_tables slit_crossing").out).contains("robot"));
+  for (const auto& [fields, message] : std::vector<std::pair<std::string, std::string>>{
+           {"robot = 'no/file', ", "mission m: robot: no/file: allowed the name of a table"},
+           {"scene = 1, ", "mission m: scene: 1: allowed the name of a table"},
+           {"bus = 'embedded', ", "mission m: bus: embedded: allowed only beside robot"},
+           {"robto = 'micro', ", "mission m: robto: micro: allowed no such field, but bus, finish, robot, scene"}}) {
+    const Ended ended = run_program("eval mission " + mission(fields));
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_NE(ended.error.find(message), std::string::npos) << ended.error;
+  }
+}
+
 TEST(Eval, WhatIsForCableArmsOnlyIsRefusedForOthersByName) {
   const TemporaryFolder folder;
   const auto eval = [&](const std::string& fields) { return error_of_step(folder, "--robot micro ", fields); };
