@@ -248,6 +248,7 @@ function check.describe(mission)
       on_fail = step.on_fail, confirm = step.confirm, task = step.task, at = step.at, enter = step.enter.text, exit = step.exit.text,
       fail_when = step.fail_when.text, next = described_ways(step), plan = step.plan, start_deg = step.start_deg,
       goal_deg = step.goal_deg, goal_pose = uses.of(step.run).pose, parts = described_parts(step),
+      fixtures = type(step.fixtures) == "table" and #step.fixtures > 0 and step.fixtures or nil,
     }
   end
   return { format = 1, kind = "mission", name = mission.name, steps = steps, notes = notes_of(mission) }
