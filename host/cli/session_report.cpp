@@ -45,7 +45,8 @@ report::ReportSources report_sources(const system::RunOptions& options, const sy
   sources.states = session.states();
   sources.claims = session.claims();
   sources.announced = session.announced();
-  sources.operator_rate_hz = session.operator_rate_hz();
+  sources.operator_rate_hz = session.samples().slowest_hz();
+  sources.operator_samples = session.samples().json();
   sources.welcome = &session.welcome();
   sources.last_state = &session.last_state();
   if (plan.scene.rod) sources.rod = plan.scene.rod->pose;
