@@ -14,7 +14,7 @@ void DeviceSteer::use(const DeviceUse& use) {
   node_ = HandTrack{};
   engaged_ = node_engaged_ = must_let_go_ = false;
   silent_s_ = 0.0;
-  newest_us_ = made_of_us_ = -1;
+  newest_us_ = made_of_us_ = oldest_us_ = made_from_us_ = -1;
   node_target_ = NodeTarget{};
   reason_ = "";
 }
@@ -24,6 +24,7 @@ void DeviceSteer::add(const device::Sample& sample) {
   tip_.add_sample(sample);
   rate_.add(sample.t_us);
   newest_us_ = std::max(newest_us_, sample.t_us);
+  if (!std::exchange(interval_has_samples_, true)) oldest_us_ = sample.t_us;
 }
 
 void DeviceSteer::lose_device() {
@@ -31,7 +32,7 @@ void DeviceSteer::lose_device() {
   tip_ = HandTrack{};
   node_ = HandTrack{};
   node_engaged_ = false;
-  newest_us_ = made_of_us_ = -1;
+  newest_us_ = made_of_us_ = oldest_us_ = made_from_us_ = -1;
 }
 
 void DeviceSteer::disengage(const char* reason) {
@@ -61,6 +62,7 @@ void DeviceSteer::steer_node(const HandReading& left, const cable::Outputs& now)
 std::optional<SteerGoal> DeviceSteer::finish_interval(const cable::Outputs& now, double interval_s) {
   const HandReading tip = tip_.finish_interval();
   const HandReading left = node_.finish_interval();
+  interval_has_samples_ = false;
   if (use_.kind == device::Kind::kNone) return std::nullopt;
   samples_ += tip.samples;
   rate_.finish_interval(interval_s);
@@ -83,6 +85,7 @@ std::optional<SteerGoal> DeviceSteer::finish_interval(const cable::Outputs& now,
   const Pose goal = clutch_goal(use_.mapping, anchor_, hand_);
   move_anchor(use_.mapping, hand_, goal, anchor_);
   made_of_us_ = newest_us_;
+  made_from_us_ = oldest_us_;
   return SteerGoal{goal, node_target_};
 }
 

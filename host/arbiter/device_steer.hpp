@@ -50,8 +50,10 @@ class DeviceSteer {
   const ClutchAnchor& anchor() const { return anchor_; }
   // Why the operator was disengaged last, empty when by letting go.
   const char* reason() const { return reason_; }
-  // Device time of the newest tip sample that the last goal was made of; < 0 before the first goal of a use.
+  // Device times of the newest and of the oldest tip sample that the last goal was made of; < 0 before the first goal
+  // of a use.
   std::int64_t made_of_us() const { return made_of_us_; }
+  std::int64_t made_from_us() const { return made_from_us_; }
   // Samples counted since the start.
   std::uint64_t samples() const { return samples_; }
   // Of the device in use, since it is.
@@ -89,6 +91,8 @@ class DeviceSteer {
   ClutchAnchor anchor_{};
   Pose hand_{};  // newest averaged pose
   std::int64_t newest_us_ = -1, made_of_us_ = -1;
+  std::int64_t oldest_us_ = -1, made_from_us_ = -1;  // oldest of the newest interval that had samples
+  bool interval_has_samples_ = false;
   Vec3 node_hand_anchor_m_{}, node_anchor_m_{};
   cable::NodeTarget node_target_{};
 };

@@ -47,7 +47,8 @@ report::ReportSources report_sources(const system::RunOptions& options, const sy
   sources.stages = session.stages();
   sources.claims = session.claims();
   sources.announced = session.announced();
-  sources.operator_rate_hz = session.operator_rate_hz();
+  sources.operator_rate_hz = session.samples().slowest_hz();
+  sources.operator_samples = session.samples().json();
   sources.welcome = &session.welcome();
   sources.last_state = &session.last_state();
   if (plan.scene.rod) sources.rod = plan.scene.rod->pose;

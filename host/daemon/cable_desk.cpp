@@ -169,6 +169,7 @@ std::optional<LastVerdict> CableDesk::release_next(bool may_release, std::uint32
   std::optional<LastVerdict> verdict = ArmDesk::release_next(may_release, owner);
   if (!verdict || !verdict->released) return verdict;
   const arbiter::DeviceSteer& steer = arbiter_.device();
+  if (steer.engaged() && steer.made_of_us() >= 0) verdict->made_of = MadeOf{steer.made_of_us(), steer.made_from_us()};
   device_state_.note_release(verdict->first_tick, steer.engaged() ? steer.made_of_us() : -1);
   cable::ThetaVector theta_rad{};
   for (std::size_t i = 0; i < verdict->twin_js_deg.size(); ++i) theta_rad[i] = verdict->twin_js_deg[i] * kDegree;

@@ -19,6 +19,11 @@
 
 namespace liana::daemon {
 
+// When the samples of a hand were taken that a command was made of, by the device's clock.
+struct MadeOf {
+  std::int64_t newest_us = 0, oldest_us = 0;
+};
+
 // How the last candidate fared.
 struct LastVerdict {
   std::uint64_t sequence = 0;
@@ -31,6 +36,7 @@ struct LastVerdict {
   bool leads_back = false;       // asked for by a retract
   verify::ExecutionVerdict execution{};
   verify::SimulationVerdict simulation{};
+  std::optional<MadeOf> made_of{};  // released, and made of what a device said
 };
 
 // A request about motion, from the owner, that the table of requests has let through.

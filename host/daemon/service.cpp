@@ -236,6 +236,7 @@ void Service::release_next() {
   if (!verdict) return;
   if (dispatch_) dispatch_->note(tick(), owner_.name(), *verdict);
   notes_.verdict = *verdict;
+  notes_.verdict_us = arm_time_us();
   if (verdict->released) return;
   ++notes_.refusals;
   note(verdict_event(verdict->sequence, verdict->worst));

@@ -95,7 +95,17 @@ Json stop_json(const EmergencyStop& stop) {
   return {{"by", stop.order()->by}, {"reason", stop.order()->reason}, {"tick", stop.order()->tick}};
 }
 
-Json verdict_json(const LastVerdict& v) {
+// When the samples were taken (the device's clock), and when the command was released and comes into force (arm time).
+Json made_of_json(const Notes& notes, double tick_s) {
+  if (!notes.verdict.made_of) return nullptr;
+  return {{"newest_us", notes.verdict.made_of->newest_us},
+          {"oldest_us", notes.verdict.made_of->oldest_us},
+          {"released_s", 1e-6 * static_cast<double>(notes.verdict_us)},
+          {"in_force_s", static_cast<double>(notes.verdict.first_tick) * tick_s}};
+}
+
+Json verdict_json(const Notes& notes, double tick_s) {
+  const LastVerdict& v = notes.verdict;
   const verify::RefusalRow& row = verify::row_of(v.worst.code);
   const verify::Margins& m = v.worst.margins;
   return {{"sequence", v.sequence},
@@ -108,7 +118,8 @@ Json verdict_json(const LastVerdict& v) {
           {"share", v.worst.share},
           {"twin_js_deg", v.twin_js_deg},
           {"stop_js_deg", v.stop_js_deg},
-          {"margins", {m.clearance_m, m.joint_deg, m.rate_deg_s, m.tension_N, m.time_us}}};
+          {"margins", {m.clearance_m, m.joint_deg, m.rate_deg_s, m.tension_N, m.time_us}},
+          {"made_of", made_of_json(notes, tick_s)}};
 }
 
 Json events_json(const std::deque<event::Event>& events) {
@@ -142,7 +153,7 @@ Json state_message(const config::BusesConfig& buses, const Desk& desk, const Own
              {"mission_control", notes.mission_control},
              {"overruns", report.overruns.total()},
              {"refusals", notes.refusals},
-             {"verdict", verdict_json(notes.verdict)},
+             {"verdict", verdict_json(notes, buses.tick_s())},
              {"drives", drives_json(desk, notes.serials)},
              {"buses", buses_json(buses, desk)},
              {"events", events_json(events)},

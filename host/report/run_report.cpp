@@ -254,6 +254,7 @@ Json make_report(const ReportSources& sources) {
   if (!sources.fault.empty()) report["fault"] = fault_of(sources, welcome.value("period_s", 0.0), window.first_tick);
   if (state.contains("friction")) report["friction"] = state["friction"];
   if (sources.operator_rate_hz) report["operator_rate_hz"] = *sources.operator_rate_hz;
+  if (sources.operator_samples.is_object()) report["operator_samples"] = sources.operator_samples;
   const Json of_operator = read_json(sources.operator_file);
   for (const auto& [name, figure] : of_operator.items()) report[name] = figure;
   if (!std::filesystem::exists(sources.truth_file)) return report;

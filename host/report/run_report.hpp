@@ -48,6 +48,7 @@ struct ReportSources {
   std::vector<ClearanceClaim> claims;      // of lianad, as its states told them
   std::vector<ReportedStep> announced;     // stands in for the steps of a mission runner that left no report
   std::optional<double> operator_rate_hz;  // samples of the operator's device in the slowest second
+  Json operator_samples;                   // how far apart, and how old in commands (host/system/sample_watch.hpp)
   const Json* welcome = nullptr;           // of lianad
   const Json* last_state = nullptr;        // of lianad
   std::optional<config::ScenePose> rod;    // as the scene has it; none: it has none

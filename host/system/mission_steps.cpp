@@ -1,5 +1,6 @@
 #include "host/system/mission_steps.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -78,6 +79,18 @@ void check_start(const Json& mission, const StartPose& start) {
   }
 }
 
+void check_fixtures(const Json& mission, std::size_t i, const config::SceneConfig& scene) {
+  for (const Json& named : mission.at("steps")[i].value("fixtures", Json::array())) {
+    const auto is_named = [&](const config::SceneFixture& one) { return one.name == named.text(); };
+    if (std::any_of(scene.fixtures.begin(), scene.fixtures.end(), is_named)) continue;
+    std::string known;
+    for (const config::SceneFixture& one : scene.fixtures) known += (known.empty() ? "" : ", ") + one.name;
+    throw BadInput(where_of(mission, i) + ": fixtures: " + named.text() + ": scene " + scene.name + " has " +
+                   (known.empty() ? "no fixtures" : known) +
+                   ": name one of the scene's, leave it out for all, or run in another --scene");
+  }
+}
+
 }  // namespace
 
 void check_steps(const Json& mission, const config::RobotConfig& robot, const config::SceneConfig& scene,
@@ -97,6 +110,7 @@ void check_scene_parts(const Json& mission, const config::SceneConfig& scene) {
       throw BadInput(step_where(mission, i) + ": " + part.value("field", "") + ": looks at a " + name + ": scene " +
                      scene.name + " has none: run in another --scene, or correct the condition");
     }
+    check_fixtures(mission, i, scene);
   }
 }
 

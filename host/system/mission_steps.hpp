@@ -16,8 +16,8 @@ namespace liana::system {
 void check_steps(const Json& mission, const config::RobotConfig& robot, const config::SceneConfig& scene,
                  const StartPose* start);
 
-// What a mission's conditions look at (a rod, a slit) has to be in the scene. Throws BadInput naming line, step and
-// field.
+// What a mission's conditions look at (a rod, a slit), and the fixtures that its steps name, have to be in the scene.
+// Throws BadInput naming line, step and field.
 void check_scene_parts(const Json& mission, const config::SceneConfig& scene);
 
 // Copies the files that a mission is made of to the folder `mission_files` of a run. Throws BadInput where one has

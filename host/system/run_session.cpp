@@ -231,9 +231,7 @@ void RunSession::keep(const Json& state) {
   const Json clearance = state.value("clearance", Json());
   if (clearance.is_object() && states_.back().tick > 0)  // of the angles at the tick before
     claims_.push_back({states_.back().tick - 1, clearance.value("distance_m", 0.0)});
-  const Json rate = state.value("device_rate", Json());
-  if (rate.is_object() && rate["hz"].is_number())
-    operator_rate_hz_ = std::min(operator_rate_hz_.value_or(rate["hz"].get<double>()), rate["hz"].get<double>());
+  samples_.look(state);
   last_state_ = state;
   const Json step = state.value("step", Json());
   const int index = step.is_object() ? step.value("index", 0) : 0;

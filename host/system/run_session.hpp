@@ -10,6 +10,7 @@
 #include "host/report/run_report.hpp"
 #include "host/system/interrupt.hpp"
 #include "host/system/progress.hpp"
+#include "host/system/sample_watch.hpp"
 #include "host/system/state_watch.hpp"
 #include "host/system/system.hpp"
 
@@ -35,8 +36,8 @@ class RunSession {
   const std::vector<report::StateSample>& states() const { return states_; }
   const std::vector<report::Stage>& stages() const { return stages_; }
   const std::vector<report::ClearanceClaim>& claims() const { return claims_; }
-  // Samples of the operator's device in the slowest second [Hz]; nothing when no device was used for a second.
-  std::optional<double> operator_rate_hz() const { return operator_rate_hz_; }
+  // Of the operators' devices.
+  const SampleWatch& samples() const { return samples_; }
   const std::vector<report::ReportedStep>& announced() const { return announced_; }
   const Json& welcome() const { return welcome_; }
   const Json& last_state() const { return last_state_; }
@@ -75,7 +76,7 @@ class RunSession {
   std::vector<report::Stage> stages_;
   std::vector<report::ClearanceClaim> claims_;
   std::vector<report::ReportedStep> announced_;
-  std::optional<double> operator_rate_hz_;
+  SampleWatch samples_;
 };
 
 }  // namespace liana::system

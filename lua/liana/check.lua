@@ -276,6 +276,7 @@ function check.describe(mission)
       fail_when = step.fail_when.text, next = described_ways(step), plan = step.plan, start_deg = step.start_deg,
       goal_deg = step.goal_deg or goal.fields.goal_deg, goal_pose = uses.of(step.run).pose, goal_tip = goal.fields.goal,
       goal_hold = goal.fields.hold or held_list(step.hold), goal_at = goal.at, parts = described_parts(step),
+      fixtures = type(step.fixtures) == "table" and #step.fixtures > 0 and step.fixtures or nil,
     }
   end
   return { format = 1, kind = "mission", name = mission.name, steps = steps, notes = notes_of(mission) }

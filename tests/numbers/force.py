@@ -9,6 +9,7 @@ from page import table
 HEAD = ["state", "push N", "pushes", "bias N", "RMS N", "largest N", "within 95 %", "axes seen"]
 FRICTION_HEAD = ["friction taken off", "at rest N", "moving N", "after a dither N", "free, moving N"]
 CONFIGURATIONS = 20
+SEED = 63001  # nothing was tuned with it
 
 
 def figure(value, digits=2):
@@ -54,7 +55,7 @@ def friction_row(row):
 
 def measure(binaries, count=200):
     pushes = max(1, count // CONFIGURATIONS)
-    words = ["force", "--self-test", "--configurations", CONFIGURATIONS, "--pushes", pushes, "--json"]
+    words = ["force", "--self-test", "--configurations", CONFIGURATIONS, "--pushes", pushes, "--seed", SEED, "--json"]
     tests = [ask(binaries / "liana", *words, f"--physics={physics}") for physics in ("nominal", "worn")]
     friction = counted(binaries / "force_friction", max(1, count // 3))
     text = "\n\n".join(text_of(test) for test in tests)

@@ -1,7 +1,8 @@
 """The slit crossing flown by the simulated human through simulated devices: seeds that nobody looked at, with force
-feedback and without, and behind 0.5 s + 0.5 s.
+feedback and fixtures and without, and behind 0.5 s + 0.5 s.
 
-Alone: human.py [--bin DIR] [--runs N]
+Alone: human.py [--bin DIR] [--runs N] [--full] [--keep FOLDER]. --full: 100 runs of each, 50 behind the delay; --keep:
+reports are left in FOLDER, and those that are there already are not run again.
 """
 import argparse
 import json
@@ -14,23 +15,26 @@ import tempfile
 from folders import ROOT
 from page import table
 
-FIRST_SEED = 60001
+FIRST_SEED = 63001
+# Name, words of `liana run`, runs, and runs of --full.
 CASES = [
-    ("aligned", ["--feedback", "aligned"], 20),
-    ("off", ["--feedback", "off"], 20),
-    ("aligned, 0.5 s + 0.5 s", ["--feedback", "aligned", "--delay", "0.5,0.5"], 10),
+    ("aligned", ["--feedback", "aligned"], 20, 100),
+    ("no feedback, no fixtures", ["--feedback", "off", "--fixtures", "off"], 20, 100),
+    ("aligned, 0.5 s + 0.5 s", ["--feedback", "aligned", "--delay", "0.5,0.5"], 10, 50),
 ]
 HEAD = ["feedback", "success", "contacts", "peak N", "arm time s median", "worst", "tip mm median", "worst"]
+SAMPLES_HEAD = ["samples of", "runs", "apart ms, least", "most", "to release ms, median", "worst", "in force ms, median"]
+SAMPLES_HEAD += ["worst"]
 HEAD += ["slit mm least", "hand N most", "energy J least", "lag s median", "prediction mm median"]
 
 
-def run_once(binaries, words, seed):
-    """The report of one run."""
-    with tempfile.TemporaryDirectory(prefix="liana-numbers-") as folder:
-        file = pathlib.Path(folder) / "report.json"
+def run_once(binaries, words, seed, folder):
+    """The report of one run, kept in `folder`; of that which is there already."""
+    file = folder / f"{'_'.join(words).strip('-')}_{seed}.json"
+    if not file.exists():
         call = [str(binaries / "liana"), "run", "slit_crossing", "--operator", "human", "--seed", str(seed)]
         subprocess.run([*call, *words, "--json", str(file)], capture_output=True, text=True, check=False)
-        report = json.loads(file.read_text()) if file.exists() else {"outcome": "no report"}
+    report = json.loads(file.read_text()) if file.exists() else {"outcome": "no report"}
     report["seed"] = seed
     print(f"   {' '.join(words)} {seed}: {report['outcome']}", file=sys.stderr, flush=True)
     return report
@@ -65,9 +69,32 @@ def row(name, reports):
     ]
 
 
-def measure(binaries, most=None):
-    seeds = {name: range(FIRST_SEED, FIRST_SEED + min(count, most or count)) for name, _, count in CASES}
-    runs = {name: [run_once(binaries, words, seed) for seed in seeds[name]] for name, words, _ in CASES}
+def spread(values):
+    return ", ".join(f"{value:.0f}" for value in sorted(values))
+
+
+def samples_row(device, of_device):
+    """Of all runs without a delay: worst of the worst, median of the medians."""
+    median = {key: [one[key]["median"] for one in of_device] for key in ("to_release_s", "in_force_s")}
+    worst = {key: [one[key]["worst"] for one in of_device] for key in ("to_release_s", "in_force_s")}
+    apart = [one["interval_s"] for one in of_device]
+    cells = [device, len(of_device)]
+    cells += [f"{1e3 * min(one['least'] for one in apart):.2f}", f"{1e3 * max(one['most'] for one in apart):.2f}"]
+    for key in median:
+        cells += [f"{1e3 * statistics.median(median[key]):.1f}", f"{1e3 * max(worst[key]):.1f}"]
+    return cells
+
+
+def samples_text(runs):
+    told = [one["operator_samples"] for name, _, _, _ in CASES[:2] for one in runs[name] if "operator_samples" in one]
+    rows = [samples_row(name, [one[name] for one in told if one.get(name)]) for name in ("vr", "hand") if told]
+    return "\n\nSamples in arm time, without a delay; what verification takes is not in it:\n\n" + table(
+        SAMPLES_HEAD, rows
+    )
+
+
+def text_of(runs):
+    """What the page says of reports, by name of the case."""
     whys = [
         f"\n- {name}, seed {report['seed']}: {report.get('reason', 'no report')}"
         for name, reports in runs.items()
@@ -76,15 +103,33 @@ def measure(binaries, most=None):
     ]
     text = f"Seeds from {FIRST_SEED} on, which nothing was tuned with.\n\n"
     text += table(HEAD, [row(name, reports) for name, reports in runs.items()])
-    return runs, text + ("\n" + "".join(whys) if whys else "")
+    text += "\n\nArm times of the successful ones, s:\n"
+    for name, reports in runs.items():
+        good = [report for report in reports if report["outcome"] == "success"]
+        text += f"\n- {name}: {spread(numbers(good, 'duration_s'))}"
+    return text + ("\n\nWhat failed:\n" + "".join(whys) if whys else "") + samples_text(runs)
+
+
+def measure(binaries, most=None, full=False, keep=None):
+    with tempfile.TemporaryDirectory(prefix="liana-numbers-") as scratch:
+        folder = pathlib.Path(keep or scratch)
+        folder.mkdir(parents=True, exist_ok=True)
+        runs = {}
+        for name, words, some, many in CASES:
+            count = min(many if full else some, many if most is None else most)
+            seeds = range(FIRST_SEED, FIRST_SEED + count)
+            runs[name] = [run_once(binaries, words, seed, folder) for seed in seeds]
+    return runs, text_of(runs)
 
 
 def main():
     line = argparse.ArgumentParser(description=__doc__)
     line.add_argument("--bin", default=str(ROOT / "build/bin"))
     line.add_argument("--runs", type=int)
+    line.add_argument("--full", action="store_true")
+    line.add_argument("--keep")
     options = line.parse_args()
-    print(measure(pathlib.Path(options.bin), options.runs)[1])
+    print(measure(pathlib.Path(options.bin), options.runs, options.full, options.keep)[1])
 
 
 if __name__ == "__main__":

@@ -80,6 +80,24 @@ class MissionSteps(unittest.TestCase):
         self.assertIn('step 2 "pose look": at pose look link 18 stands', error)
         self.assertIn("inside body crate", error)
 
+    # req:A28
+    def test_a_fixture_that_the_scene_has_not_is_refused_by_step_before_anything_starts(self):
+        text = (LUA / "missions" / "slit_crossing.lua").read_text()
+        self.assertIn('device = "hand",', text)
+        mission = self.folder / "slit_crossing.lua"
+        bare = self.folder / "bare.lua"
+        bare.write_text('local t = require "scenes.panel_slit"\nt.name = "bare"\nt.fixtures = {}\nreturn t\n')
+        for scene, names, said in (
+            ("panel_slit", '"slit_plan"', "slit_plan: scene panel_slit has slit_plane, slit_walls, slit_approach: name"),
+            ("panel_slit", '"slit_plane", "Slit_Walls"', "Slit_Walls: scene panel_slit has slit_plane, "),
+            (bare, '"slit_plane"', "slit_plane: scene bare has no fixtures: "),
+        ):
+            mission.write_text(text.replace('device = "hand",', 'device = "hand", fixtures = { %s },' % names, 1))
+            code, out, error = liana("run", mission, "--scene", scene)
+            self.assertEqual((code, out), (2, ""), error)
+            self.assertRegex(error, r"slit_crossing.lua:\d+: mission slit_crossing: step \d ")
+            self.assertIn("fixtures: " + said, error)
+
     def test_a_plan_of_another_scene_and_one_that_begins_elsewhere_are_refused_by_their_step(self):
         code, _, error = self.run_mission("lab_search", "--scene", "none")
         self.assertEqual(code, 2, error)
