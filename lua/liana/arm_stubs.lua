@@ -158,6 +158,14 @@ function arm.servo_cp(fields) end
 ---@field lost_s? number
 ---time constant of the low-pass on what the camera sees (else 4)
 ---@field tau_s? number
+---period, roughly, with which the arm's base swings: the servo tells the swing from the target's place, and
+---calms it; 0: the base stands still (else 0)
+---@field swing_s? number
+---period of a second swing; 0: there is none (else 0)
+---@field quicker_swing_s? number
+---way of the tip against the slow swing, as a share of the swing: less for an arm that is heavy beside its
+---base, 0: the swing is left as it is (else 1)
+---@field calming? number
 ---k: speed for a way to go (else 0.45)
 ---@field gain_1_s? number
 ---fastest along the way in; the robot's own limit holds besides (else 0.028)
