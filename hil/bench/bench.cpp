@@ -27,7 +27,7 @@ std::unique_ptr<Plant> make_plant(const BenchOptions& options, const SceneConfig
     throw std::runtime_error("the scene has a payload: its robot needs torque drives (drives.mode = \"torque\")");
   if (options.serial_robot)
     return std::make_unique<SerialPlant>(*options.serial_robot, options.buses, options, options.faults, options.seed);
-  refuse_faults(options.faults, {FaultOf::kPayload}, "happens where a payload is installed, and this is a cable arm");
+  refuse_payload_faults(options.faults, ", and this is a cable arm");
   return std::make_unique<CablePlant>(options.robot, scene, options.buses, options, options.seed);
 }
 

@@ -14,11 +14,15 @@ namespace liana::bench {
 constexpr double kMoving_rad_s =
     0.1 * 3.14159265358979323846 / 180.0;  // a twentieth of the arm's speed limit, far over its tremble at rest
 
+constexpr double kNoDepth_m = -1000.0;  // there is nothing to be deep in
+
 // What conditions of faults are about.
 struct TrueMotion {
   std::span<const double> angle_rad;
   std::span<const double> rate_rad_s;
-  double depth_m = -1000.0;  // of the tip, past the mouth of the slit
+  double depth_m = kNoDepth_m;  // of the tip past the mouth of the slit, of a payload's pins past the adapter's face
+  double contact_N = 0.0;       // of the payload on the adapter
+  bool captured = false;        // the adapter has the payload
 };
 
 class FaultInjector {

@@ -90,7 +90,8 @@ std::map<int, DictionaryConfig> read_dictionaries(const JsonFile& buses) {
     const std::string name = buses.text(entry + (buses.has(entry + "/bench") ? "/bench" : "/type"));
     const std::string type = "/drive_types/" + name;
     if (!buses.has(type)) buses.fail(type, "is missing; export the bus table with liana-mission eval");
-    const DictionaryConfig dictionary = read_dictionary(buses, type);
+    DictionaryConfig dictionary = read_dictionary(buses, type);
+    dictionary.drive_type = name;
     for (std::size_t k = 0; k < buses.size(entry + "/nodes"); ++k)
       out[buses.integer(at(entry + "/nodes", k), 1, 126)] = dictionary;
   }

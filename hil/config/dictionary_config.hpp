@@ -29,6 +29,7 @@ struct AddedObject {
 };
 
 struct DictionaryConfig {
+  std::string drive_type;  // whose it is, for messages; empty: the bench's own
   std::vector<ObjectPlace> absent;
   std::vector<ObjectPlace> read_only;
   std::map<ObjectPlace, std::int64_t> values;  // at power-on

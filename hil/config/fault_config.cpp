@@ -60,9 +60,9 @@ std::uint32_t read_slots(const JsonFile& file, const std::string& field, int low
 }
 
 FaultCondition read_condition(const JsonFile& file, const std::string& field, std::size_t theta_count) {
-  refuse_others(
-      file, field,
-      {"theta", "above_deg", "below_deg", "enabled", "moving", "depth_above_m", "after_first_slots", "for_slots"});
+  refuse_others(file, field,
+                {"theta", "above_deg", "below_deg", "enabled", "moving", "depth_above_m", "depth_below_m",
+                 "contact_above_N", "captured", "after_first_slots", "for_slots"});
   FaultCondition when;
   const bool above = file.has(field + "/above_deg");
   const bool below = file.has(field + "/below_deg");
@@ -75,16 +75,23 @@ FaultCondition read_condition(const JsonFile& file, const std::string& field, st
   }
   if (above) when.above_rad = kRadPerDeg * file.number(field + "/above_deg", -180.0, 180.0);
   if (below) when.below_rad = kRadPerDeg * file.number(field + "/below_deg", -180.0, 180.0);
-  for (const auto& [name, flag] : {std::pair{"/enabled", &when.enabled}, std::pair{"/moving", &when.moving}}) {
+  for (const auto& [name, flag] : {std::pair{"/enabled", &when.enabled}, std::pair{"/moving", &when.moving},
+                                   std::pair{"/captured", &when.captured}}) {
     if (!file.has(field + name)) continue;
     if (!file.is_true(field + name)) file.fail(field + name, "can only be true; leave it out instead");
     *flag = true;
   }
   if (file.has(field + "/depth_above_m")) when.depth_above_m = file.number(field + "/depth_above_m", -10.0, 10.0);
+  if (file.has(field + "/depth_below_m")) when.depth_below_m = file.number(field + "/depth_below_m", -10.0, 10.0);
+  if (file.has(field + "/contact_above_N")) when.contact_above_N = file.number(field + "/contact_above_N", 0.0, 1000.0);
   if (file.has(field + "/after_first_slots"))
     when.after_first_slots = read_slots(file, field + "/after_first_slots", 0);
-  if (!when.theta && !when.enabled && !when.moving && !when.depth_above_m && !when.after_first_slots)
-    file.fail(field, "names no condition; add theta, enabled, moving, depth_above_m or after_first_slots");
+  const bool about_contact = when.contact_above_N || when.captured;
+  const bool about_depth = when.depth_above_m || when.depth_below_m;
+  if (!when.theta && !when.enabled && !when.moving && !about_depth && !about_contact && !when.after_first_slots)
+    file.fail(field,
+              "names no condition; add theta, enabled, moving, depth_above_m, depth_below_m, contact_above_N, "
+              "captured or after_first_slots");
   if (file.has(field + "/for_slots")) when.for_slots = read_slots(file, field + "/for_slots", 1);
   return when;
 }
@@ -141,6 +148,14 @@ void refuse_faults(const std::vector<FaultConfig>& faults, const std::vector<Fau
   for (const FaultConfig& fault : faults)
     if (std::find(of.begin(), of.end(), fault_of(fault.kind)) != of.end())
       throw std::runtime_error("--faults: kind \"" + fault.name + "\" " + why);
+}
+
+void refuse_payload_faults(const std::vector<FaultConfig>& faults, const std::string& why) {
+  refuse_faults(faults, {FaultOf::kPayload}, "happens where a payload is installed" + why);
+  for (const FaultConfig& fault : faults)
+    if (fault.when.contact_above_N || fault.when.captured)
+      throw std::runtime_error("--faults: kind \"" + fault.name + "\": when waits for contact or capture of a payload" +
+                               why);
 }
 
 std::vector<FaultConfig> load_faults(const std::string& path, std::size_t drive_count, std::size_t theta_count) {

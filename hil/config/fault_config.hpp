@@ -90,9 +90,13 @@ struct FaultCondition {
   std::optional<std::size_t> theta;  // 0-based; its true angle has to lie in [above, below]
   double above_rad = -1e9;
   double below_rad = 1e9;
-  bool enabled = false;                            // every drive in Operation enabled
-  bool moving = false;                             // some true angle turns faster than kMoving_rad_s
-  std::optional<double> depth_above_m;             // the true tip is further than this past the mouth of the slit
+  bool enabled = false;                   // every drive in Operation enabled
+  bool moving = false;                    // some true angle turns faster than kMoving_rad_s
+  std::optional<double> depth_above_m;    // the true tip is further than this past the mouth of the slit, the true pins
+                                          // of a payload on the arm past the adapter's face
+  std::optional<double> depth_below_m;    // the same, not so far
+  std::optional<double> contact_above_N;  // the payload gives the adapter more than this
+  bool captured = false;                  // the adapter truly has the payload
   std::optional<std::uint32_t> after_first_slots;  // the first fault of the list began so many slots ago
   std::uint32_t for_slots = 1;
 };
@@ -109,6 +113,9 @@ struct FaultConfig {
 
 // Throws std::runtime_error naming the first fault of such a kind; `why` says what the robot at hand has instead.
 void refuse_faults(const std::vector<FaultConfig>& faults, const std::vector<FaultOf>& of, const std::string& why);
+
+// The same for faults of a payload, or that wait for one; `why` goes on from "of a payload".
+void refuse_payload_faults(const std::vector<FaultConfig>& faults, const std::string& why);
 
 // Reads a JSON list of faults; throws std::runtime_error naming file, field, value and what is allowed.
 std::vector<FaultConfig> load_faults(const std::string& path, std::size_t drive_count, std::size_t theta_count);

@@ -20,6 +20,10 @@ std::string name_of(const ObjectPlace& place) {
   return place.sub ? index + (":" + std::to_string(*place.sub)) : index;
 }
 
+[[noreturn]] void refuse(const ObjectPlace& place, const std::string& why) {
+  throw std::runtime_error(name_of(place) + ": " + why);
+}
+
 // Does `change` with every object at the place.
 template <typename Change>
 void change_at(const ObjectPlace& place, std::vector<Object>& objects, const Change& change) {
@@ -29,9 +33,7 @@ void change_at(const ObjectPlace& place, std::vector<Object>& objects, const Cha
     change(object);
     found = true;
   }
-  if (!found)
-    throw std::runtime_error("dictionary of a drive type: " + name_of(place) +
-                             ": the bench's drive has no such object; allowed are those it has and `added` ones");
+  if (!found) refuse(place, "the bench's drive has no such object; allowed are those it has and `added` ones");
 }
 
 struct Span {
@@ -52,16 +54,14 @@ Span span_of(const AddedObject& added) {
   if (added.type == "i16") return span_of<std::int16_t>(ObjectType::kI16);
   if (added.type == "u32") return span_of<std::uint32_t>(ObjectType::kU32);
   if (added.type == "i32") return span_of<std::int32_t>(ObjectType::kI32);
-  throw std::runtime_error("dictionary of a drive type: " + name_of(added.place) + ": type " + added.type +
-                           ": allowed u8, i8, u16, i16, u32, i32");
+  refuse(added.place, "type " + added.type + ": allowed u8, i8, u16, i16, u32, i32");
 }
 
 void add(const AddedObject& added, std::vector<Object>& objects) {
   if (std::any_of(objects.begin(), objects.end(), [&](const Object& each) {
         return each.index == added.place.index && each.sub == added.place.sub.value_or(0);
       }))
-    throw std::runtime_error("dictionary of a drive type: " + name_of(added.place) +
-                             ": the bench's drive has it already; allowed in `values` and `read_only`");
+    refuse(added.place, "the bench's drive has it already; allowed in `values` and `read_only`");
   const Span span = span_of(added);
   Object object;
   object.index = added.place.index;
@@ -74,9 +74,7 @@ void add(const AddedObject& added, std::vector<Object>& objects) {
   objects.push_back(object);
 }
 
-}  // namespace
-
-void change_objects(const DictionaryConfig& dictionary, std::vector<Object>& objects) {
+void change_all(const DictionaryConfig& dictionary, std::vector<Object>& objects) {
   for (const AddedObject& added : dictionary.added) add(added, objects);
   for (const ObjectPlace& place : dictionary.absent)
     change_at(place, objects, [](Object& object) { object.is_hidden = true; });
@@ -85,6 +83,16 @@ void change_objects(const DictionaryConfig& dictionary, std::vector<Object>& obj
   for (const auto& [place, value] : dictionary.values)
     change_at({place.index, place.sub.value_or(0)}, objects,
               [number = value](Object& object) { object.value = number; });
+}
+
+}  // namespace
+
+void change_objects(const DictionaryConfig& dictionary, std::vector<Object>& objects) {
+  try {
+    change_all(dictionary, objects);
+  } catch (const std::runtime_error& problem) {
+    throw std::runtime_error("drive type " + dictionary.drive_type + ": dictionary: " + problem.what());
+  }
 }
 
 }  // namespace liana::bench

@@ -35,8 +35,7 @@ TorquePlant::TorquePlant(const SerialRobotConfig& robot, const SceneConfig& scen
       sensor_(bus_of_nodes(buses), options.spread, seed),
       adapter_node_(bus_of_nodes(buses)) {
   refuse_for_serial(options, faults);
-  if (!scene.payload)
-    refuse_faults(faults, {FaultOf::kPayload}, "happens where a payload is installed; the scene has none");
+  if (!scene.payload) refuse_payload_faults(faults, "; the scene has none");
   if (scene.payload) make_site(scene, seed);
   drives_.measure(chain_);
 }
@@ -78,7 +77,14 @@ std::vector<double> TorquePlant::joints_rad() const {
 void TorquePlant::inject(std::uint32_t slot, FaultInjector& injector) {
   std::vector<double> rates(chain_.joints());
   for (std::size_t i = 0; i < rates.size(); ++i) rates[i] = chain_.joint_rate_rad_s(i);
-  injector.step(slot, {joints_rad(), rates}, drives_);
+  const std::vector<double> joints = joints_rad();
+  TrueMotion motion{joints, rates};
+  if (site_) {
+    if (site_->holder() == Holder::kArm) motion.depth_m = site_->plate_in_socket(chain_.tip().pose).position_m.z;
+    motion.contact_N = norm(contact_N_);
+    motion.captured = site_->adapter().captured();
+  }
+  injector.step(slot, motion, drives_);
   sensor_.suffer(wrist_defects(injector));
   if (!site_) return;
   adapter_node_.suffer(capture_defects(injector));

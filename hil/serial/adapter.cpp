@@ -30,7 +30,8 @@ TipLoad Adapter::push(const TipState& plate) const {
 void Adapter::step(double step_s, const TipState& plate) {
   PinValues true_m{};
   for (std::size_t i = 0; i < kPins; ++i) {
-    true_m[i] = pin_of(i, plate).at_m.z;
+    const PinState pin = pin_of(i, plate);
+    true_m[i] = is_over_body(figures_, pin) ? pin.at_m.z : std::min(pin.at_m.z, 0.0);
     depth_m_[i] = defects_[i].reads_m.value_or(true_m[i]);
   }
   logic_.step(step_s, depth_m_);

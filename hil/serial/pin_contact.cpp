@@ -67,7 +67,12 @@ PinClearance clearance_at(const AdapterFigures& figures, double depth_m) {
   return {figures.entry_m + slope * depth_m, slope};
 }
 
+bool is_over_body(const AdapterFigures& figures, const PinState& pin) {
+  return std::hypot(pin.at_m.x, pin.at_m.y) < figures.body_m;
+}
+
 Vec3 pin_force_N(const AdapterFigures& figures, const PinDefects& defects, const PinState& pin) {
+  if (!is_over_body(figures, pin)) return {};
   Vec3 force = wall_force_N(figures, pin);
   force.z += spring_force_N(figures, pin);
   force.z += stop_force_N(figures.stop_N_m / kPins, figures.damping_Ns_m, figures.stop_m, pin);

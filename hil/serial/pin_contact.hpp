@@ -11,6 +11,7 @@ namespace liana::bench {
 // Assumed: the source says nothing of its adapter but what it holds and how deep it goes.
 struct AdapterFigures {
   double circle_m = 0.25;   // radius on which the pins stand
+  double body_m = 0.10;     // radius of the socket's body about each hole: beside it there is nothing to meet
   double funnel_m = 0.030;  // radial clearance at its mouth; it narrows at 45 deg
   double entry_m = 0.003;   // radial clearance at the socket's face, where the hole begins
   double full_m = 0.0003;   // and from `depth_m` on
@@ -49,6 +50,9 @@ struct PinClearance {
   double slope;
 };
 PinClearance clearance_at(const AdapterFigures& figures, double depth_m);
+
+// Whether the socket's body is before or about the pin at all.
+bool is_over_body(const AdapterFigures& figures, const PinState& pin);
 
 // Wall, face beside the funnel, spring, stop and what lies in the hole, on the pin [N].
 Vec3 pin_force_N(const AdapterFigures& figures, const PinDefects& defects, const PinState& pin);

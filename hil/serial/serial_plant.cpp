@@ -31,8 +31,7 @@ SerialPlant::SerialPlant(const SerialRobotConfig& robot, const BusesConfig& buse
       drives_(arm_, buses, options.spread, seed),
       torque_Nm_(robot.joints.size(), 0.0) {
   refuse_for_serial(options, faults);
-  refuse_faults(faults, {FaultOf::kPayload},
-                "happens where a payload is installed: it needs torque drives and a scene with payload and adapter");
+  refuse_payload_faults(faults, ": it needs torque drives and a scene with payload and adapter");
   chain_.place(drives_.joint_rad());
   drives_.measure(torque_Nm_);
 }

@@ -81,6 +81,15 @@ constexpr std::array kServoTarget{
     number("timeout_s", 1.0, 600.0, "not there after this time it ends").otherwise(120.0),
     number("lost_s", 0.2, 10.0, "without a usable image for so long the target is lost").otherwise(1.0),
     number("tau_s", 0.05, 20.0, "time constant of the low-pass on what the camera sees").otherwise(4.0),
+    number("swing_s", 0.0, 120.0,
+           "period, roughly, with which the arm's base swings: the servo tells the swing from the target's place, and"
+           " calms it; 0: the base stands still")
+        .otherwise(0.0),
+    number("quicker_swing_s", 0.0, 60.0, "period of a second swing; 0: there is none").otherwise(0.0),
+    number("calming", 0.0, 2.0,
+           "way of the tip against the slow swing, as a share of the swing: less for an arm that is heavy beside its"
+           " base, 0: the swing is left as it is")
+        .otherwise(1.0),
     number("gain_1_s", 0.05, 1.0, "k: speed for a way to go").otherwise(0.45),
     number("speed_m_s", 1e-4, 1.0, "fastest along the way in; the robot's own limit holds besides").otherwise(0.028),
     number("lateral_speed_m_s", 1e-4, 1.0, "fastest across it; the robot's own limit holds besides").otherwise(0.008),

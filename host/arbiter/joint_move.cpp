@@ -47,8 +47,8 @@ JointMove<Arm>::JointMove(const Table& table, const Joints<Arm>& from_rad, const
   }
   const TipWay tip = steepest_tip_way<Arm>(table, from_rad, to_rad);
   const TipBounds bounds = Kind::tip_bounds(table);
-  duration_s_ = std::max({duration_s_, time_for_speed(tip.travel_m, kMoveShare * bounds.linear.speed),
-                          time_for_speed(tip.turn_rad, kMoveShare * bounds.angular.speed)});
+  duration_s_ = std::max({duration_s_, time_within(tip.travel_m, share_of(bounds.linear)),
+                          time_within(tip.turn_rad, share_of(bounds.angular))});
 }
 
 template <class Arm>

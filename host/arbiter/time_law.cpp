@@ -13,6 +13,10 @@ constexpr double kPeakJerk = 60.0;
 
 }  // namespace
 
+FilterBounds share_of(const FilterBounds& bounds) {
+  return {kMoveShare * bounds.speed, kMoveShare * bounds.accel, kMoveShare * bounds.jerk};
+}
+
 double minimum_jerk(double share) {
   const double s = std::clamp(share, 0.0, 1.0);
   return s * s * s * (10.0 + s * (-15.0 + 6.0 * s));

@@ -7,6 +7,7 @@ namespace liana::arbiter {
 
 // Share of the limits that planned moves use; the rest is for the filters that follow them.
 constexpr double kMoveShare = 0.9;
+FilterBounds share_of(const FilterBounds& bounds);
 
 // Position for time share 0..1 (clamped): 0..1 with velocity and acceleration zero at both ends.
 double minimum_jerk(double share);

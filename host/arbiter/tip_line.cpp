@@ -7,14 +7,11 @@
 namespace liana::arbiter {
 
 TipLine::TipLine(const TipBounds& bounds, const Pose& from, const Pose& to, double speed_m_s) : from_(from), to_(to) {
-  const auto share = [](FilterBounds b) {
-    return FilterBounds{kMoveShare * b.speed, kMoveShare * b.accel, kMoveShare * b.jerk};
-  };
   FilterBounds linear = bounds.linear;
   linear.speed = speed_m_s;
   turn_rad_ = rotation_vector(multiply(to.quaternion, conjugate(from.quaternion)));
-  duration_s_ = std::max(time_within(norm(subtract(to.position_m, from.position_m)), share(linear)),
-                         time_within(norm(turn_rad_), share(bounds.angular)));
+  duration_s_ = std::max(time_within(norm(subtract(to.position_m, from.position_m)), share_of(linear)),
+                         time_within(norm(turn_rad_), share_of(bounds.angular)));
 }
 
 Pose TipLine::at(double time_s) const {

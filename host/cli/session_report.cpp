@@ -34,6 +34,7 @@ report::ReportSources report_sources(const system::RunOptions& options, const sy
   sources.mission = options.mission;
   sources.physics = options.physics;
   sources.seed = options.seed;
+  sources.fault = options.fault;
   sources.outcome = end.outcome;
   sources.reason = end.message.substr(0, end.message.find('\n'));
   sources.time_mode = plan.time_mode;
@@ -43,6 +44,7 @@ report::ReportSources report_sources(const system::RunOptions& options, const sy
   sources.operator_file = plan.operator_file();
   sources.bus_stats_file = plan.file("bus_stats.json");
   sources.states = session.states();
+  sources.stages = session.stages();
   sources.claims = session.claims();
   sources.announced = session.announced();
   sources.operator_rate_hz = session.samples().slowest_hz();
@@ -51,6 +53,7 @@ report::ReportSources report_sources(const system::RunOptions& options, const sy
   sources.last_state = &session.last_state();
   if (plan.scene.rod) sources.rod = plan.scene.rod->pose;
   sources.has_slit = plan.scene.slit.has_value();
+  if (plan.scene.payload) sources.payload_length_m = plan.scene.payload->length_m;
   for (const Json& file : plan.mission.value("files", Json::array()))
     sources.mission_files.push_back({{"file", file.at("file")}, {"sha256", file.at("sha256")}});
   if (!plan.is_serial) sources.body_at = body_at(options, plan);

@@ -16,6 +16,8 @@ servo::ServoRequest servo_request(const api::Arguments& fields) {
   out.timeout_s = fields.number("timeout_s");
   out.lost_s = fields.number("lost_s");
   out.tau_s = fields.number("tau_s");
+  out.swing_s = {fields.number("swing_s"), fields.number("quicker_swing_s")};
+  out.calming = fields.number("calming");
   out.limits = {fields.number("gain_1_s"),
                 fields.number("speed_m_s"),
                 fields.number("lateral_speed_m_s"),
@@ -29,8 +31,10 @@ servo::ServoRequest servo_request(const api::Arguments& fields) {
 Json servo_json(const servo::ServoReport& report) {
   Json out{{"phase", servo::servo_phase_name(report.phase)},
            {"target", report.target},
+           {"place", report.place ? pose_json(*report.place) : Json()},
            {"error_m", nullptr},
            {"error_deg", nullptr},
+           {"swing_m", report.swing_m},
            {"images_used", report.images_used},
            {"images_rejected", report.images_rejected},
            {"duration_s", report.duration_s},

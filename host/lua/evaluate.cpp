@@ -44,10 +44,11 @@ int push_refusal_protected(lua_State* state) {
   return 1;
 }
 
-// Replaces the mission on the stack by its description; refuses anything that is no mission.
-Json describe(Script& script, const std::string& display) {
+// Replaces the mission on the stack by what liana.check says of it (`describe`, `tables`); refuses anything that is no
+// mission.
+Json told(Script& script, const char* function, const std::string& display) {
   script.require("liana.check");
-  lua_getfield(script.state(), -1, "describe");
+  lua_getfield(script.state(), -1, function);
   lua_pushvalue(script.state(), -3);
   script.call(1, 1);
   Json description = to_json(script.state(), -1, display);
@@ -141,7 +142,7 @@ Json described_files(const Loaded& loaded) {
 
 }  // namespace
 
-void check_against_robot(Script& script, const Json& robot) {
+void check_against_robot(Script& script, const Json& robot, Looks looks) {
   lua_State* state = script.state();
   api::RequestBounds bounds = api::request_bounds(robot);
   script.require("liana.against");
@@ -150,14 +151,19 @@ void check_against_robot(Script& script, const Json& robot) {
   lua_pushcfunction(state, push_refusal_protected);
   lua_pushlightuserdata(state, &bounds);
   script.call(1, 1);
-  script.call(3, 0);
+  if (looks == Looks::kIntoFunctions) {
+    lua_pushcfunction(state, attempt);
+  } else {
+    lua_pushnil(state);
+  }
+  script.call(4, 0);
 }
 
 void load_mission(Script& script, const LuaFolders& lua_folders, const std::string& name) {
   const ScriptFile file = find_script(lua_folders, "mission", name);
   naming_file(file.display, [&] {
     push_mission(script, file);
-    check_recordings(describe(script, file.display), recording_folders(lua_folders, file.folder));
+    check_recordings(told(script, "describe", file.display), recording_folders(lua_folders, file.folder));
   });
 }
 
@@ -173,6 +179,16 @@ std::string evaluate(Script& script, const LuaFolders& lua_folders, const std::s
   return config::check_table(kind, result, file.display);
 }
 
+std::string evaluate_mission_tables(Script& script, const LuaFolders& lua_folders, const std::string& name) {
+  const ScriptFile file = find_script(lua_folders, "mission", name);
+  Json result;
+  naming_file(file.display, [&] {
+    push_mission(script, file);
+    result = told(script, "tables", file.display);
+  });
+  return config::canonical_json(result);
+}
+
 std::string evaluate_mission(Script& script, const LuaFolders& lua_folders, const std::string& name,
                              const std::string& robot_json) {
   const ScriptFile file = find_script(lua_folders, "mission", name);
@@ -181,8 +197,8 @@ std::string evaluate_mission(Script& script, const LuaFolders& lua_folders, cons
     const Json robot = Json::parse(robot_json);
     const Loaded loaded = push_mission(script, file);
     for (const Loaded::Plan& plan : loaded.plans) check_robot_of_plan(plan, robot);
-    check_against_robot(script, robot);
-    result = describe(script, file.display);
+    check_against_robot(script, robot, Looks::kIntoFunctions);
+    result = told(script, "describe", file.display);
     const std::vector<std::string> folders = recording_folders(lua_folders, file.folder);
     check_recordings(result, folders);
     result["recordings"] = folders;

@@ -17,6 +17,8 @@ using namespace liana::script;
 
 namespace {
 
+constexpr const char* kMissionTables = "mission_tables";
+constexpr const char* kDefaultRobot = "zhu2022";
 constexpr const char* kLuaDirAbout = "a folder of tables and missions that is searched first (docs/installing.md)";
 
 // Runs `body`; bad input becomes one message on standard error and exit code 2.
@@ -31,22 +33,32 @@ int with_message(const std::function<int()>& body) {
 
 struct EvalOptions {
   LuaFolders lua_folders;
-  std::string kind, name, robot = "zhu2022";
+  std::string kind, name, robot;
 };
+
+std::string tables_of_mission(const EvalOptions& options, Activity& activity) {
+  Script script(ScriptLimits{}, options.lua_folders, activity);
+  return evaluate_mission_tables(script, options.lua_folders, options.name);
+}
 
 std::string robot_json(const EvalOptions& options, Activity& activity) {
   if (options.robot.ends_with(".json")) return liana::config::read_text_file(options.robot);
+  std::string robot = options.robot;
+  if (robot.empty()) robot = liana::Json::parse(tables_of_mission(options, activity)).value("robot", kDefaultRobot);
   Script script(ScriptLimits{}, options.lua_folders, activity);
-  return evaluate(script, options.lua_folders, "robot", options.robot);
+  return evaluate(script, options.lua_folders, "robot", robot);
+}
+
+std::string evaluated(const EvalOptions& options, Activity& activity) {
+  if (options.kind == kMissionTables) return tables_of_mission(options, activity);
+  const std::string robot = options.kind == "mission" ? robot_json(options, activity) : "";
+  Script script(ScriptLimits{}, options.lua_folders, activity);
+  return options.kind == "mission" ? evaluate_mission(script, options.lua_folders, options.name, robot)
+                                   : evaluate(script, options.lua_folders, options.kind, options.name);
 }
 
 int evaluate_and_print(const EvalOptions& options, Activity& activity) {
-  Script script(ScriptLimits{}, options.lua_folders, activity);
-  const std::string text =
-      options.kind == "mission"
-          ? evaluate_mission(script, options.lua_folders, options.name, robot_json(options, activity))
-          : evaluate(script, options.lua_folders, options.kind, options.name);
-  std::printf("%s\n", text.c_str());
+  std::printf("%s\n", evaluated(options, activity).c_str());
   return 0;
 }
 
@@ -111,10 +123,10 @@ int main(int argc, char** argv) {
   std::string lua_dir;
   EvalOptions evaluated;
   liana::command_line::Command eval = line.command("eval", "check a table and print it as canonical JSON");
-  eval.option("kind", evaluated.kind, "robot, scene, buses, drive, budget or mission").required();
+  eval.option("kind", evaluated.kind, "robot, scene, buses, drive, budget, mission or mission_tables").required();
   eval.option("name", evaluated.name, "a name in the Lua folder or a file").required();
-  eval.option("--robot", evaluated.robot, "robot a mission is checked against: a name or exported JSON")
-      .with_default_shown();
+  eval.option("--robot", evaluated.robot,
+              "robot a mission is checked against: a name or exported JSON; where not given its own, else zhu2022");
   eval.option("--lua-dir", lua_dir, kLuaDirAbout);
   liana::command_line::Command run = line.command(
       "run", "run a mission; exit 0 on success, 1 when not or when its process was killed, 2 for bad input");

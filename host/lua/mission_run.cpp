@@ -79,7 +79,7 @@ void finish(const MissionOptions& options, const std::string& report) {
 
 int run_connected(const MissionOptions& options, Activity& activity, Script& script) {
   MissionSession session(options, activity);
-  check_against_robot(script, session.welcome().at("robot"));
+  check_against_robot(script, session.welcome().at("robot"), Looks::kAtValues);
   try {
     start_engine(script, session);
     converse(script, session);

@@ -70,8 +70,9 @@ std::optional<fs::path> first_file(const LuaFolders& lua_folders, const std::vec
 ScriptFile find_script(const LuaFolders& lua_folders, const std::string& kind, const std::string& name) {
   const auto folder = kFolders.find(kind);
   if (folder == kFolders.end())
-    throw std::runtime_error("kind: " + kind +
-                             ": allowed robot, scene, buses, drive, budget, mission: use one of these words");
+    throw std::runtime_error(
+        "kind: " + kind +
+        ": allowed robot, scene, buses, drive, budget, mission, mission_tables: use one of these words");
   const bool is_file =
       name.find('/') != std::string::npos || name.ends_with(".lua") || (kind == "mission" && name.ends_with(".json"));
   if (is_file) return read_script(name, name);

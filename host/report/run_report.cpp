@@ -6,6 +6,8 @@
 #include <fstream>
 
 #include "host/json/json.hpp"
+#include "host/report/payload_text.hpp"
+#include "host/report/timeline.hpp"
 #include "host/report/truth.hpp"
 #include "host/report/truth_figures.hpp"
 
@@ -80,6 +82,42 @@ void add_claims(Json& report, const TruthLog& truth, const Rows& rows, const std
                                     {"most_above_truth_m", claimed->most_above_m}};
 }
 
+std::string line(const char* format, double value) {
+  char text[128];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+// The fault that was asked for, and when it began, as the bench says; null where it did not.
+Json fault_of(const ReportSources& sources, double period_s, std::uint64_t first_tick) {
+  Json fault = {{"name", sources.fault}, {"begun_s", nullptr}};
+  for (const Json& each : read_json(sources.bench_summary_file).value("faults", Json::array())) {
+    const Json& slot = each.member_or_null("begun_slot");
+    if (!slot.is_number()) continue;
+    const double begun_s = (slot.get<double>() - static_cast<double>(first_tick)) * period_s;
+    if (fault["begun_s"].is_null() || begun_s < fault["begun_s"].get<double>()) fault["begun_s"] = begun_s;
+  }
+  return fault;
+}
+
+// In words.
+std::string fault_text(const Json& fault) {
+  const Json& begun_s = fault.member_or_null("begun_s");
+  const std::string name = "fault " + fault.value("name", "");
+  return begun_s.is_number() ? name + line(" began after %.1f s\n", begun_s.get<double>())
+                             : name + " never began: what it waits for did not happen\n";
+}
+
+void add_payload(Json& report, const TruthLog& truth, const ReportSources& sources, const Window& window,
+                 double period_s) {
+  const PayloadSources payload{truth, sources.stages, sources.payload_length_m, period_s};
+  const Json faults = read_json(sources.bench_summary_file).value("faults", Json::array());
+  report["timeline"] = timeline_of(payload, steps_with_ticks(sources), faults, window.first_tick);
+  add_payload_figures(report, payload);
+  const bool is_told = !sources.stages.empty() && sources.stages.back().says_captured;
+  if (is_told) report["truly_captured"] = truth.at(truth.row_count() - 1, "captured") > 0.0;
+}
+
 // Figures over the experiment, of a run that failed over all that came after it, too; why a success is none.
 std::string add_truth(Json& report, const ReportSources& sources, const Window& window, double period_s) {
   const TruthLog truth = TruthLog::load(sources.truth_file);
@@ -96,6 +134,7 @@ std::string add_truth(Json& report, const ReportSources& sources, const Window& 
     report["contact"] = contact_in(truth, rows, sources.body_at, window.first_tick, period_s);
   add_claims(report, truth, rows, sources.claims, period_s);
   if (!success) add_aftermath(report, truth, end, period_s);
+  if (has_payload(truth)) add_payload(report, truth, sources, window, period_s);
   return judge(report, sources.criteria);
 }
 
@@ -116,12 +155,6 @@ Json buses_of(const Json& state, const Json& stats) {
     buses.push_back(entry);
   }
   return buses;
-}
-
-std::string line(const char* format, double value) {
-  char text[128];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
 }
 
 std::string clearance_text(const Json& report) {
@@ -218,6 +251,7 @@ Json make_report(const ReportSources& sources) {
   } else if (report["outcome"] != "success") {
     report["reason"] = sources.reason.empty() ? mission.value("reason", "") : sources.reason;
   }
+  if (!sources.fault.empty()) report["fault"] = fault_of(sources, welcome.value("period_s", 0.0), window.first_tick);
   if (state.contains("friction")) report["friction"] = state["friction"];
   if (sources.operator_rate_hz) report["operator_rate_hz"] = *sources.operator_rate_hz;
   if (sources.operator_samples.is_object()) report["operator_samples"] = sources.operator_samples;
@@ -239,6 +273,7 @@ std::string report_text(const Json& report) {
     text += "fault " + std::to_string(fault.value("number", 0)) + " " + fault.value("name", "") + ": " +
             fault.value("text", "") + "\n";
   }
+  if (report.contains("fault")) text += fault_text(report["fault"]);
   for (const Json& step : report.value("steps", Json::array())) {
     text += line("  %7.1f s  ", step.value("duration_s", 0.0)) + step.value("outcome", "") + "  " +
             step.value("name", "") + " (" + step.value("device", "none") + ")" + ended_by(step) + "\n";
@@ -281,6 +316,7 @@ std::string report_text(const Json& report) {
   if (report.contains("operator_rate_hz"))
     text += line("operator's samples %.0f a second at least\n", report["operator_rate_hz"].get<double>());
   text += operator_text(report);
+  if (report.contains("timeline")) text += payload_text(report);
   for (const Json& bus : report.value("buses", Json::array())) {
     text += "bus " + bus.value("name", "") + line(": %.0f frames", bus.value("frames", 0.0)) +
             line(", load %.1f %%", 100.0 * bus.value("measured_load", 0.0)) +

@@ -10,6 +10,7 @@
 #include "host/config/config.hpp"
 #include "host/json/json.hpp"
 #include "host/report/claimed_clearance.hpp"
+#include "host/report/stages.hpp"
 #include "host/report/truth_figures.hpp"
 
 namespace liana::report {
@@ -35,6 +36,7 @@ struct ReportSources {
   std::string robot, mission, physics;  // as they were given
   Json mission_files;                   // what the mission was made of: [{"file","sha256"}]; null: unknown
   std::uint64_t seed = 0;
+  std::string fault;  // of the mission's own, that was asked for; empty: none
   std::string time_mode;
   std::string truth_file;  // of the bench
   std::string bench_summary_file;
@@ -42,6 +44,7 @@ struct ReportSources {
   std::string bus_stats_file;       // of liana-bus
   std::string operator_file;        // of liana-operator
   std::vector<StateSample> states;
+  std::vector<Stage> stages;               // of servo, push and adapter, as states told them
   std::vector<ClearanceClaim> claims;      // of lianad, as its states told them
   std::vector<ReportedStep> announced;     // stands in for the steps of a mission runner that left no report
   std::optional<double> operator_rate_hz;  // samples of the operator's device in the slowest second
@@ -50,6 +53,7 @@ struct ReportSources {
   const Json* last_state = nullptr;        // of lianad
   std::optional<config::ScenePose> rod;    // as the scene has it; none: it has none
   bool has_slit = false;                   // the scene has one; else its boxes are called boxes
+  double payload_length_m = 0.0;           // of the scene's payload; 0: it has none
   BodyAt body_at;                          // empty: no body is named
   Criteria criteria;                       // that a success has to keep, too
 };

@@ -58,6 +58,14 @@ void add_serial_figures(Json& report, const TruthLog& truth, const Rows& rows) {
   report["max_joint_torque_Nm"] = largest_Nm;
 }
 
+// Of a serial arm, since the row before.
+double fastest_joint_deg_s(const TruthLog& truth, std::size_t row, double period_s) {
+  const std::vector<double> now = truth.angles_deg("joint_deg_", row), before = truth.angles_deg("joint_deg_", row - 1);
+  double fastest = 0.0;
+  for (std::size_t i = 0; i < now.size(); ++i) fastest = std::fmax(fastest, std::fabs(now[i] - before[i]) / period_s);
+  return fastest;
+}
+
 std::string in_words(const char* what, const char* relation, double value, double limit, const char* unit) {
   char text[160];
   std::snprintf(text, sizeof text, "%s was %.4g %s, %s %.4g", what, value, unit, relation, limit);
@@ -138,6 +146,9 @@ std::string judge(Json& report, const Criteria& criteria) {
       first = in_words(what, least ? "below" : "above", value.get<double>(), limit, unit) + " (" + name + ")";
   };
   report["criteria"] = Json::array();
+  if (report.contains("truly_captured"))
+    hold("truly_captured", "the pins were told to be captured and truly captured", "(0: no, 1: yes)",
+         report["truly_captured"].get<bool>() ? 1.0 : 0.0, 1.0, true);
   if (criteria.least_motor_tension_N && report.contains("cable_tension_N"))
     hold("tension_at_motor", "the least tension at a motor", "N", report["cable_tension_N"]["min_motor"],
          *criteria.least_motor_tension_N, true);
@@ -151,10 +162,12 @@ std::string judge(Json& report, const Criteria& criteria) {
 }
 
 void add_aftermath(Json& report, const TruthLog& truth, std::size_t failed, double period_s) {
-  if (!truth.has("fastest_deg_s")) return;
+  const bool is_told = truth.has("fastest_deg_s");
+  if (!is_told && (!truth.has("joint_deg_1") || period_s <= 0.0)) return;
   std::size_t moved = failed;
-  for (std::size_t row = failed; row < truth.row_count(); ++row) {
-    if (truth.at(row, "fastest_deg_s") > kRest_deg_s) moved = row;
+  for (std::size_t row = std::max<std::size_t>(failed, 1); row < truth.row_count(); ++row) {
+    const double fastest_deg_s = is_told ? truth.at(row, "fastest_deg_s") : fastest_joint_deg_s(truth, row, period_s);
+    if (fastest_deg_s > kRest_deg_s) moved = row;
   }
   report["after_failure_s"] = static_cast<double>(moved - failed) * period_s;
   report["ends_at_rest"] = moved + 1 < truth.row_count();

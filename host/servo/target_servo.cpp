@@ -7,6 +7,8 @@ namespace liana::servo {
 
 namespace {
 
+constexpr double kSwingShare =
+    2.0;  // of the tolerance: what a base may still swing by, the noise of the estimate with it
 constexpr double kPassed_s = 1e-9;  // times are sums of intervals
 
 const char* trouble_of(ImageUse use) {
@@ -66,12 +68,13 @@ void TargetServo::see(const std::string& target, double capture_s, const Pose& t
 
 void TargetServo::begin(const ServoRequest& request, const Pose& tip_command) {
   request_ = request;
-  track_ = TargetTrack(request.tau_s);
+  track_ = TargetTrack(request.tau_s, request.swing_s);
   approach_ = Approach(request.limits);
   approach_.begin(tip_command);
   report_ = {};
   report_.phase = ServoPhase::kApproaching;
   report_.target = request.target;
+  report_.place = request.tip_in_target;
   begun_s_ = last_seen_s_ = now_s_;
   saw_ = false;
   trouble_.clear();
@@ -83,7 +86,9 @@ std::optional<Pose> TargetServo::next(const Pose& tip_command) {
   if (!is_under_way()) return std::nullopt;
   if (!track_.is_settled()) return approach_.brake(interval_s_);
   const Pose& target = track_.target_in_base();
-  return approach_.next(target, compose(target, request_.tip_in_target), tip_measured_, tip_command, interval_s_);
+  Pose goal = compose(target, request_.tip_in_target);
+  goal.position_m = add(goal.position_m, scale(track_.calming_m(now_s_ + kTipLag_s), request_.calming));
+  return approach_.next(target, goal, tip_measured_, tip_command, interval_s_);
 }
 
 // The phase, and what is reported.
@@ -96,6 +101,7 @@ void TargetServo::look() {
   if (track_.is_settled()) {
     const Pose& target = track_.target_in_base();
     report_.error = error_between(target, compose(target, request_.tip_in_target), tip_measured_);
+    report_.swing_m = track_.swing_m();
   }
   if (now_s_ - last_seen_s_ > request_.lost_s + kPassed_s) {
     const std::string why = trouble_.empty() ? "it is not seen" : trouble_;
@@ -115,7 +121,7 @@ void TargetServo::look() {
 }
 
 bool TargetServo::is_within() const {
-  if (!report_.error) return false;
+  if (!report_.error || report_.swing_m > kSwingShare * request_.tolerance_m) return false;
   for (std::size_t i = 0; i < 3; ++i) {
     if (std::fabs(report_.error->m[i]) > request_.tolerance_m) return false;
     if (std::fabs(report_.error->rad[i]) > request_.tolerance_rad) return false;

@@ -3,6 +3,7 @@
 // interval; who verifies and releases them is no business of this.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -22,8 +23,10 @@ struct ServoRequest {
   double tolerance_rad = 0.00698;
   double dwell_s = 1.0;  // so long within it
   double timeout_s = 120.0;
-  double lost_s = 1.0;  // without a usable image
-  double tau_s = 4.0;   // of the low-pass on images
+  double lost_s = 1.0;                    // without a usable image
+  double tau_s = 4.0;                     // of the low-pass on images
+  std::array<double, kSwings> swing_s{};  // periods with which the arm's base swings; the first 0: it stands still
+  double calming = 1.0;  // share of the slow swing by which the tip moves against it; 0: it is left as it is
   ApproachLimits limits{};
 };
 
@@ -36,12 +39,17 @@ const char* servo_phase_name(ServoPhase phase);
 struct ServoReport {
   ServoPhase phase = ServoPhase::kStandby;
   std::string target;
+  std::optional<Pose> place;       // where the tip should be, in the target's frame; nothing before the first
   std::optional<PoseError> error;  // left to go by the low-passed images; nothing before enough of them agree
+  double swing_m = 0.0;            // how far the target swings in the arm's base
   std::int64_t images_used = 0;
   std::int64_t images_rejected = 0;
   double duration_s = 0.0;  // from its begin to now, or to its end
   std::string reason;       // why it ended without success
 };
+
+// So much later than it is asked for the tip moves: the core's filter, and the approach's own gain. Assumed.
+constexpr double kTipLag_s = 2.0;
 
 class TargetServo {
  public:

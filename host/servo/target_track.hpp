@@ -1,13 +1,15 @@
 // Where a target is in the arm's base, from images of it one after another: each image is carried to now by the
 // measured motion of the tip since its exposure, which puts it into the base, where a target at rest stands still;
-// there it is low-passed. Errors of the arm's geometry drop out of what is left to go, since target and tip are
-// measured alike.
+// there it is low-passed; where the base swings, mean and swing are told apart. Errors of the arm's geometry drop out
+// of what is left to go, since target and tip are measured alike.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
 #include "firmware_like/math/pose.hpp"
+#include "host/servo/swing_filter.hpp"
 
 namespace liana::servo {
 
@@ -17,6 +19,8 @@ constexpr double kOutlier_m = 0.03;
 constexpr double kOutlier_rad = 0.0524;
 // So many images have to agree before anything moves.
 constexpr std::int64_t kAgreed = 5;
+// Where the base swings, so well has the middle to be known before anything moves.
+constexpr double kKnownMean_m = 0.0015;
 // The same picture again, while the tip has moved so far, is no new one.
 constexpr double kFrozen_m = 0.001;
 
@@ -33,15 +37,21 @@ class TargetTrack {
  public:
   // `tau_s`: time constant of the low-pass. Its gain is the greater of 1/n, n images used, and 1/(f tau), with 1/f the
   // time since the image before.
-  explicit TargetTrack(double tau_s = 4.0) : tau_s_(tau_s) {}
+  // `swing_s`: periods with which the base swings, roughly; the first 0: it does not. Where it does, positions are the
+  // swing filter's matter.
+  explicit TargetTrack(double tau_s = 4.0, const std::array<double, kSwings>& swing_s = {});
 
   // An image exposed at `capture_s` of `target_in_tip`; `tip_in_base`: measured at the exposure, nothing: not known.
   ImageUse see(double capture_s, const Pose& target_in_tip, const std::optional<Pose>& tip_in_base);
 
-  // Enough images agree.
-  bool is_settled() const { return agreed_ >= kAgreed; }
-  // Low-passed; meaningful once an image was used.
+  // Enough images agree, and it is known where the middle of a swing is.
+  bool is_settled() const { return agreed_ >= kAgreed && (!swing_ || swing_->mean_deviation_m() < kKnownMean_m); }
+  // Low-passed, or the mean where the base swings; meaningful once an image was used.
   const Pose& target_in_base() const { return target_in_base_; }
+  // Its swing about the mean, 0 where the base does not.
+  double swing_m() const { return swing_ ? swing_->amplitude_m() : 0.0; }
+  // How far from its place the tip has to be at `time_s`, so that the arm's mass calms the base's swing.
+  Vec3 calming_m(double time_s) const { return swing_ ? swing_->calming_m(time_s) : Vec3{}; }
   std::int64_t used() const { return used_; }
   std::int64_t rejected() const { return rejected_; }
 
@@ -49,8 +59,11 @@ class TargetTrack {
   ImageUse judge(double capture_s, const Pose& target_in_tip, const std::optional<Pose>& tip_in_base);
   bool is_frozen(const Pose& target_in_tip, const Pose& tip_in_base);
   ImageUse take(double capture_s, const Pose& seen_in_base);
+  void begin_with(double capture_s, const Pose& seen_in_base);
+  void average(double capture_s, const Pose& seen_in_base, const Vec3& off_m, const Vec3& off_rad);
 
   double tau_s_;
+  std::optional<SwingFilter> swing_;
   Pose target_in_base_{};
   double last_capture_s_ = -1e18;  // of any image
   double last_used_s_ = 0.0;       // of one that was used

@@ -9,6 +9,7 @@
 #include "host/config/field.hpp"
 #include "host/config/sha256.hpp"
 #include "host/system/errors.hpp"
+#include "host/system/mission_goals.hpp"
 #include "host/system/output.hpp"
 #include "host/system/plan_file.hpp"
 #include "host/system/tables.hpp"
@@ -19,12 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kAtStart_deg = 1.0;  // as lua/liana/plan_step.lua
-
-std::string where_of(const Json& mission, std::size_t i) {
-  const Json& step = mission.at("steps")[i];
-  return step.value("at", "") + "mission " + mission.value("name", "") + ": step " + std::to_string(i + 1) + " \"" +
-         step.value("name", "") + "\"";
-}
 
 std::vector<double> angles(const Json& list) { return list.get<std::vector<double>>(); }
 
@@ -42,8 +37,11 @@ void check_goal(const Json& mission, std::size_t i, const config::RobotConfig& r
   const std::string inside = goal_deg.empty() ? "" : inside_body(robot, scene, goal_deg);
   if (inside.empty()) return;
   const std::string pose = step.value("goal_pose", "");
-  throw BadInput(where_of(mission, i) + ": " + (pose.empty() ? "at the end of its plan" : "at pose " + pose) + " " +
-                 inside + " (scene " + scene.name + "): go to another pose, or run in another --scene");
+  const std::string place = !pose.empty()           ? "at pose " + pose
+                            : step.contains("plan") ? "at the end of its plan"
+                                                    : "at its goal";
+  throw BadInput(step_where(mission, i) + ": " + place + " " + inside + " (scene " + scene.name +
+                 "): go to another pose, or run in another --scene");
 }
 
 // Where the file of a step's plan lies.
@@ -61,7 +59,7 @@ void check_plan(const Json& mission, std::size_t i, const config::RobotConfig& r
   try {
     check_plan_file(plan_path(mission, name), robot, scene);
   } catch (const BadInput& problem) {
-    throw BadInput(where_of(mission, i) + ": plan: " + problem.what());
+    throw BadInput(step_where(mission, i) + ": plan: " + problem.what());
   }
 }
 
@@ -76,7 +74,7 @@ void check_start(const Json& mission, const StartPose& start) {
     char text[120];
     std::snprintf(text, sizeof text, ": the plan begins with theta %zu at %g deg, the arm at start pose ", k + 1,
                   begin_deg[k]);
-    throw BadInput(where_of(mission, 0) + text + start.text + " with " + Json(start.angles_deg[k]).dump() +
+    throw BadInput(step_where(mission, 0) + text + start.text + " with " + Json(start.angles_deg[k]).dump() +
                    ": allowed within 1 deg: begin there (--start-pose=" + given + "), or go there in a step before");
   }
 }
@@ -109,7 +107,7 @@ void check_scene_parts(const Json& mission, const config::SceneConfig& scene) {
     for (const Json& part : mission.at("steps")[i].at("parts")) {
       const std::string name = part.value("part", "");
       if (name == "rod" ? scene.rod.has_value() : scene.slit.has_value()) continue;
-      throw BadInput(where_of(mission, i) + ": " + part.value("field", "") + ": looks at a " + name + ": scene " +
+      throw BadInput(step_where(mission, i) + ": " + part.value("field", "") + ": looks at a " + name + ": scene " +
                      scene.name + " has none: run in another --scene, or correct the condition");
     }
     check_fixtures(mission, i, scene);

@@ -10,9 +10,9 @@ namespace liana::system {
 
 struct RunOptions {
   std::string mission;        // empty: none (liana latency, liana console)
-  std::string robot;          // empty: that of the plan, zhu2022 for a mission
-  std::string scene;          // empty: that of the plan; for a mission panel_slit, for a serial arm none
-  std::string bus;            // empty: as buses_of (tables.hpp) has it
+  std::string robot;          // empty: that of the plan or the mission, else zhu2022
+  std::string scene;          // empty: that of the plan or the mission, else panel_slit, for a serial arm none
+  std::string bus;            // empty: that of the mission with its own robot, else as buses_of (tables.hpp) has it
   std::string time;           // empty: fast, or real on SocketCAN
   bool simulated_arm = true;  // false: real drives are on the buses, there is no bench
   std::string physics = "nominal";
@@ -24,6 +24,7 @@ struct RunOptions {
                              // simulated one does
   std::string cross_wired;   // empty, or two drives whose cables are exchanged, e.g. 3,4
   std::string faults;        // empty, or the bench's fault list: a file (docs/hil.md)
+  std::string fault;         // empty, or the name of a fault list of the mission's own (mission_faults.hpp)
   std::string scene_offset;  // empty, or MM,DEG: the simulated scene is so far from where the table has it
   double gravity_share = 0.0;  // what counterweights leave of the simulated arm's weight, 0 to 1
   double linkage_error = 0.0;  // share by which the simulated joints of a segment bend unevenly at most, 0 to 0.5

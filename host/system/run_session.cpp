@@ -227,6 +227,7 @@ void RunSession::keep(const Json& state) {
   watch_.heard();
   progress_.show(state);
   states_.push_back({state.value("tick", std::uint64_t{0}), pose_of(state.value("setpoint_cp", Json()))});
+  report::keep_stage(stages_, state);
   const Json clearance = state.value("clearance", Json());
   if (clearance.is_object() && states_.back().tick > 0)  // of the angles at the tick before
     claims_.push_back({states_.back().tick - 1, clearance.value("distance_m", 0.0)});

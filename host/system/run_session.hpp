@@ -34,6 +34,7 @@ class RunSession {
   RunEnd run();
 
   const std::vector<report::StateSample>& states() const { return states_; }
+  const std::vector<report::Stage>& stages() const { return stages_; }
   const std::vector<report::ClearanceClaim>& claims() const { return claims_; }
   // Of the operators' devices.
   const SampleWatch& samples() const { return samples_; }
@@ -72,6 +73,7 @@ class RunSession {
   Json welcome_;
   Json last_state_;
   std::vector<report::StateSample> states_;
+  std::vector<report::Stage> stages_;
   std::vector<report::ClearanceClaim> claims_;
   std::vector<report::ReportedStep> announced_;
   SampleWatch samples_;

@@ -21,6 +21,8 @@
 #include "host/config/serial_robot.hpp"
 #include "host/places/places.hpp"
 #include "host/system/errors.hpp"
+#include "host/system/mission_faults.hpp"
+#include "host/system/mission_goals.hpp"
 #include "host/system/mission_steps.hpp"
 #include "host/system/output.hpp"
 #include "host/system/plan_file.hpp"
@@ -195,23 +197,34 @@ ProgramCall mission_call(const SystemLayout& plan, const RunOptions& options) {
            "--report", plan.file("mission.json"), "--lockstep", "--progress"}};
 }
 
+bool is_plan(const RunOptions& options) { return options.mission.ends_with(".json"); }
+
 // The table that a plan was made with, called by its own name; empty when the mission is no plan.
-std::optional<TableText> table_of_plan(const std::string& mission, const std::string& kind) {
-  if (!mission.ends_with(".json")) return std::nullopt;
-  const Json table = tables_of_plan(mission).member_or_null(kind);
+std::optional<TableText> table_of_plan(const RunOptions& options, const std::string& kind) {
+  if (!is_plan(options)) return std::nullopt;
+  const Json table = tables_of_plan(options.mission).member_or_null(kind);
   return TableText{table.value("name", kind), table.dump()};
+}
+
+// Fills in what a mission says it runs with: what is given goes before, and its bus belongs to its robot.
+void take_tables_of_mission(RunOptions& options) {
+  if (options.mission.empty() || is_plan(options)) return;
+  const MissionTables own = tables_of_mission(options.mission);
+  if (options.robot.empty()) options.robot = own.robot;
+  if (options.scene.empty()) options.scene = own.scene;
+  if (options.bus.empty() && options.robot == own.robot) options.bus = own.bus;
 }
 
 // What a run takes that is not told more: the robot and the scene of its plan, else those of the slit crossing.
 TableText robot_of(const RunOptions& options) {
   if (!options.robot.empty()) return {options.robot, evaluate_table("robot", options.robot)};
-  if (const auto planned = table_of_plan(options.mission, "robot")) return *planned;
+  if (const auto planned = table_of_plan(options, "robot")) return *planned;
   return {kDefaultRobot, evaluate_table("robot", kDefaultRobot)};
 }
 
 TableText scene_of(const RunOptions& options, bool is_serial) {
   if (options.scene.empty() && !is_serial) {
-    if (const auto planned = table_of_plan(options.mission, "scene")) return *planned;
+    if (const auto planned = table_of_plan(options, "scene")) return *planned;
   }
   const std::string name = !options.scene.empty() ? options.scene : is_serial ? "none" : "panel_slit";
   return {name, evaluate_table("scene", name)};
@@ -230,10 +243,11 @@ Json mission_checked_with(const std::string& robot, const std::string& mission) 
   }
 }
 
+void note(const std::string& text) { std::fprintf(stderr, "note: %s\n", text.c_str()); }
+
 void look_at_mission(const Json& mission, const config::SceneConfig& scene) {
   check_scene_parts(mission, scene);
-  for (const Json& note : mission.value("notes", Json::array()))
-    std::fprintf(stderr, "note: %s\n", note.text().c_str());
+  for (const Json& each : mission.value("notes", Json::array())) note(each.text());
 }
 
 // The start pose, too, is looked at: a robot that begins inside a body fails much later, and for no visible reason.
@@ -244,12 +258,14 @@ std::string check_options_of_cable_robot(const RunOptions& options, const std::s
     checked([&] { return calibration::load_calibration(options.calibration, robot, calibration::today_utc()); });
   if (!options.in_pose.empty()) check_in_pose(robot, options.in_pose);
   check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
-  const bool is_plan = options.mission.ends_with(".json");
-  if (is_plan) check_plan_file(options.mission, robot, plan.scene);
-  const StartPose start =
-      start_pose_of(robot, is_plan && options.start_pose.empty() ? start_of_plan(options.mission) : options.start_pose);
+  if (is_plan(options)) check_plan_file(options.mission, robot, plan.scene);
+  const StartPose start = start_pose_of(
+      robot, is_plan(options) && options.start_pose.empty() ? start_of_plan(options.mission) : options.start_pose);
   if (options.simulated_arm) check_start_is_free(robot, plan.scene, start);
-  if (plan.mission.is_object()) check_steps(plan.mission, robot, plan.scene, options.simulated_arm ? &start : nullptr);
+  if (plan.mission.is_object()) {
+    check_steps(plan.mission, robot, plan.scene, options.simulated_arm ? &start : nullptr);
+    for (const std::string& text : look_at_tip_goals(plan.mission, robot, start.angles_deg)) note(text);
+  }
   return options.simulated_arm ? start.text : "";
 }
 
@@ -267,8 +283,14 @@ std::string check_options_of_serial_robot(const RunOptions& options, const std::
   refuse("--fixtures", !options.people.fixtures.empty(), "no hand steers it yet; leave it out");
   refuse("--linkage-error", options.linkage_error != 0.0, "it has no linkage; leave it out");
   refuse("--physics", options.physics != "nominal", "its bench knows nominal only; leave it out");
-  refuse("mission", options.mission.ends_with(".json"), "plans are for cable arms; give a mission");
+  refuse("mission", is_plan(options), "plans are for cable arms; give a mission");
   return start_pose_of(robot, options.start_pose).text;
+}
+
+void look_at_goals_of_serial_robot(const Json& mission, const RunOptions& options, const std::string& text) {
+  const auto robot = checked([&] { return config::parse_serial_robot(text, options.robot); });
+  const StartPose start = start_pose_of(robot, options.start_pose);
+  for (const std::string& each : look_at_tip_goals(mission, robot, start.angles_deg)) note(each);
 }
 
 void write_tables(const SystemLayout& plan, const std::string& robot, const std::string& scene,
@@ -300,6 +322,7 @@ SystemLayout make_layout(const RunOptions& given) {
   RunOptions options = given;
   SystemLayout plan;
   operator_words(options.people);  // refused before anything is made
+  take_tables_of_mission(options);
   const TableText robot = robot_of(options);
   options.robot = robot.name;
   plan.robot = robot.name;
@@ -316,8 +339,12 @@ SystemLayout make_layout(const RunOptions& given) {
   if (has_mission && !plan.is_serial) plan.mission = mission_checked_with(robot.json, options.mission);
   options.start_pose = plan.is_serial ? check_options_of_serial_robot(options, robot.json, plan.buses)
                                       : check_options_of_cable_robot(options, robot.json, plan);
-  if (has_mission && plan.is_serial) plan.mission = mission_checked_with(robot.json, options.mission);
+  if (has_mission && plan.is_serial) {
+    plan.mission = mission_checked_with(robot.json, options.mission);
+    look_at_goals_of_serial_robot(plan.mission, options, robot.json);
+  }
   if (plan.mission.is_object()) look_at_mission(plan.mission, plan.scene);
+  if (!options.fault.empty()) options.faults = fault_file(plan.mission, options.fault);
   if (options.is_dry_run) check_virtual(plan.buses);
   check_interfaces(plan.buses);
   plan.time_mode = time_mode_of(options, plan.buses);

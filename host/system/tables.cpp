@@ -62,6 +62,12 @@ Json check_mission(const std::string& name, const std::string& robot) {
   return Json::parse(evaluate({"--robot=" + robot, "--", "mission", name}));
 }
 
+MissionTables tables_of_mission(const std::string& name) {
+  refuse_directory("mission", name);
+  const Json said = Json::parse(evaluate({"--", "mission_tables", name}));
+  return {said.value("robot", ""), said.value("scene", ""), said.value("bus", "")};
+}
+
 config::SceneConfig scene_of(const std::string& name) {
   const std::string scene = evaluate_table("scene", name);
   return checked([&] { return config::parse_scene(scene, name); });

@@ -20,6 +20,12 @@ std::string evaluate_table(const std::string& kind, const std::string& name);
 // (lua/liana/check.lua); throws BadInput with the evaluator's one message.
 Json check_mission(const std::string& name, const std::string& robot);
 
+// The tables that a mission script says it runs with; empty: it says none. Throws as check_mission does.
+struct MissionTables {
+  std::string robot, scene, bus;
+};
+MissionTables tables_of_mission(const std::string& name);
+
 // Runs a loader of host/config and turns its refusal into BadInput.
 template <typename Loader>
 auto checked(const Loader& loader) {

@@ -14,6 +14,18 @@ function actions.move_to(name, rate_deg_s)
     { action = "move_to", pose = name, command = "move_jp", fields = fields, at = position(1) })
 end
 
+-- Joint motion to angles; fields of `move_jp` (docs/api.md): { goal_deg = { 0, 5, ... }, rate_deg_s = 1 }.
+function actions.move_jp(fields)
+  need("move_jp", "fields", fields, "table")
+  return uses.noted(function(arm) arm.move_jp(fields) end, { action = "move_jp", command = "move_jp", fields = fields, at = position(1) })
+end
+
+-- The tip along a straight line to a pose in the base frame; fields of `move_cp` (docs/api.md): { goal = { x, y, z, qw, qx, qy, qz } }.
+function actions.move_cp(fields)
+  need("move_cp", "fields", fields, "table")
+  return uses.noted(function(arm) arm.move_cp(fields) end, { action = "move_cp", command = "move_cp", fields = fields, at = position(1) })
+end
+
 -- Steers nodes by null-space targets { { node = 3, position_m = {x, y, z}, weight = 1, threshold_m = 0.01 }, ... } and pushes
 -- the arm's middle away from points { { centre_m = {x, y, z}, distance_m = 0.3, weight = 1 }, ... } (optional). With `search` the best of
 -- all shapes is looked for and gone to first; the arm has to be at rest.

@@ -1,5 +1,6 @@
 -- Checks a mission against the robot that shall do it, before anything moves.
 local check = require "liana.check"
+local goals = require "liana.goals"
 local plan_step = require "liana.plan_step"
 local refuse = require "liana.refuse"
 local uses = require "liana.uses"
@@ -51,7 +52,27 @@ local function holds_fit(where, hold, robot)
     "hold fewer, or turn the angles with move_jp")
 end
 
-local function step_suits(where, step, robot, refusal_of)
+-- The list `hold` of move_cp, which holds in place of what the step does.
+local function held_on_the_way_fit(where, list, robot)
+  local hold = {}
+  for _, held in ipairs(list) do
+    if hold[held.theta] then refuse(where, "hold", "theta " .. held.theta .. " twice", "every angle once", "leave one out") end
+    hold[held.theta] = held.target_deg
+  end
+  holds_fit(where, hold, robot)
+end
+
+-- What a function of the script's own asks for without looking at the arm is looked at like an action's.
+local function goal_suits(where, step, robot, refusal_of, attempt)
+  step.goal = goals.of(step.run, robot, attempt)
+  if step.goal == nil then return end
+  where = at_call(where, step.goal.at, step.at)
+  where = ("%s: run: %s"):format(where, step.goal.action)
+  if not uses.of(step.run).command then accepted(where, robot, refusal_of, step.goal.command, step.goal.fields) end
+  if step.goal.fields.hold then held_on_the_way_fit(where, step.goal.fields.hold, robot) end
+end
+
+local function step_suits(where, step, robot, refusal_of, attempt)
   for theta, target_deg in pairs(step.hold) do
     local held = { { theta = theta, target_deg = target_deg } }
     accepted(("%s: hold[%s]"):format(where, theta), robot, refusal_of, "hold_theta", { held = held })
@@ -61,16 +82,17 @@ local function step_suits(where, step, robot, refusal_of)
     accepted(where .. ": steer", robot, refusal_of, "use_device", check.use_of(step))
   end
   action_suits(where, "run", step.run, step.at, robot, refusal_of)
+  if step.plan == nil then goal_suits(where, step, robot, refusal_of, attempt) end
   for _, field in ipairs { "enter", "fail_when", "exit" } do condition_suits(where, field, step[field], step.at, robot) end
   for _, way in ipairs(step.ways) do
     if way.when then condition_suits(where, "next", way.when, step.at, robot) end
   end
 end
 
--- Where a step leaves the arm, as far as that is known before: a named pose, or the end of a plan.
+-- Where a step leaves the arm, as far as that is known before: the angles of an action, or the end of a plan.
 local function end_of(step, robot)
-  local pose = uses.of(step.run).pose
-  return step.goal_deg or pose and robot.named_poses_deg[pose]
+  local use = uses.of(step.run)
+  return step.goal_deg or use.pose and robot.named_poses_deg[use.pose] or use.command == "move_jp" and use.fields.goal_deg or nil
 end
 
 -- A plan begins where the steps before it end.
@@ -89,12 +111,14 @@ local function leads_to_plans(mission, i, robot)
 end
 
 -- Refuses what this robot (docs/formats.md) cannot do: angles and nodes it does not have, targets beyond its limits, poses
--- it does not know. refusal_of(command, fields) says what lianad would refuse, or nothing.
-return function(mission, robot, refusal_of)
+-- it does not know. refusal_of(command, fields) says what lianad would refuse, or nothing. With `attempt`
+-- (pcall with a budget of its own) functions of steps are called once to find the goals that they ask for, in a script that runs
+-- nothing afterwards. `goal` of a step is what is found.
+return function(mission, robot, refusal_of, attempt)
   check.require_mission(mission)
   local called = "mission " .. mission.name
   for i, step in ipairs(mission.steps) do
-    step_suits(check.step_where(mission, i), step, robot, refusal_of)
+    step_suits(check.step_where(mission, i), step, robot, refusal_of, attempt)
   end
   for i in ipairs(mission.steps) do leads_to_plans(mission, i, robot) end
   action_suits(mission.at .. called, "finish", mission.finish, mission.at, robot, refusal_of)

@@ -168,22 +168,35 @@ function check.use_of(step)
   return fields
 end
 
--- A checked mission { name, steps, finish, at }; raises a message on the first fault. `at`: where it stands in the script.
+local function is_name(v) return type(v) == "string" and v:find("^[%w_-]+$") ~= nil end
+
+local table_rule = { allowed = "the name of a table: letters, digits, _ and -", ok = is_name }
+
+-- What a mission says beside its steps: what is done at the end, and the tables that it runs with where nobody names others.
+local kMission = { finish = action_rule, robot = table_rule, scene = table_rule, bus = table_rule }
+
+local function check_mission_field(where, fields, key)
+  local rule, value = kMission[key], fields[key]
+  if not rule then refuse(where, tostring(key), value, "no such field, but bus, finish, robot, scene", "remove it or correct its spelling") end
+  if not rule.ok(value) then refuse(where, key, value, rule.allowed, "correct the field") end
+  if key == "bus" and fields.robot == nil then
+    refuse(where, "bus", value, "only beside robot, whose drives are on it", "name the robot or remove bus")
+  end
+end
+
+-- A checked mission { name, steps, finish, at, tables }; raises a message on the first fault. `at`: where it stands in the script.
 function check.mission(name, fields, at)
   local called = "mission " .. tostring(name)
   local where = at .. called
-  if type(name) ~= "string" or not name:find("^[%w_-]+$") then
+  if not is_name(name) then
     refuse(at .. "mission", "name", name, "letters, digits, _ and -", "choose another name")
   end
   if type(fields) ~= "table" then refuse(where, "steps", fields, "a table of steps", "write mission \"name\" { step ... }") end
   local mission = { is_mission = true, name = name, at = at, steps = {}, finish = fields.finish or function() end }
-  for key, value in pairs(fields) do
-    if key == "finish" then
-      if type(value) ~= "function" then refuse(where, "finish", value, action_rule.allowed, "correct the field") end
-    elseif math.type(key) ~= "integer" then
-      refuse(where, tostring(key), value, "no such field", "remove it or correct its spelling")
-    end
+  for key in pairs(fields) do
+    if math.type(key) ~= "integer" then check_mission_field(where, fields, key) end
   end
+  mission.tables = { robot = fields.robot, scene = fields.scene, bus = fields.bus }
   for i, step in ipairs(fields) do
     check_step(called .. ": step " .. i, step)
     mission.steps[i] = filled_in(step)
@@ -224,6 +237,13 @@ local function described_parts(step)
   return out
 end
 
+-- A list of { theta, target_deg } as commands have it, of what a step holds.
+local function held_list(hold)
+  local held = {}
+  for theta, target_deg in pairs(hold) do held[#held + 1] = { theta = theta, target_deg = target_deg } end
+  return held
+end
+
 -- What is allowed, and may yet not be what was meant.
 local function notes_of(mission)
   local notes, first = {}, {}
@@ -238,16 +258,24 @@ local function notes_of(mission)
   return notes
 end
 
+-- The tables that a mission says it runs with: robot, scene, bus, each where it says one.
+function check.tables(mission)
+  check.require_mission(mission)
+  return { format = 1, kind = "mission_tables", robot = mission.tables.robot, scene = mission.tables.scene, bus = mission.tables.bus }
+end
+
 -- Plain data about a mission, for `liana-mission eval mission`.
 function check.describe(mission)
   check.require_mission(mission)
   local steps = {}
   for i, step in ipairs(mission.steps) do
+    local goal = step.goal or { fields = {} } -- as liana.against has found it
     steps[i] = {
       name = step.name, device = step.device, held_theta = sorted_held(step.hold), time_limit_s = step.time_limit_s,
       on_fail = step.on_fail, confirm = step.confirm, task = step.task, at = step.at, enter = step.enter.text, exit = step.exit.text,
       fail_when = step.fail_when.text, next = described_ways(step), plan = step.plan, start_deg = step.start_deg,
-      goal_deg = step.goal_deg, goal_pose = uses.of(step.run).pose, parts = described_parts(step),
+      goal_deg = step.goal_deg or goal.fields.goal_deg, goal_pose = uses.of(step.run).pose, goal_tip = goal.fields.goal,
+      goal_hold = goal.fields.hold or held_list(step.hold), goal_at = goal.at, parts = described_parts(step),
       fixtures = type(step.fixtures) == "table" and #step.fixtures > 0 and step.fixtures or nil,
     }
   end

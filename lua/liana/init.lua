@@ -27,7 +27,8 @@ function liana.step(name)
   end
 end
 
--- A mission: a name, then its steps in order, and what to do at the end. Refuses anything it does not know.
+-- A mission: a name, then its steps in order, what to do at the end (`finish`), and the tables that it runs with where nobody names others
+-- (`robot`, `scene`, `bus`). Refuses anything it does not know.
 function liana.mission(name)
   local at = position(1)
   return function(fields) return check.mission(name, fields, at) end

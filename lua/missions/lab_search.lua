@@ -1,5 +1,5 @@
 -- A search with three_segment_lab: along a planned way to a place, three looks around there, and home, gently where the
--- cables have become taut. `liana run lab_search --robot three_segment_lab --scene lab_box`.
+-- cables have become taut. `liana run lab_search`.
 --
 -- It shows what docs/missions.md tells of: a plan as a step, fail_when, a loop, a branch, a way on after a failure, and a
 -- module beside the mission (lab_search/parts.lua).
@@ -27,6 +27,9 @@ local function home(rate_deg_s, next)
 end
 
 return liana.mission "lab_search" {
+  robot = "three_segment_lab",
+  scene = "lab_box",
+
   liana.step "to where the plan begins" {
     device = "none",
     run = move_to "park",

@@ -1,5 +1,4 @@
--- The first mission of three_segment_lab: to two poses, with the tip straight up and back, and home. `liana run lab_tour --robot three_segment_lab
--- --scene lab_box`.
+-- The first mission of three_segment_lab: to two poses, with the tip straight up and back, and home. `liana run lab_tour`.
 local liana = require "liana"
 local step, all, condition = liana.step, liana.all, liana.condition
 local move_to, at_pose, at_rest = liana.move_to, liana.at_pose, liana.at_rest
@@ -45,6 +44,9 @@ local function tip_step(name, up_m)
 end
 
 return liana.mission "lab_tour" {
+  robot = "three_segment_lab",
+  scene = "lab_box",
+
   pose_step "park",
   pose_step "look",
   tip_step("tip up", kUp_m),

@@ -26,6 +26,8 @@ local arrived = condition("tip beside the prepare pose", function(arm)
 end)
 
 return liana.mission "micro_reach" {
+  robot = "micro",
+
   step "prepare pose" {
     device = "none",
     run = move_to "prepare",

@@ -1,4 +1,4 @@
--- The tip touches a press rod under a stated force, and feels it better after a dither: `liana run rod_touch --scene rod_ahead`.
+-- The tip touches a press rod under a stated force, and feels it better after a dither: `liana run rod_touch`.
 local liana = require "liana"
 local step, all = liana.step, liana.all
 local move_to, at_pose, at_rest, tip_force = liana.move_to, liana.at_pose, liana.at_rest, liana.tip_force
@@ -10,6 +10,8 @@ local kDither = 0.1 -- little: the push has loosened some cables, and 15 N at th
 local kSure_N = 0.25 -- deviation along every axis, after the dither
 
 return liana.mission "rod_touch" {
+  scene = "rod_ahead",
+
   step "prepare pose" {
     device = "none",
     run = move_to "prepare",

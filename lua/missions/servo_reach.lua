@@ -1,4 +1,4 @@
--- The small arm is led by its tip camera to a place before a target: `liana run servo_reach --robot micro --scene target_ahead`.
+-- The small arm is led by its tip camera to a place before a target: `liana run servo_reach`.
 local liana = require "liana"
 local step, all = liana.step, liana.all
 
@@ -6,6 +6,9 @@ local step, all = liana.step, liana.all
 local kBefore = { -0.108, 0, 0, 0.5, 0.5, 0.5, 0.5 } -- source: 108 mm between the faces
 
 return liana.mission "servo_reach" {
+  robot = "micro",
+  scene = "target_ahead",
+
   step "prepare pose" {
     device = "none",
     run = liana.move_to "prepare",

@@ -1,4 +1,4 @@
--- The first mission of tdcr_benchmark, by its joints alone: `liana run tdcr_tour --robot tdcr_benchmark --scene none`.
+-- The first mission of tdcr_benchmark, by its joints alone: `liana run tdcr_tour`.
 local liana = require "liana"
 local step, all = liana.step, liana.all
 
@@ -12,4 +12,11 @@ local function pose_step(name)
   }
 end
 
-return liana.mission "tdcr_tour" { pose_step "hook", pose_step "left", pose_step "right", pose_step "zero" }
+return liana.mission "tdcr_tour" {
+  robot = "tdcr_benchmark",
+  scene = "none",
+  pose_step "hook",
+  pose_step "left",
+  pose_step "right",
+  pose_step "zero",
+}

@@ -58,5 +58,30 @@ TEST(DataSheet, WhatADriveOfAnotherTypeHasNotIsNotInIt) {
       << sheet.substr(sheet.find("[3001]"));
 }
 
+TEST(DataSheet, AnObjectThatADrivesDictionaryCannotChangeIsNamedWithTheDriveType) {
+  const auto refusal = [](const DictionaryConfig& dictionary) -> std::string {
+    DriveSettings settings = shipped();
+    settings.dictionary = dictionary;
+    settings.dictionary.drive_type = "made_up";
+    try {
+      make_objects(settings);
+    } catch (const std::runtime_error& problem) {
+      return problem.what();
+    }
+    return "accepted";
+  };
+  DictionaryConfig absent, twice, wide;
+  absent.absent = {{0x60C6, {}}};
+  twice.added = {{{0x6040, {}}, "u16", false, 0, {}, {}}};
+  wide.added = {{{0x3001, 2}, "u64", false, 0, {}, {}}};
+  EXPECT_EQ(refusal(absent),
+            "drive type made_up: dictionary: 60C6: the bench's drive has no such object; allowed are those it has "
+            "and `added` ones");
+  EXPECT_EQ(refusal(twice),
+            "drive type made_up: dictionary: 6040: the bench's drive has it already; allowed in `values` and "
+            "`read_only`");
+  EXPECT_EQ(refusal(wide), "drive type made_up: dictionary: 3001:2: type u64: allowed u8, i8, u16, i16, u32, i32");
+}
+
 }  // namespace
 }  // namespace liana::bench

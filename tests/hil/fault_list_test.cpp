@@ -60,7 +60,11 @@ TEST(FaultList, IsReadWithDrivesParametersAndConditions) {
 TEST(FaultList, OfAPayloadNamesNoDrive) {
   const auto faults = faults_of(R"([{"kind":"jam","pin":2,"depth_m":0.012,"at_slot":3,"for_slots":9},
                                    {"kind":"base_moved","z_m":-0.003,"slots":25,"at_slot":4},
-                                   {"kind":"capture_early","at_slot":5}])");
+                                   {"kind":"capture_early","at_slot":5},
+                                   {"kind":"lock_fails","when":{"captured":true,"contact_above_N":8,"depth_below_m":-0.1}}])");
+  EXPECT_TRUE(faults[3].when.captured);
+  EXPECT_EQ(faults[3].when.contact_above_N, 8.0);
+  EXPECT_EQ(faults[3].when.depth_below_m, -0.1);
   EXPECT_TRUE(faults[0].drives.empty());
   EXPECT_EQ(faults[0].parameters.pin, 2.0);
   EXPECT_EQ(faults[0].parameters.depth_m, 0.012);
@@ -69,12 +73,16 @@ TEST(FaultList, OfAPayloadNamesNoDrive) {
   EXPECT_EQ(fault_of(faults[2].kind), FaultOf::kPayload);
 }
 
-TEST(FaultList, OfAPayloadIsRefusedByACableArm) {
-  try {
-    run_with(R"([{"kind":"sensor_failed","at_slot":3}])", 5);
-    FAIL() << "accepted";
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("sensor_failed"), std::string::npos);
+TEST(FaultList, OfAPayloadIsRefusedByACableArmAndSoIsOneThatWaitsForContact) {
+  for (const auto& [faults, words] : std::vector<std::pair<std::string, std::string>>{
+           {R"([{"kind":"sensor_failed","at_slot":3}])", "sensor_failed"},
+           {R"([{"drive":3,"kind":"sto","when":{"contact_above_N":3}}])", "when waits for contact or capture"}}) {
+    try {
+      run_with(faults, 5);
+      ADD_FAILURE() << faults << " was accepted";
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
   }
 }
 
@@ -130,6 +138,8 @@ TEST(FaultList, RefusesWhatItDoesNotUnderstandWithFieldAndWhatIsAllowed) {
       {R"({"kind":"push","at_slot":1,"x_N":1,"link":-1})", {"/0/link", "-1"}},
       {R"({"kind":"camera_late","at_slot":1,"seconds":0})", {"/0/seconds", "0"}},
       {R"({"drive":3,"kind":"sto","when":{"depth_above_m":11}})", {"/0/when/depth_above_m", "11"}},
+      {R"({"kind":"lock_fails","when":{"captured":false}})", {"/0/when/captured", "true"}},
+      {R"({"kind":"lock_fails","when":{"contact_above_N":-1}})", {"/0/when/contact_above_N", "-1"}},
       {R"(5)", {"/0"}}};
   for (const Case& test : cases) {
     try {

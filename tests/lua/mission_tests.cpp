@@ -553,6 +553,27 @@ TEST(Mission, TheReportTheTerminalAndLianadAreToldWhichConditionEndedAStep) {
   EXPECT_EQ(Json::parse(run.ops("announce")[1])["step"]["entry"], 2);
 }
 
+// The runner looks at values only: it calls no function of the script before its time.
+TEST(Mission, AFunctionOfAStepIsCalledOnceAndActionsSendWhatTheySay) {
+  const TemporaryFolder folder;
+  const std::string zeros = "{ 0, 0, 0, 0, 0, 0, 0, 0, 0, ";
+  const MissionRun counted = run_mission_against(
+      {}, one_step(folder,
+                   "run = (function() local calls = 0 return function(arm) calls = calls + 1 arm.move_jp { "
+                   "goal_deg = " +
+                       zeros + "calls } } end end)(), exit = liana.at_rest(),"));
+  ASSERT_EQ(counted.ops("move_jp").size(), 1u) << counted.ended.error;
+  EXPECT_EQ(Json::parse(counted.ops("move_jp")[0])["goal_deg"][9], Json(1));
+  const MissionRun said = run_mission_against(
+      {},
+      one_step(folder, "run = liana.move_jp { goal_deg = " + zeros + "2 }, rate_deg_s = 1 }, exit = liana.at_rest(),"));
+  ASSERT_EQ(said.ops("move_jp").size(), 1u) << said.ended.error;
+  EXPECT_EQ(Json::parse(said.ops("move_jp")[0])["rate_deg_s"], Json(1));
+  const MissionRun tip = run_mission_against(
+      {}, one_step(folder, "run = liana.move_cp { goal = { 3, 0, 0, 1, 0, 0, 0 } }, exit = liana.at_rest(),"));
+  EXPECT_EQ(tip.ops("move_cp").size(), 1u) << tip.ended.error;
+}
+
 TEST(Mission, AWrongCommandNamesItsField) {
   const TemporaryFolder folder;
   const MissionRun run = run_mission_against(

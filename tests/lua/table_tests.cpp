@@ -364,6 +364,61 @@ TEST(Eval, RefusesWaysThatLeadNowhereOrForEverByStepAndLine) {
   }
 }
 
+// What is written as a value, or asked for by a function before it looks at the arm, is known before the start.
+TEST(Eval, AGoalThatIsKnownIsLookedAtBeforeTheStartAndAComputedOneInItsTime) {
+  const TemporaryFolder folder;
+  const auto eval = [&](const std::string& run) {
+    return run_program(
+        "eval mission " +
+        folder.write("given.lua",
+                     "local liana = require 'liana'\nreturn liana.mission 'm' {\nliana.step 'a' { device = "
+                     "'none', exit = liana.at_rest(), time_limit_s = 1, on_fail = 'hold', hold = { [9] = 3 "
+                     "},\nrun = " +
+                         run + " } }\n"));
+  };
+  const std::string far = "{ 9, 0, 0, 1, 0, 0, 0 }",
+                    line = "given.lua:4: mission m: step 1 \"a\": run: move_cp: goal[1] = 9";
+  for (const std::string& run :
+       {"liana.move_cp { goal = " + far + " }", "function(arm) arm.move_cp { goal = " + far + " } end",
+        "function(arm) local pose = arm.named_pose 'zero' arm.shape {} arm.move_cp { goal = " + far + " } end"}) {
+    const Ended ended = eval(run);
+    EXPECT_EQ(ended.code, 2) << run;
+    EXPECT_NE(ended.error.find(line), std::string::npos) << run << ": " << ended.error;
+  }
+  for (const auto& [run, message] : std::vector<std::pair<std::string, std::string>>{
+           {"liana.move_jp { goal_deg = { 0, 0, 99, 0, 0, 0, 0, 0, 0, 0 } }", "goal_deg[3] (theta 3) = 99: allowed -"},
+           {"liana.move_jp { goal_deg = { 0, 0/0 } }", "goal_deg[2]: nan: allowed finite numbers"},
+           {"liana.move_cp { goal = { 3, 0, 0, 1, 0, 0 } }", "goal = 6 entries: allowed an array of 7 numbers"},
+           {"liana.move_cp { goal = { 3, 0, 0, 0.5, 0, 0, 0 } }", "the quaternion qw,qx,qy,qz"},
+           {"liana.move_cp { goal = { 3, 0, 0, 1, 0, 0, 0 }, hold = { { theta = 11, target_deg = 0 } } }", "theta"},
+           {"liana.move_cp { goal = { 3, 0, 0, 1, 0, 0, 0 }, hold = { { theta = 1, target_deg = 0 }, { theta = 1, "
+            "target_deg "
+            "= 2 } } }",
+            "run: move_cp: hold: theta 1 twice: allowed every angle once"},
+           {"function(arm) arm.move_cp { goal = { 3, 0, 0, 1, 0, 0, 0 }, hold = { { theta = 1, target_deg = 0 }, { "
+            "theta = "
+            "2, target_deg = 0 }, { theta = 3, target_deg = 0 }, { theta = 4, target_deg = 0 }, { theta = 5, "
+            "target_deg = "
+            "0 } } } end",
+            "run: move_cp: hold: 5 angles: allowed at most 4"},
+           {"liana.move_cp(3)", "move_cp: fields: 3: allowed a table"}}) {
+    EXPECT_NE(eval(run).error.find(message), std::string::npos) << run << ": " << eval(run).error;
+  }
+  for (const std::string& run :
+       {"function(arm) if arm.state.tick > 3 then arm.move_cp { goal = " + far + " } end end",
+        std::string("function(arm) arm.move_cp { goal = later } end"),
+        std::string("function(arm) arm.move_jp { goal_deg = arm.named_pose 'nowhere' } end"),
+        std::string("function(arm) while true do end end"), std::string("function() error 'no' end")}) {
+    const Ended ended = eval(run);
+    EXPECT_EQ(ended.code, 0) << run << ": " << ended.error;
+    EXPECT_FALSE(Json::parse(ended.out)["steps"][0].contains("goal_tip")) << run;
+  }
+  const Json step = Json::parse(eval("liana.move_cp { goal = { 3, 0, 0, 1, 0, 0, 0 } }").out)["steps"][0];
+  EXPECT_EQ(step["goal_tip"], Json::parse("[3,0,0,1,0,0,0]"));
+  EXPECT_EQ(step["goal_hold"], Json::parse(R"([{"theta":9,"target_deg":3}])"));
+  EXPECT_TRUE(step["goal_at"].text().ends_with("given.lua:4: ")) << step["goal_at"].text();
+}
+
 TEST(Eval, RequireFindsWhatLiesBesideTheMissionAndNothingElse) {
   const TemporaryFolder folder, elsewhere;
   std::filesystem::create_directory(folder.file("parts"));
@@ -526,6 +581,33 @@ TEST(Eval, AMissionIsCheckedAgainstTheRobotThatIsNamed) {
       ended.error.find("pose panel_edge: allowed fixture, prepare, press_rod, segment5_in_slit, zero (robot short)"),
       std::string::npos)
       << ended.error;
+}
+
+// req:B1
+TEST(Eval, AMissionSaysTheTablesThatItRunsWithAndIsCheckedAgainstItsOwnRobot) {
+  const TemporaryFolder folder;
+  const auto mission = [&](const std::string& fields) {
+    return folder.write("given.lua", "local liana = require 'liana'\nreturn liana.mission 'm' { " + fields +
+                                         "liana.step 'a' { device = 'none', run = liana.move_to 'install', exit = "
+                                         "liana.at_rest(), time_limit_s = 1, on_fail = 'hold' } }\n");
+  };
+  const std::string own = mission("robot = 'macro_micro', scene = 'none', bus = 'embedded_payload', ");
+  EXPECT_EQ(run_program("eval mission " + own).code, 0);
+  EXPECT_EQ(run_program("eval mission " + own + " --robot zhu2022").code, 2);
+  const Json said = Json::parse(run_program("eval mission_tables " + own).out);
+  EXPECT_EQ(said["robot"], "macro_micro");
+  EXPECT_EQ(said["scene"], "none");
+  EXPECT_EQ(said["bus"], "embedded_payload");
+  EXPECT_FALSE(Json::parse(run_program("eval mission_tables slit_crossing").out).contains("robot"));
+  for (const auto& [fields, message] : std::vector<std::pair<std::string, std::string>>{
+           {"robot = 'no/file', ", "mission m: robot: no/file: allowed the name of a table"},
+           {"scene = 1, ", "mission m: scene: 1: allowed the name of a table"},
+           {"bus = 'embedded', ", "mission m: bus: embedded: allowed only beside robot"},
+           {"robto = 'micro', ", "mission m: robto: micro: allowed no such field, but bus, finish, robot, scene"}}) {
+    const Ended ended = run_program("eval mission " + mission(fields));
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_NE(ended.error.find(message), std::string::npos) << ended.error;
+  }
 }
 
 TEST(Eval, WhatIsForCableArmsOnlyIsRefusedForOthersByName) {

@@ -96,6 +96,32 @@ TEST(PayloadFaults, TheSensorsFaultsComeOverTheWire) {
   EXPECT_TRUE(stand.heard.captured);
 }
 
+// Faults that wait for where the payload is: contact before depth before capture, each in its moment.
+// req:B26
+TEST(PayloadFaults, BeginWhenThePinsTouchAreInAndAreCaptured) {
+  Stand stand(1, R"([{"kind":"sensor_failed","when":{"contact_above_N":8,"for_slots":5},"for_slots":1},
+                     {"kind":"sensor_saturated","when":{"depth_above_m":0.012},"for_slots":1},
+                     {"kind":"lock_fails","when":{"captured":true}},
+                     {"kind":"target_lost","when":{"depth_above_m":-0.3,"depth_below_m":-0.1}}])",
+              false);
+  stand.start();
+  while (stand.now_s() < 14.0 && !stand.heard.captured) {
+    stand.press(30.0);
+    const auto& begun = stand.injector().courses();
+    const double depth_m = stand.plant.site()->plate_in_socket(stand.plant.arm().tip().pose).position_m.z;
+    const bool is_captured = stand.plant.site()->adapter().captured();
+    EXPECT_TRUE(!begun[0].begun || depth_m > -0.003) << depth_m;
+    EXPECT_TRUE(!begun[1].begun || depth_m > 0.0119) << depth_m;
+    EXPECT_TRUE(!begun[2].begun || is_captured);
+  }
+  ASSERT_TRUE(stand.heard.captured);
+  const auto& courses = stand.injector().courses();
+  ASSERT_TRUE(courses[0].begun && courses[1].begun && courses[2].begun);
+  EXPECT_LT(*courses[0].begun, *courses[1].begun);
+  EXPECT_LT(*courses[1].begun, *courses[2].begun);
+  EXPECT_FALSE(courses[3].begun) << "it is nearer than that from the start";
+}
+
 TEST(PayloadFaults, WhatHappensToAPayloadIsRefusedWhereThereIsNone) {
   try {
     Stand stand(1, R"([{"kind":"jam","pin":1,"depth_m":0.01,"at_slot":0}])", false, scene_table("none"));

@@ -66,6 +66,7 @@ class Stand {
   // Sends a frame with the next tick.
   void say(std::uint32_t id, std::vector<std::uint8_t> bytes, std::uint8_t bus);
   double now_s() const { return slot_ * kTick_s; }
+  const bench::FaultInjector& injector() const { return injector_; }
 
   config::SerialRobotConfig robot;
   bench::TorquePlant plant;

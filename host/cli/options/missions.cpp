@@ -10,13 +10,15 @@ void add_mission_options(CLI::App& sub, system::RunOptions& run) {
       ->required();
   sub.add_option(
       "--robot", run.robot,
-      "robot table: a name under lua/robots or a file; where not given that of a plan, zhu2022 for a mission");
-  sub.add_option("--scene", run.scene,
-                 "scene table: a name under lua/scenes or a file; where not given that of a plan, for a mission "
-                 "panel_slit, for a serial arm none");
-  sub.add_option("--bus", run.bus,
-                 "bus table: a name under lua/buses or a file; where not given embedded_ROBOT if there is such a "
-                 "table, else one for the robot's drives on simulated buses");
+      "robot table: a name under lua/robots or a file; where not given that of the plan or the mission, else zhu2022");
+  sub.add_option(
+      "--scene", run.scene,
+      "scene table: a name under lua/scenes or a file; where not given that of the plan or the mission, else "
+      "panel_slit, for a serial arm none");
+  sub.add_option(
+      "--bus", run.bus,
+      "bus table: a name under lua/buses or a file; where not given that of the mission with its own robot, else "
+      "embedded_ROBOT if there is such a table, else one for the robot's drives on simulated buses");
   sub.add_option("--start-pose", run.start_pose,
                  "where the simulated arm begins: a named pose of the robot, or all its angles, t1,t2,... deg; where "
                  "not given the table's start_pose, else prepare or zero");
@@ -26,6 +28,10 @@ void add_mission_options(CLI::App& sub, system::RunOptions& run) {
   sub.add_option("--faults", run.faults,
                  "to try it out: faults of the simulated drives, cables and camera (docs/hil.md)")
       ->check(CLI::ExistingFile);
+  sub.add_option("--fault", run.fault,
+                 "to try it out: a fault that the mission is shipped with, by its name (MISSION/faults/NAME.json "
+                 "beside it)")
+      ->excludes("--faults");
   sub.add_option("--true-physics", run.true_physics,
                  "to try it out: nominal, ideal or worn; the simulated arm's friction, where it is not what lianad is "
                  "told with --physics")

@@ -48,6 +48,18 @@ class MissionSteps(unittest.TestCase):
             kept, own = record / "mission_files" / file, LUA / "missions" / file
             self.assertEqual(kept.read_bytes(), own.read_bytes())
 
+    def test_a_mission_runs_with_its_own_tables_and_with_those_that_are_named_instead(self):
+        report = self.folder / "check.json"
+        code, _, error = liana("check", "lab_tour", "--json", report)
+        self.assertEqual(code, 0, error)
+        self.assertEqual(json.loads(report.read_text())["robot"], "three_segment_lab")
+        code, _, error = liana("check", "lab_tour", "--robot", "tdcr_benchmark")
+        self.assertEqual(code, 2, error)
+        self.assertIn("robot tdcr_benchmark", error)
+        code, _, error = liana("check", "lab_search", "--scene", "none")
+        self.assertEqual(code, 2, error)
+        self.assertIn("was made for another scene, 'lab_box'", error)
+
     def test_a_look_that_is_given_up_goes_home_gently(self):
         mission = self.copy_of_example()
         mission.write_text(mission.read_text().replace("kMostTension_N = 100", "kMostTension_N = 5"))

@@ -1,6 +1,7 @@
 """A run's report beside an expected timeline."""
 import json
 import pathlib
+import re
 import unittest
 
 from liana.timeline import compare, main, step_times, text
@@ -77,6 +78,16 @@ class Timeline(unittest.TestCase):
                 self.assertLess(*event["within_s"])
             known.add(event["event"])
         self.assertIn(timeline["zero"], known)
+
+    # req:B5
+    def test_the_payloads_mission_goes_through_four_phases_in_their_order(self):
+        mission = (ROOT / "lua/missions/payload_install.lua").read_text(encoding="utf-8")
+        phases = [int(digit) for digit in re.findall(r'^  step "(\d) ', mission, re.M)]
+        self.assertEqual(phases, sorted(phases))
+        self.assertEqual(sorted(set(phases)), [1, 2, 3, 4])
+        ways = re.findall(r'step = "(\d) ', mission)
+        self.assertTrue(ways)
+        self.assertEqual(set(ways), {"3"}, "retries stay within the operations of the arms")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,92 @@
+"""The payload's installation as users run it: by its name alone, with faults by theirs, and what its report says."""
+import json
+import tempfile
+import unittest
+from pathlib import Path
+
+from support import SOURCE, SystemTest
+from liana import timeline
+from liana.system import run
+
+FIGURES = (
+    "servo_error_m servo_error_deg settling_s lateral_sway_m force_rise_s force_N load_duration_s peak_joint_torque_Nm "
+    "insertion_m unload_s base_deflection_m"
+).split()
+TIMELINE = SOURCE / "lua" / "missions" / "payload_timeline.json"
+
+
+class Payload(SystemTest):
+    """Flown by liana run, from before the adapter on: seconds of wall time instead of minutes."""
+
+    def flown(self, *words):
+        folder = tempfile.TemporaryDirectory(prefix="liana-payload-")
+        self.addCleanup(folder.cleanup)
+        self.report_file = Path(folder.name) / "report.json"
+        words = ("payload_install", "--scene", "payload_at_adapter", *words, "--json", self.report_file)
+        done = run("liana", "run", *words)
+        return done, json.loads(self.report_file.read_text(encoding="utf-8"))
+
+    def names(self, report):
+        return [event["event"] for event in report["timeline"]]
+
+    # req:B15 req:B21 req:B22 req:B25 req:B27
+    def test_the_payload_is_captured_unloaded_and_locked_and_the_report_says_how(self):
+        done, report = self.flown("--seed", "8002")
+        self.assertEqual((done.returncode, report["outcome"], report["robot"]), (0, "success", "macro_micro"))
+        for figure in FIGURES:
+            self.assertIn(figure, report)
+        self.assertIsNone(report["servo_error_m"], "no servo was needed")
+        self.assertTrue(15 <= report["force_N"] <= 60, report["force_N"])
+        self.assertTrue(0.0195 <= report["insertion_m"] <= 0.023, report["insertion_m"])
+        self.assertLess(report["peak_joint_torque_Nm"], 100)
+        self.assertLess(report["unload_s"], 5)
+        order = [
+            "force control begins",
+            "set force 30.0",
+            "contact",
+            "captured",
+            "set force 0",
+            "latch closed",
+            "lock closing",
+            "lock closed",
+        ]
+        self.assertEqual([name for name in self.names(report) if name in order], order)
+        times = [event["time_s"] for event in report["timeline"]]
+        self.assertEqual(times, sorted(times))
+        expected = json.loads(TIMELINE.read_text(encoding="utf-8"))
+        rows = {row.event: row for row in timeline.compare(report, expected)}
+        self.assertEqual([rows[event].fault for event in ("captured", "unloaded", "locked")], ["", "", ""])
+
+    # req:B26
+    def test_a_sensor_that_fails_while_it_pushes_ends_in_an_arm_that_holds(self):
+        done, report = self.flown("--seed", "8002", "--fault", "sensor_failed")
+        self.assertEqual((done.returncode, report["outcome"]), (1, "failed"))
+        self.assertEqual([fault["number"] for fault in report["faults"]], [2004])
+        self.assertTrue(report["ends_at_rest"])
+        self.assertEqual(report["fault"]["name"], "sensor_failed")
+        self.assertGreater(report["fault"]["begun_s"], 30)
+        self.assertNotIn("captured", self.names(report))
+
+    # req:B26
+    def test_a_lock_that_stops_half_way_is_asked_again(self):
+        done, report = self.flown("--seed", "8002", "--fault", "lock_failed")
+        self.assertEqual((done.returncode, report["outcome"]), (0, "success"), done.stderr)
+        names = self.names(report)
+        self.assertLess(names.index("lock failed"), names.index("lock closed"))
+        self.assertEqual(
+            [step["outcome"] for step in report["steps"] if step["name"] == "3 lock"], ["failed", "success"]
+        )
+
+    # req:B19 req:B26
+    def test_what_the_adapter_says_twice_counts_once(self):
+        done, report = self.flown("--seed", "8002", "--fault", "duplicate_capture")
+        self.assertEqual((done.returncode, report["outcome"]), (0, "success"), done.stderr)
+
+    def test_an_unknown_fault_is_refused_with_the_names_there_are(self):
+        done = run("liana", "run", "payload_install", "--fault", "meteor")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--fault: 'meteor': no such fault of this mission; allowed: base_moving, ", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
