@@ -23,7 +23,15 @@ CASES = [
     ("aligned, 0.5 s + 0.5 s", ["--feedback", "aligned", "--delay", "0.5,0.5"], 10, 50),
 ]
 HEAD = ["feedback", "success", "contacts", "peak N", "arm time s median", "worst", "tip mm median", "worst"]
-SAMPLES_HEAD = ["samples of", "runs", "apart ms, least", "most", "to release ms, median", "worst", "in force ms, median"]
+SAMPLES_HEAD = [
+    "samples of",
+    "runs",
+    "apart ms, least",
+    "most",
+    "to release ms, median",
+    "worst",
+    "in force ms, median",
+]
 SAMPLES_HEAD += ["worst"]
 HEAD += ["slit mm least", "hand N most", "energy J least", "lag s median", "prediction mm median"]
 
@@ -55,7 +63,7 @@ def row(name, reports):
     return [
         name,
         f"{len(good)} of {len(reports)}",
-        sum(numbers(reports, "contacts")),
+        int(sum(numbers(reports, "contacts"))),
         told(numbers(reports, "peak_force_N"), max, 2),
         told(numbers(good, "duration_s"), statistics.median, 0),
         told(numbers(good, "duration_s"), max, 0),

@@ -56,6 +56,21 @@ TEST_F(Steering, AnOpenDeadmanMovesNothingAndReindexes) {
   EXPECT_EQ(goal->tip_in_base.position_m, now_.tip_command.position_m) << "no jump on engaging again";
 }
 
+// req:A24
+TEST_F(Steering, AGoalIsMadeOfTheSamplesOfItsIntervalAndOfTheLastOnesWhereNoneCame) {
+  EXPECT_LT(steer_.made_of_us(), 0);
+  interval(0.3);
+  interval(0.31);
+  EXPECT_EQ(steer_.made_from_us(), 30000);
+  EXPECT_EQ(steer_.made_of_us(), 40000);
+  ASSERT_TRUE(steer_.finish_interval(now_, kInterval_s));
+  EXPECT_EQ(steer_.made_from_us(), 30000);
+  EXPECT_EQ(steer_.made_of_us(), 40000);
+  interval(0.32, false);
+  steer_.use(use_);
+  EXPECT_LT(steer_.made_from_us(), 0);
+}
+
 // req:A32
 TEST_F(Steering, AfterALossTheOperatorHasToLetGoFirst) {
   interval(0.3);

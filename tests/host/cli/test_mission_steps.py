@@ -88,7 +88,11 @@ class MissionSteps(unittest.TestCase):
         bare = self.folder / "bare.lua"
         bare.write_text('local t = require "scenes.panel_slit"\nt.name = "bare"\nt.fixtures = {}\nreturn t\n')
         for scene, names, said in (
-            ("panel_slit", '"slit_plan"', "slit_plan: scene panel_slit has slit_plane, slit_walls, slit_approach: name"),
+            (
+                "panel_slit",
+                '"slit_plan"',
+                "slit_plan: scene panel_slit has slit_plane, slit_walls, slit_approach: name",
+            ),
             ("panel_slit", '"slit_plane", "Slit_Walls"', "Slit_Walls: scene panel_slit has slit_plane, "),
             (bare, '"slit_plane"', "slit_plane: scene bare has no fixtures: "),
         ):

@@ -439,6 +439,9 @@ TEST_F(ServiceOverSocket, TheOperatorSteersAndLettingGoIsAHold) {
   EXPECT_EQ(moving["devices"][0]["name"], "omega");
   EXPECT_TRUE(moving["devices"][0]["in_use"]);
   EXPECT_EQ(moving["mapping"]["scale"], 1.0);
+  const Json& made_of = moving["verdict"]["made_of"];
+  EXPECT_EQ(made_of["newest_us"].get<std::int64_t>() - made_of["oldest_us"].get<std::int64_t>(), 19000);
+  EXPECT_NEAR(made_of["in_force_s"].get<double>() - made_of["released_s"].get<double>(), 0.02, 1e-9);
   EXPECT_GT(norm(subtract(arm_->now().tip_command.position_m, start)), 2e-3);
   for (int i = 0; i < 100; ++i) steer(0.01, false);
   EXPECT_FALSE(steer(0.01, false)["device_engaged"]);
