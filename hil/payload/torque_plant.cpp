@@ -13,6 +13,8 @@ namespace liana::bench {
 
 namespace {
 
+constexpr double kBeforeSocket_m = 0.1;  // farther beside the axis the pins have no depth
+
 TrueArm drawn_arm(const SerialRobotConfig& robot, const ModelOptions& options, std::uint64_t seed) {
   TrueArm arm = true_arm(robot, options.start_pose, options.spread, options.fixture, seed);
   if (options.spread) arm.robot = true_joints(arm.robot, seed);
@@ -80,7 +82,8 @@ void TorquePlant::inject(std::uint32_t slot, FaultInjector& injector) {
   const std::vector<double> joints = joints_rad();
   TrueMotion motion{joints, rates};
   if (site_) {
-    if (site_->holder() == Holder::kArm) motion.depth_m = site_->plate_in_socket(chain_.tip().pose).position_m.z;
+    const Vec3 plate = site_->plate_in_socket(chain_.tip().pose).position_m;
+    if (site_->holder() == Holder::kArm && std::hypot(plate.x, plate.y) < kBeforeSocket_m) motion.depth_m = plate.z;
     motion.contact_N = norm(contact_N_);
     motion.captured = site_->adapter().captured();
   }
