@@ -85,7 +85,7 @@ void check_fixtures(const Json& mission, std::size_t i, const config::SceneConfi
     if (std::any_of(scene.fixtures.begin(), scene.fixtures.end(), is_named)) continue;
     std::string known;
     for (const config::SceneFixture& one : scene.fixtures) known += (known.empty() ? "" : ", ") + one.name;
-    throw BadInput(where_of(mission, i) + ": fixtures: " + named.text() + ": scene " + scene.name + " has " +
+    throw BadInput(step_where(mission, i) + ": fixtures: " + named.text() + ": scene " + scene.name + " has " +
                    (known.empty() ? "no fixtures" : known) +
                    ": name one of the scene's, leave it out for all, or run in another --scene");
   }
