@@ -22,6 +22,8 @@ kTests = {
         "tests/firmware_like/controller_test.cpp",
     ),
     2002: ("SerialController.AJointPushedOutOfItsRangeIsAFault", "tests/firmware_like/serial_controller_test.cpp"),
+    2004: ("Force.WhateverTheWristSensorSaysOrDoesNotThePushEndsByNameAndTheForceGoes", "tests/serial/force_test.cpp"),
+    2005: ("Force.ABlowAtTheTipEndsThePushAsOverload", "tests/serial/force_test.cpp"),
     5008: (
         "ContactWatch.ABodyThatIsPressedAgainstThePanelIsAFaultThatHoldsWithSegmentAndSize",
         "tests/closed_loop/contact_watch_test.cpp",

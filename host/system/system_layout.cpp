@@ -316,11 +316,35 @@ std::string directory_of(const SystemLayout& plan, const RunOptions& options) {
   }
 }
 
+constexpr const char* kFolderOfRun = "liana-run-";
+constexpr const char* kLock = "lock";  // held for as long as the process lives that made the folder
+
+// Held until this process ends, however it does; false when another one has it, or there is none to take.
+bool hold(const std::string& lock, int flags) {
+  const int fd = ::open(lock.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | flags, 0600);
+  if (fd >= 0 && ::flock(fd, LOCK_EX | LOCK_NB) == 0) return true;
+  if (fd >= 0) ::close(fd);
+  return false;
+}
+
+// Folders of runs that were killed: nobody else tidies up behind them.
+void remove_leftovers() {
+  std::error_code gone;  // other runs tidy up at the same time
+  for (const fs::directory_entry& entry : fs::directory_iterator(fs::temp_directory_path(gone), gone)) {
+    struct stat found {};
+    const bool is_ours = entry.path().filename().string().starts_with(kFolderOfRun) &&
+                         ::lstat(entry.path().c_str(), &found) == 0 && S_ISDIR(found.st_mode) &&
+                         found.st_uid == ::geteuid();
+    if (is_ours && hold(entry.path() / kLock, 0)) fs::remove_all(entry.path(), gone);
+  }
+}
+
 }  // namespace
 
 SystemLayout make_layout(const RunOptions& given) {
   RunOptions options = given;
   SystemLayout plan;
+  remove_leftovers();
   operator_words(options.people);  // refused before anything is made
   take_tables_of_mission(options);
   const TableText robot = robot_of(options);
@@ -370,33 +394,6 @@ SystemLayout make_layout(const RunOptions& given) {
   plan.programs.push_back(mission_call(plan, options));
   return plan;
 }
-
-namespace {
-
-constexpr const char* kFolderOfRun = "liana-run-";
-constexpr const char* kLock = "lock";  // held for as long as the process lives that made the folder
-
-// Held until this process ends, however it does; false when another one has it, or there is none to take.
-bool hold(const std::string& lock, int flags) {
-  const int fd = ::open(lock.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | flags, 0600);
-  if (fd >= 0 && ::flock(fd, LOCK_EX | LOCK_NB) == 0) return true;
-  if (fd >= 0) ::close(fd);
-  return false;
-}
-
-// Folders of runs that were killed: nobody else tidies up behind them.
-void remove_leftovers() {
-  std::error_code gone;  // other runs tidy up at the same time
-  for (const fs::directory_entry& entry : fs::directory_iterator(fs::temp_directory_path(gone), gone)) {
-    struct stat found {};
-    const bool is_ours = entry.path().filename().string().starts_with(kFolderOfRun) &&
-                         ::lstat(entry.path().c_str(), &found) == 0 && S_ISDIR(found.st_mode) &&
-                         found.st_uid == ::geteuid();
-    if (is_ours && hold(entry.path() / kLock, 0)) fs::remove_all(entry.path(), gone);
-  }
-}
-
-}  // namespace
 
 std::string temporary_directory() {
   remove_leftovers();

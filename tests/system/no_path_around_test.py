@@ -40,6 +40,10 @@ REQUESTS = {
         "goal": state["setpoint_cp"][:2] + [state["setpoint_cp"][2] + 0.05] + state["setpoint_cp"][3:]
     },
     "servo_cp": lambda state: {"goal": state["setpoint_cp"]},
+    "servo_target": lambda state: {"target": "rod", "offset": kTip},
+    "push": lambda state: {"force_N": 10},
+    "follow": lambda state: {},
+    "adapter": lambda state: {"command": "lock"},
     "hold_theta": lambda state: {"held": [{"theta": 9, "target_deg": 2.0}]},
     "shape": lambda state: {"nodes": [{"node": 2, "position_m": [1.5, 0.2, 0.0]}]},
     "dither": lambda state: {"share": 0.1, "duration_s": 1},

@@ -90,7 +90,11 @@ class Recordings(SystemTest):
         )
         self.assertEqual(names, others)
         self.assertLessEqual({*FILES, "images.mcap", "state.mcap", "events.txt"}, set(names))
+        # How many states the recorder still gets at the end is the machine's, and the page shows them all.
+        ends_alike = len({len(content(folder, "state.mcap")) for folder in (self.first, self.second)}) == 1
         for name in names:
+            if name == "page.html" and not ends_alike:
+                continue
             first, second = (content(folder, name) for folder in (self.first, self.second))
             if name == "state.mcap":
                 first, second = (found[: min(len(first), len(second))] for found in (first, second))

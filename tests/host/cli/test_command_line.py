@@ -549,8 +549,8 @@ class Help(unittest.TestCase):
             ("liana plan --scene pan", "panel_slit"),
             ("liana plan --scene no", "none"),
             ("liana pose --robot zh", "zhu2022"),
-            ("liana run sli", "slit_crossing"),
-            ("liana check sli", "slit_crossing"),
+            ("liana run sli", "slit_crossing slit_crossing_servo"),
+            ("liana check sli", "slit_crossing slit_crossing_servo"),
             ("liana check --true-physics wo", "worn"),
             ("liana run --bus vc", "vcan"),
             ("liana plan --follow sl", "slit"),
@@ -561,7 +561,7 @@ class Help(unittest.TestCase):
             ("liana robot export zh", "zhu2022"),
             ("liana --lua", "--lua-dir"),
             ("liana-mission eval sc", "scene"),
-            ("liana-mission eval scene pa", "panel_slit"),
+            ("liana-mission eval scene pan", "panel_slit"),
         ]:
             program = words.split()[0]
             function = "_liana_mission" if program == "liana-mission" else "_liana"
