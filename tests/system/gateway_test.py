@@ -486,7 +486,9 @@ class TheCommandConsole(SystemTest):
     """`liana console`, in a runtime directory of its own."""
 
     def setUp(self):
-        self.home = self.enterContext(tempfile.TemporaryDirectory(prefix="liana-home-"))
+        # Programs whose console is killed go by themselves, and the recorder writes to its end.
+        folder = tempfile.TemporaryDirectory(prefix="liana-home-", ignore_cleanup_errors=True)
+        self.home = self.enterContext(folder)
         homes = {"XDG_RUNTIME_DIR": self.home, "XDG_STATE_HOME": self.home, "TMPDIR": self.home}
         self.environment = {**os.environ, **homes}
 
