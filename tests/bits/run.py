@@ -58,7 +58,10 @@ M7_MEDIAN = 58_979  # where the whole slit crossing is not among them (./dev bit
 SERIAL_WORST = 40_000  # instructions on the Cortex-M7
 # 5004 needs a drive of the first segment, 5008 something to touch, 5009 a worn arm, 6001 a long mission, 2002 a joint
 # at the end of its range, 2004 and 2005 a push; 2xxx but 2001 are of a serial arm, 5xxx of a cable arm.
-NOT_REACHED = {"cable": {2002, 2003, 2004, 2005, 5004, 5008, 5009, 6001}, "serial": {2002, 2004, 2005, *range(5001, 5010), 6001}}
+NOT_REACHED = {
+    "cable": {2002, 2003, 2004, 2005, 5004, 5008, 5009, 6001},
+    "serial": {2002, 2004, 2005, *range(5001, 5010), 6001},
+}
 PATIENCE_S = 900  # wall clock after which a program counts as hung; nothing is measured by it
 
 

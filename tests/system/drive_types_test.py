@@ -12,7 +12,9 @@ kArm = {"robot": "micro", "scene": "none"}
 
 def shipped():
     """Those that follow positions: drives of another mode are no drives of this arm."""
-    return sorted(path.stem for path in (SOURCE / "lua" / "drives").glob("*.lua") if not path.stem.startswith("liana_cst"))
+    return sorted(
+        path.stem for path in (SOURCE / "lua" / "drives").glob("*.lua") if not path.stem.startswith("liana_cst")
+    )
 
 
 class DriveTypes(SystemTest):
