@@ -74,7 +74,7 @@ class JogLine : public ::testing::Test {
     if (line.report) {
       Tpdo1 report;
       EXPECT_TRUE(decode_tpdo1({line.report->data.data(), line.report->length}, report));
-      out = {report.statusword, report.torque_permille, report.position_counts, 0, 0, 0, 1};
+      out = {report.statusword, report.torque_permille, report.position_counts, 0, 0, 0, 0, 1};
     }
     out.heartbeat_age_ticks = heartbeat_age_ticks;
     out.operational = 1;
@@ -235,7 +235,7 @@ TEST(JogBounds, AtTheEndOfTheNumbersItStops) {
   request.counts_per_s = 5000.0;
   request.window_counts = 1e5;
   desk::Jog jog(request, kRate_hz);
-  DriveFeedback seen{0x0637, 0, 2147483600, 0, 0, 0, 1};
+  DriveFeedback seen{0x0637, 0, 2147483600, 0, 0, 0, 0, 1};
   std::int32_t most = 0;
   for (int i = 0; i < 1000 && !jog.is_over(); ++i) {
     const DriveCommand told = jog.step(seen);
