@@ -35,6 +35,11 @@ def rows_of_archive(path):
     return seconds, database.execute("SELECT * FROM facts WHERE tick <= ? ORDER BY tick", [until]).fetchall()
 
 
+def messages(folder):
+    """Topic and text of each message of a run's states, events and verdicts, to the last."""
+    return [(message.channel.topic, bytes(message.data).decode()) for message in Mcap(folder / "state.mcap").messages()]
+
+
 def content(folder, name):
     """What two runs with one seed must have in common of a file: all of it, but for what a clock or a path put in."""
     if name == "bench_summary.json":
@@ -45,8 +50,7 @@ def content(folder, name):
     if name.endswith(".db"):
         return rows_of_archive(folder / name)
     if name == "state.mcap":
-        texts = [(message.channel.topic, bytes(message.data).decode()) for message in Mcap(folder / name).messages()]
-        return list(itertools.takewhile(lambda message: END not in message[1], texts))
+        return list(itertools.takewhile(lambda message: END not in message[1], messages(folder)))
     if name == "events.txt":
         return list(itertools.takewhile(lambda line: END not in line, (folder / name).read_text().splitlines()))
     return (folder / name).read_bytes()
@@ -90,8 +94,8 @@ class Recordings(SystemTest):
         )
         self.assertEqual(names, others)
         self.assertLessEqual({*FILES, "images.mcap", "state.mcap", "events.txt"}, set(names))
-        # How many states the recorder still gets at the end is the machine's, and the page shows them all.
-        ends_alike = len({len(content(folder, "state.mcap")) for folder in (self.first, self.second)}) == 1
+        # Which states and events the recorder still gets at the end is the machine's, and the page shows them all.
+        ends_alike = len({tuple(messages(folder)) for folder in (self.first, self.second)}) == 1
         for name in names:
             if name == "page.html" and not ends_alike:
                 continue
