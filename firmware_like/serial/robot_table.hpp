@@ -32,7 +32,6 @@ struct TipLimits {
   double speed_m_s = 0.0;
   double accel_m_s2 = 0.0;
   double jerk_m_s3 = 0.0;
-  double move_jerk_m_s3 = 0.0;  // of planned moves, <= jerk_m_s3: less where they would leave a soft base swinging
   double rate_rad_s = 0.0;
   double angular_accel_rad_s2 = 0.0;
   double angular_jerk_rad_s3 = 0.0;

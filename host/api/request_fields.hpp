@@ -102,9 +102,19 @@ constexpr std::array kHeld{
     integer("theta", 1.0, Figure::kAngles, "number of the angle, 1 at the base"),
     RequestField{"target_deg", FieldType::kAngle, "angle at which it is held"},
 };
+constexpr RequestField kMoveSwing =
+    number("swing_s", 0.0, 120.0,
+           "period with which the arm's base swings: the move takes longer and leaves it still; 0: as quickly as the "
+           "limits let it")
+        .otherwise(0.0);
+constexpr RequestField kMoveQuickerSwing =
+    number("quicker_swing_s", 0.0, 60.0, "period of a second swing; 0: there is none").otherwise(0.0);
+
 constexpr std::array kMoveJp{
     RequestField{"goal_deg", FieldType::kAngles, "angle that each joint or theta goes to"},
     number("rate_deg_s", 0.01, Figure::kAngleRate, "the most that any angle may turn at").otherwise(Figure::kAngleRate),
+    kMoveSwing,
+    kMoveQuickerSwing,
     kSequence,
     kTime,
     kTtl,
@@ -124,6 +134,8 @@ constexpr std::array kMoveCp{
         .optional()
         .list(16)
         .only_for(kCableArm),
+    kMoveSwing,
+    kMoveQuickerSwing,
     kSequence,
     kTime,
     kTtl,

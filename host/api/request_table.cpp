@@ -32,7 +32,7 @@ constexpr std::array kTable{
                .owner_only = true,
                .in_missions = true},
     RequestRow{.op = "move_jp",
-               .doc = "Joint goal, all angles together on a minimum-jerk path.",
+               .doc = "Joint goal, all angles together from rest to rest.",
                .fields = kMoveJp,
                .owner_only = true,
                .in_missions = true,

@@ -45,17 +45,17 @@ bool Arbiter<Arm>::is_busy() const {
 }
 
 template <class Arm>
-void Arbiter<Arm>::move_joints(const Now& now, const Joints<Arm>& goal_rad, double rate_rad_s) {
+void Arbiter<Arm>::move_joints(const Now& now, const Joints<Arm>& goal_rad, double rate_rad_s, const motion::Swings& swings) {
   require_free(now);
-  way_.template emplace<JointMove<Arm>>(table_, Kind::command_rad(now), goal_rad, rate_rad_s);
+  way_.template emplace<JointMove<Arm>>(table_, Kind::command_rad(now), goal_rad, rate_rad_s, swings);
 }
 
 template <class Arm>
-void Arbiter<Arm>::move_line(const Now& now, const Pose& goal) {
+void Arbiter<Arm>::move_line(const Now& now, const Pose& goal, const motion::Swings& swings) {
   require_free(now);
   const auto* target = std::get_if<TipTarget<Arm>>(&way_);
   const Pose from = target != nullptr ? target->goal() : now.tip_command;
-  way_.template emplace<LineMove<Arm>>(table_, from, goal, tip_speed_m_s_);
+  way_.template emplace<LineMove<Arm>>(table_, from, goal, tip_speed_m_s_, swings);
 }
 
 template <class Arm>

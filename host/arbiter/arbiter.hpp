@@ -38,8 +38,8 @@ class Arbiter {
   Arbiter& operator=(const Arbiter&) = delete;
 
   // Requests of the owner; they throw RequestError (not_enabled, fault, busy, refused, out_of_range).
-  void move_joints(const Now& now, const Joints<Arm>& goal_rad, double rate_rad_s);
-  void move_line(const Now& now, const Pose& goal);
+  void move_joints(const Now& now, const Joints<Arm>& goal_rad, double rate_rad_s, const motion::Swings& swings = {});
+  void move_line(const Now& now, const Pose& goal, const motion::Swings& swings = {});
   void servo_tip(const Now& now, const Pose& goal);
   // From rest through all points without a stop, within kPathOff_m of the straight pieces between them; the first point
   // within kPathStart_deg of the command. Looked at as a whole first: until then the arm holds.

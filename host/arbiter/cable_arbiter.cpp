@@ -31,14 +31,14 @@ void CableArbiter::require_free(const cable::Outputs& now) const {
   if (device_.engaged()) throw api::RequestError("busy", "the operator steers: wait for the deadman to open");
 }
 
-void CableArbiter::move_joints(const cable::Outputs& now, const cable::ThetaVector& goal_rad, double rate_rad_s) {
+void CableArbiter::move_joints(const cable::Outputs& now, const cable::ThetaVector& goal_rad, double rate_rad_s, const motion::Swings& swings) {
   require_free(now);
-  moves_.move_joints(now, goal_rad, rate_rad_s);
+  moves_.move_joints(now, goal_rad, rate_rad_s, swings);
 }
 
-void CableArbiter::move_line(const cable::Outputs& now, const Pose& goal) {
+void CableArbiter::move_line(const cable::Outputs& now, const Pose& goal, const motion::Swings& swings) {
   require_free(now);
-  moves_.move_line(now, goal);
+  moves_.move_line(now, goal, swings);
 }
 
 void CableArbiter::move_path(const cable::Outputs& now, const PathRequest<cable::CableArm>& request) {

@@ -5,7 +5,6 @@
 
 #include "host/arbiter/cable_kind.hpp"
 #include "host/arbiter/serial_kind.hpp"
-#include "host/arbiter/time_law.hpp"
 
 namespace liana::arbiter {
 
@@ -36,30 +35,32 @@ TipWay steepest_tip_way(const typename Arm::Table& table, const Joints<Arm>& fro
 }  // namespace
 
 template <class Arm>
-JointMove<Arm>::JointMove(const Table& table, const Joints<Arm>& from_rad, const Joints<Arm>& to_rad, double rate_rad_s)
+JointMove<Arm>::JointMove(const Table& table, const Joints<Arm>& from_rad, const Joints<Arm>& to_rad, double rate_rad_s,
+                          const motion::Swings& swings)
     : from_rad_(from_rad), to_rad_(to_rad), interval_s_(interval_s(table)) {
   using Kind = ArmKind<Arm>;
+  motion::MoveNeeds needs;
   for (std::size_t i = 0; i < Kind::joint_count(table); ++i) {
     const double way_rad = std::fabs(to_rad[i] - from_rad[i]);
-    const double rate = std::min(rate_rad_s, Kind::rate_rad_s(table, i));
-    duration_s_ = std::max({duration_s_, time_for_speed(way_rad, kMoveShare * rate),
-                            time_for_accel(way_rad, Kind::move_accel_rad_s2(table, i))});
+    needs.speed_s = std::max(needs.speed_s, way_rad / (motion::kMoveShare * std::min(rate_rad_s, Kind::rate_rad_s(table, i))));
+    needs.accel_s2 = std::max(needs.accel_s2, way_rad / Kind::move_accel_rad_s2(table, i));
   }
   const TipWay tip = steepest_tip_way<Arm>(table, from_rad, to_rad);
   const TipBounds bounds = Kind::tip_bounds(table);
-  duration_s_ = std::max({duration_s_, time_within(tip.travel_m, share_of(bounds.linear)),
-                          time_within(tip.turn_rad, share_of(bounds.angular))});
+  needs.add(tip.travel_m, motion::share_of(bounds.linear));
+  needs.add(tip.turn_rad, motion::share_of(bounds.angular));
+  law_ = motion::TimeLaw(needs, swings);
 }
 
 template <class Arm>
 Joints<Arm> JointMove<Arm>::at(double time_s) const {
-  return time_s >= duration_s_ ? to_rad_ : between(from_rad_, to_rad_, minimum_jerk(time_s / duration_s_));
+  return time_s >= law_.duration_s() ? to_rad_ : between(from_rad_, to_rad_, law_.share_at(time_s));
 }
 
 template <class Arm>
 Goal<Arm> JointMove<Arm>::next(const liana::Outputs<Arm>& now) {
   time_s_ += interval_s_;
-  is_over_ = time_s_ >= duration_s_ && now.at_rest != 0;
+  is_over_ = time_s_ >= law_.duration_s() && now.at_rest != 0;
   return at(time_s_);
 }
 

@@ -1,7 +1,8 @@
-// A way of moving: all joints together from where they stand to a goal, on one minimum-jerk law.
+// A way of moving: all joints together from where they stand to a goal, on one time law.
 #pragma once
 
 #include "host/arbiter/arm_kind.hpp"
+#include "host/motion/time_law.hpp"
 
 namespace liana::arbiter {
 
@@ -13,9 +14,10 @@ class JointMove {
 
   // Duration such that no joint passes `rate_rad_s`, its own rate and its acceleration for moves, and the tip not its
   // speed limit. Cost: 100 forward kinematics.
-  JointMove(const Table& table, const Joints<Arm>& from_rad, const Joints<Arm>& to_rad, double rate_rad_s);
+  JointMove(const Table& table, const Joints<Arm>& from_rad, const Joints<Arm>& to_rad, double rate_rad_s,
+            const motion::Swings& swings = {});
 
-  double duration_s() const { return duration_s_; }
+  double duration_s() const { return law_.duration_s(); }
   // Joints at a time since the start.
   Joints<Arm> at(double time_s) const;
 
@@ -27,7 +29,7 @@ class JointMove {
  private:
   Joints<Arm> from_rad_, to_rad_;
   double interval_s_;
-  double duration_s_ = 0.0;
+  motion::TimeLaw law_;
   double time_s_ = 0.0;
   bool is_over_ = false;
 };

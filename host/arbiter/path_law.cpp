@@ -5,7 +5,7 @@
 
 #include "host/arbiter/cable_kind.hpp"
 #include "host/arbiter/serial_kind.hpp"
-#include "host/arbiter/time_law.hpp"
+#include "host/motion/time_law.hpp"
 
 namespace liana::arbiter {
 
@@ -35,7 +35,7 @@ double shortest_s(const typename Arm::Table& table, const SpeedZone& zone, const
   const double turn_rad = norm(rotation_vector(multiply(to.quaternion, conjugate(from.quaternion))));
   const double speed_m_s = std::min(zone.advice_at(from.position_m, bounds.linear.speed),
                                     zone.advice_at(to.position_m, bounds.linear.speed));
-  return std::max({time_s, way_m / speed_m_s, turn_rad / bounds.angular.speed}) / kMoveShare;
+  return std::max({time_s, way_m / speed_m_s, turn_rad / bounds.angular.speed}) / motion::kMoveShare;
 }
 
 // Pace [rad/s] along the way at places of it; between them its square changes evenly, so acceleration is constant.

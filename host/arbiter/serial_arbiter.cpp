@@ -29,13 +29,13 @@ void SerialArbiter::follow(const Now& now) {
   asked_->kind = CommandKind::kFollow;
 }
 
-void SerialArbiter::move_joints(const Now& now, const serial::JointVector& goal_rad, double rate_rad_s) {
-  Base::move_joints(now, goal_rad, rate_rad_s);
+void SerialArbiter::move_joints(const Now& now, const serial::JointVector& goal_rad, double rate_rad_s, const motion::Swings& swings) {
+  Base::move_joints(now, goal_rad, rate_rad_s, swings);
   asked_.reset();
 }
 
-void SerialArbiter::move_line(const Now& now, const Pose& goal) {
-  Base::move_line(now, goal);
+void SerialArbiter::move_line(const Now& now, const Pose& goal, const motion::Swings& swings) {
+  Base::move_line(now, goal, swings);
   asked_.reset();
 }
 

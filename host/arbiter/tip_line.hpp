@@ -1,7 +1,8 @@
-// A way of moving: the tip along a straight line, turning about one axis, on one minimum-jerk law.
+// A way of moving: the tip along a straight line, turning about one axis, on one time law.
 #pragma once
 
 #include "host/arbiter/arm_kind.hpp"
+#include "host/motion/time_law.hpp"
 
 namespace liana::arbiter {
 
@@ -9,14 +10,14 @@ namespace liana::arbiter {
 class TipLine {
  public:
   // Within the bounds, and the tip not faster than `speed_m_s`.
-  TipLine(const TipBounds& bounds, const Pose& from, const Pose& to, double speed_m_s);
-  double duration_s() const { return duration_s_; }
+  TipLine(const TipBounds& bounds, const Pose& from, const Pose& to, double speed_m_s, const motion::Swings& swings = {});
+  double duration_s() const { return law_.duration_s(); }
   Pose at(double time_s) const;
 
  private:
   Pose from_, to_;
   Vec3 turn_rad_{};
-  double duration_s_ = 0.0;
+  motion::TimeLaw law_;
 };
 
 // Over when the time is up; what then stays the goal is the line's end.
@@ -25,8 +26,9 @@ class LineMove {
  public:
   static constexpr bool kIsPlanned = true;
 
-  LineMove(const typename Arm::Table& table, const Pose& from, const Pose& to, double speed_m_s)
-      : line_(ArmKind<Arm>::tip_bounds(table), from, to, speed_m_s), interval_s_(interval_s(table)) {}
+  LineMove(const typename Arm::Table& table, const Pose& from, const Pose& to, double speed_m_s,
+           const motion::Swings& swings)
+      : line_(ArmKind<Arm>::tip_bounds(table), from, to, speed_m_s, swings), interval_s_(interval_s(table)) {}
 
   Pose end() const { return line_.at(line_.duration_s()); }
 

@@ -70,7 +70,8 @@ class ArmDesk : public Desk {
         time_mode_(time_mode) {
     handlers_ = {{"move_jp", [this](const MotionRequest& r) { move_joints(r.fields); }},
                  {"move_path", [this](const auto& r) { arbiter_.move_path(outputs(), path_request<Arm>(r.fields)); }},
-                 {"move_cp", [this](const auto& r) { arbiter_.move_line(outputs(), r.fields.pose("goal")); }},
+                 {"move_cp",
+                  [this](const auto& r) { arbiter_.move_line(outputs(), r.fields.pose("goal"), swings_of(r.fields)); }},
                  {"servo_cp", [this](const auto& r) { arbiter_.servo_tip(outputs(), r.fields.pose("goal")); }},
                  {"servo_target", [this](const auto& r) { arbiter_.servo_target(outputs(), servo_request(r.fields)); }},
                  {"retract", [this](const MotionRequest& r) { retract(r.fields); }},
@@ -135,7 +136,7 @@ void ArmDesk<Arm, Steering>::move_joints(const api::Arguments& fields) {
   const std::vector<double> goal_deg = fields.numbers("goal_deg");
   arbiter::Joints<Arm> goal_rad{};
   for (std::size_t i = 0; i < goal_deg.size(); ++i) goal_rad[i] = goal_deg[i] * kDegree;
-  arbiter_.move_joints(outputs(), goal_rad, fields.number("rate_deg_s") * kDegree);
+  arbiter_.move_joints(outputs(), goal_rad, fields.number("rate_deg_s") * kDegree, swings_of(fields));
 }
 
 template <class Arm, class Steering>

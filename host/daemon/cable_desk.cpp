@@ -211,7 +211,7 @@ std::vector<double> CableDesk::joints_deg(const cable::Outputs& outputs) const {
 
 void CableDesk::move_line(const api::Arguments& fields) {
   if (fields.has("hold")) hold_theta(fields.entries("hold"));
-  arbiter_.move_line(outputs(), fields.pose("goal"));
+  arbiter_.move_line(outputs(), fields.pose("goal"), swings_of(fields));
 }
 
 void CableDesk::hold_theta(const std::vector<api::Arguments>& held) {

@@ -16,7 +16,7 @@ servo::ServoRequest servo_request(const api::Arguments& fields) {
   out.timeout_s = fields.number("timeout_s");
   out.lost_s = fields.number("lost_s");
   out.tau_s = fields.number("tau_s");
-  out.swing_s = {fields.number("swing_s"), fields.number("quicker_swing_s")};
+  out.swings = swings_of(fields);
   out.calming = fields.number("calming");
   out.limits = {fields.number("gain_1_s"),
                 fields.number("speed_m_s"),
@@ -26,6 +26,10 @@ servo::ServoRequest servo_request(const api::Arguments& fields) {
                 fields.number("accel_deg_s2") * kDegree,
                 fields.has("axis") ? static_cast<std::size_t>(fields.text("axis").front() - 'x') : 0};
   return out;
+}
+
+motion::Swings swings_of(const api::Arguments& fields) {
+  return {fields.number("swing_s"), fields.number("quicker_swing_s")};
 }
 
 Json servo_json(const servo::ServoReport& report) {

@@ -145,7 +145,6 @@ void visit(A& a, T& t) {
   a("speed_m_s", t.speed_m_s);
   a("accel_m_s2", t.accel_m_s2);
   a("jerk_m_s3", t.jerk_m_s3);
-  a("move_jerk_m_s3", t.move_jerk_m_s3);
   a("rate_rad_s", t.rate_rad_s);
   a("angular_accel_rad_s2", t.angular_accel_rad_s2);
   a("angular_jerk_rad_s3", t.angular_jerk_rad_s3);

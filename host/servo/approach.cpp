@@ -38,9 +38,9 @@ double approach_speed(double away, double gain_1_s, double accel, double speed) 
 
 Pose Approach::next(const Pose& target_in_base, const Pose& goal, const Pose& tip_measured, const Pose& tip_command,
                     double dt_s) {
-  const PoseError left = error_between(target_in_base, goal, tip_measured);
-  const PoseError on_its_way = error_between(target_in_base, asked_, tip_command);
-  const Vec3 m = subtract(left.m, on_its_way.m), rad = subtract(left.rad, on_its_way.rad);
+  const PoseError left = error_between(target_in_base, goal, asked_);
+  const PoseError& sag = follow_sag(error_between(target_in_base, tip_command, tip_measured), dt_s);
+  const Vec3 m = add(left.m, sag.m), rad = add(left.rad, sag.rad);
   const ApproachLimits& l = limits_;
   Vec3 along{};
   along[l.axis] = m[l.axis];
@@ -49,6 +49,14 @@ Pose Approach::next(const Pose& target_in_base, const Pose& goal, const Pose& ti
   const Vec3 turn = towards(rad, l.gain_1_s, l.angular_accel_rad_s2, l.rate_rad_s);
   const Quat& to_base = target_in_base.quaternion;
   return move(rotate(to_base, add(axial, lateral)), rotate(to_base, turn), dt_s);
+}
+
+const PoseError& Approach::follow_sag(const PoseError& sag, double dt_s) {
+  if (!sag_ || limits_.sag_tau_s <= dt_s) return sag_.emplace(sag);
+  const double share = dt_s / limits_.sag_tau_s;
+  sag_->m = add(sag_->m, scale(subtract(sag.m, sag_->m), share));
+  sag_->rad = add(sag_->rad, scale(subtract(sag.rad, sag_->rad), share));
+  return *sag_;
 }
 
 Pose Approach::brake(double dt_s) { return move({}, {}, dt_s); }

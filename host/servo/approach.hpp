@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "firmware_like/math/pose.hpp"
 
@@ -17,6 +18,7 @@ struct ApproachLimits {
   double accel_m_s2 = 0.005;
   double angular_accel_rad_s2 = 0.00436;  // 0.25 deg/s2
   std::size_t axis = 0;                   // of the target, 0 to 2: the way in
+  double sag_tau_s = 0.0;                 // of the low-pass on how far the arm is off its command; 0: none
 };
 
 // What is left to go, in the target's axes.
@@ -37,8 +39,8 @@ class Approach {
 
   // Starts from rest, where the tip is commanded to be.
   void begin(const Pose& tip_command) { *this = Approach(limits_, tip_command); }
-  // The tip goal for the next `dt_s`. `tip_measured` decides what is left to go; what has been asked for and the
-  // command has not done yet counts as done, or the lag of whatever follows would turn into overshoot.
+  // The tip goal for the next `dt_s`: towards `goal`, and as far beyond as the arm is measured off its command. What has
+  // been asked for and the command has not done yet counts as done, or its lag would turn into overshoot.
   Pose next(const Pose& target_in_base, const Pose& goal, const Pose& tip_measured, const Pose& tip_command,
             double dt_s);
   // The tip goal for the next `dt_s` while it is not known where to go: comes to rest.
@@ -46,10 +48,12 @@ class Approach {
 
  private:
   Approach(const ApproachLimits& limits, const Pose& tip_command) : limits_(limits), asked_(tip_command) {}
+  const PoseError& follow_sag(const PoseError& sag, double dt_s);
   Pose move(const Vec3& wished_m_s, const Vec3& wished_rad_s, double dt_s);
 
   ApproachLimits limits_;
   Pose asked_{};
+  std::optional<PoseError> sag_;  // of the arm against its command
   Vec3 velocity_m_s_{};  // base frame
   Vec3 rate_rad_s_{};    // base frame
 };

@@ -68,9 +68,11 @@ void TargetServo::see(const std::string& target, double capture_s, const Pose& t
 
 void TargetServo::begin(const ServoRequest& request, const Pose& tip_command) {
   request_ = request;
-  track_ = TargetTrack(request.tau_s, request.swing_s);
+  request_.limits.sag_tau_s = request.swings.quick_s;  // an arm that gives way to a swing would feed it
+  track_ = TargetTrack(request.tau_s, request.swings);
   approach_ = Approach(request.limits);
   approach_.begin(tip_command);
+  way_.reset();
   report_ = {};
   report_.phase = ServoPhase::kApproaching;
   report_.target = request.target;
@@ -86,9 +88,21 @@ std::optional<Pose> TargetServo::next(const Pose& tip_command) {
   if (!is_under_way()) return std::nullopt;
   if (!track_.is_settled()) return approach_.brake(interval_s_);
   const Pose& target = track_.target_in_base();
-  Pose goal = compose(target, request_.tip_in_target);
-  goal.position_m = add(goal.position_m, scale(track_.calming_m(now_s_ + kTipLag_s), request_.calming));
+  Pose goal = compose(target, place_now(tip_command));
+  const double later_s = 1.0 / request_.limits.gain_1_s;  // so much later than its goal the tip moves
+  goal.position_m = add(goal.position_m, scale(track_.calming_m(now_s_ + later_s), request_.calming));
   return approach_.next(target, goal, tip_measured_, tip_command, interval_s_);
+}
+
+// Where the tip should be beside the target now: on a base that swings the place comes to it slowly.
+Pose TargetServo::place_now(const Pose& tip_command) {
+  if (request_.swings.slow_s <= 0.0) return request_.tip_in_target;
+  if (!way_) {
+    const Pose from = compose(inverse(track_.target_in_base()), tip_command);
+    way_.emplace(from, request_.tip_in_target, request_.limits, request_.swings);
+    way_begun_s_ = now_s_;
+  }
+  return way_->at(now_s_ - way_begun_s_);
 }
 
 // The phase, and what is reported.

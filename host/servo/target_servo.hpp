@@ -3,13 +3,13 @@
 // interval; who verifies and releases them is no business of this.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 
 #include "firmware_like/math/pose.hpp"
 #include "host/servo/approach.hpp"
+#include "host/servo/quiet_way.hpp"
 #include "host/servo/target_track.hpp"
 #include "host/servo/tip_history.hpp"
 
@@ -25,7 +25,7 @@ struct ServoRequest {
   double timeout_s = 120.0;
   double lost_s = 1.0;                    // without a usable image
   double tau_s = 4.0;                     // of the low-pass on images
-  std::array<double, kSwings> swing_s{};  // periods with which the arm's base swings; the first 0: it stands still
+  motion::Swings swings{};                // with which periods the arm's base swings
   double calming = 1.0;  // share of the slow swing by which the tip moves against it; 0: it is left as it is
   ApproachLimits limits{};
 };
@@ -47,9 +47,6 @@ struct ServoReport {
   double duration_s = 0.0;  // from its begin to now, or to its end
   std::string reason;       // why it ended without success
 };
-
-// So much later than it is asked for the tip moves: the core's filter, and the approach's own gain. Assumed.
-constexpr double kTipLag_s = 2.0;
 
 class TargetServo {
  public:
@@ -76,6 +73,7 @@ class TargetServo {
  private:
   void look();
   bool is_within() const;
+  Pose place_now(const Pose& tip_command);
   void end_as(ServoPhase phase, const std::string& reason);
 
   double interval_s_;
@@ -85,6 +83,8 @@ class TargetServo {
   ServoRequest request_;
   TargetTrack track_;
   Approach approach_;
+  std::optional<QuietWay> way_;  // where the base swings, once its middle is known
+  double way_begun_s_ = 0.0;
   ServoReport report_;
   bool saw_ = false;  // since the last look
   double begun_s_ = 0.0;

@@ -4,7 +4,6 @@
 // of what is left to go, since target and tip are measured alike.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -37,21 +36,21 @@ class TargetTrack {
  public:
   // `tau_s`: time constant of the low-pass. Its gain is the greater of 1/n, n images used, and 1/(f tau), with 1/f the
   // time since the image before.
-  // `swing_s`: periods with which the base swings, roughly; the first 0: it does not. Where it does, positions are the
-  // swing filter's matter.
-  explicit TargetTrack(double tau_s = 4.0, const std::array<double, kSwings>& swing_s = {});
+  // `swings`: with which periods the base swings, roughly; the slow one 0: it does not. Where it does, swing
+  // filters take the low-pass's place.
+  explicit TargetTrack(double tau_s = 4.0, const motion::Swings& swings = {});
 
   // An image exposed at `capture_s` of `target_in_tip`; `tip_in_base`: measured at the exposure, nothing: not known.
   ImageUse see(double capture_s, const Pose& target_in_tip, const std::optional<Pose>& tip_in_base);
 
   // Enough images agree, and it is known where the middle of a swing is.
-  bool is_settled() const { return agreed_ >= kAgreed && (!swing_ || swing_->mean_deviation_m() < kKnownMean_m); }
+  bool is_settled() const { return agreed_ >= kAgreed && (!place_ || place_->mean_deviation() < kKnownMean_m); }
   // Low-passed, or the mean where the base swings; meaningful once an image was used.
   const Pose& target_in_base() const { return target_in_base_; }
   // Its swing about the mean, 0 where the base does not.
-  double swing_m() const { return swing_ ? swing_->amplitude_m() : 0.0; }
+  double swing_m() const { return place_ ? place_->amplitude() : 0.0; }
   // How far from its place the tip has to be at `time_s`, so that the arm's mass calms the base's swing.
-  Vec3 calming_m(double time_s) const { return swing_ ? swing_->calming_m(time_s) : Vec3{}; }
+  Vec3 calming_m(double time_s) const { return place_ ? place_->calming(time_s) : Vec3{}; }
   std::int64_t used() const { return used_; }
   std::int64_t rejected() const { return rejected_; }
 
@@ -60,10 +59,13 @@ class TargetTrack {
   bool is_frozen(const Pose& target_in_tip, const Pose& tip_in_base);
   ImageUse take(double capture_s, const Pose& seen_in_base);
   void begin_with(double capture_s, const Pose& seen_in_base);
-  void average(double capture_s, const Pose& seen_in_base, const Vec3& off_m, const Vec3& off_rad);
+  Pose expected_in_base(double capture_s) const;
+  void average(double capture_s, const Vec3& off_m, const Vec3& off_rad);
+  void filter(double capture_s, const Pose& seen_in_base);
 
   double tau_s_;
-  std::optional<SwingFilter> swing_;
+  std::optional<SwingFilter> place_, attitude_;  // where the base swings; attitudes as turns from the first one
+  Quat first_attitude_{};
   Pose target_in_base_{};
   double last_capture_s_ = -1e18;  // of any image
   double last_used_s_ = 0.0;       // of one that was used

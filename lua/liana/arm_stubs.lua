@@ -69,6 +69,11 @@ function arm.state_command(fields) end
 ---@field goal_deg number[]
 ---the most that any angle may turn at (else the robot's fastest angle rate)
 ---@field rate_deg_s? number
+---period with which the arm's base swings: the move takes longer and leaves it still; 0: as quickly as the
+---limits let it (else 0)
+---@field swing_s? number
+---period of a second swing; 0: there is none (else 0)
+---@field quicker_swing_s? number
 ---grows from setpoint to setpoint of one owner: repeated and overtaken ones are refused
 ---@field sequence? integer
 ---the client's clock when it made the setpoint; never goes back (in virtual time: arm time)
@@ -76,7 +81,7 @@ function arm.state_command(fields) end
 ---time to live: with `time_s`, a setpoint that comes so much later than the quickest is refused
 ---@field ttl_s? number
 
----Joint goal, all angles together on a minimum-jerk path.
+---Joint goal, all angles together from rest to rest.
 ---@param fields arm.move_jp
 ---@return integer id
 function arm.move_jp(fields) end
@@ -111,6 +116,11 @@ function arm.move_path(fields) end
 ---@field goal number[]
 ---as `held` of `hold_theta`, from the start of the line
 ---@field hold? arm.move_cp.hold[]
+---period with which the arm's base swings: the move takes longer and leaves it still; 0: as quickly as the
+---limits let it (else 0)
+---@field swing_s? number
+---period of a second swing; 0: there is none (else 0)
+---@field quicker_swing_s? number
 ---grows from setpoint to setpoint of one owner: repeated and overtaken ones are refused
 ---@field sequence? integer
 ---the client's clock when it made the setpoint; never goes back (in virtual time: arm time)

@@ -26,15 +26,14 @@ local kIn_m = 0.018 -- what every pin's sensor reads of a payload that is captur
 local kHeard_s = 0.1 -- since the adapter's last message
 local kLight_N = 5 -- what the adapter may still feel 1 s after the capture
 local kLockLimit_s = 400 -- source: 298 s
--- The end effector takes what is within 20 mm, a pin's funnel what is within 30 mm: a base that still swings a little is no harm. With the
--- payload in hand the arm is as heavy as what it stands on: it keeps still against the swing instead of working against it, and goes slowly.
-local kServoToPayload = { -- else as servo_target has it
-  axis = "z", tolerance_m = 0.003, tolerance_deg = 0.8, swing_s = 25, quicker_swing_s = 8,
-}
-local kServoToAdapter = {
-  axis = "z", tolerance_m = 0.004, tolerance_deg = 0.6, swing_s = 19, quicker_swing_s = 8, calming = 0,
-  speed_m_s = 0.015, lateral_speed_m_s = 0.004, accel_m_s2 = 0.001, gain_1_s = 0.2, timeout_s = 200,
-}
+-- With which periods the locked large arm swings under the small one, alone and with the payload of the scene in hand: what moves is led so
+-- that it leaves the base still, whatever it carries. The squares of the periods grow with the mass.
+local kAlone = { swing_s = 26.7, quicker_swing_s = 5.6 }
+local kSlowest_s2_per_kg, kQuickest_s2_per_kg = 0.62, 0.08
+-- The end effector takes what is within 20 mm, a pin's funnel what is within 30 mm. With the payload in hand the arm is as heavy as what it
+-- stands on: there it keeps still against a swing instead of working against it.
+local kServoToPayload = { axis = "z", tolerance_m = 0.003, tolerance_deg = 0.8 } -- else as servo_target has it
+local kServoToAdapter = { axis = "z", tolerance_m = 0.002, tolerance_deg = 0.4, calming = 0.3, gain_1_s = 0.2, timeout_s = 200 }
 
 -- ---- places -------------------------------------------------------------------------------------------------------
 
@@ -52,17 +51,33 @@ local function drawn(arm, name)
   return { p[1], p[2], p[3], q[1], q[2], q[3], q[4] }
 end
 
--- The tip from where it is commanded to be, along its own z.
+-- `fields` of a request, with the periods of the swings beside them.
+local function with(swings, fields)
+  for field, value in pairs(swings) do fields[field] = value end
+  return fields
+end
+
+local function loaded(arm)
+  local mass_kg = arm.part_of_scene("payload").mass_kg
+  return {
+    swing_s = math.sqrt(kAlone.swing_s ^ 2 + kSlowest_s2_per_kg * mass_kg),
+    quicker_swing_s = math.sqrt(kAlone.quicker_swing_s ^ 2 + kQuickest_s2_per_kg * mass_kg),
+  }
+end
+
+local function alone() return kAlone end
+
+-- The tip from where it is commanded to be, along its own z; with the payload in hand.
 local function along_z(way_m)
-  return function(arm) arm.move_cp { goal = moved(arm.state.setpoint_cp, { 0, 0, way_m }) } end
+  return function(arm) arm.move_cp(with(loaded(arm), { goal = moved(arm.state.setpoint_cp, { 0, 0, way_m }) })) end
 end
 
 -- Joints as at `install`, the first one turned: nothing is in the way there.
-local function near_install(turned_deg)
+local function near_install(turned_deg, swings)
   return function(arm)
     local goal_deg = { table.unpack(arm.named_pose "install") }
     goal_deg[1] = goal_deg[1] + turned_deg
-    arm.move_jp { goal_deg = goal_deg }
+    arm.move_jp(with(swings(arm), { goal_deg = goal_deg }))
   end
 end
 
@@ -75,18 +90,18 @@ end
 -- Of the tip from the adapter's face, with the payload in hand.
 local function at_adapter_m(arm) return -arm.part_of_scene("payload").length_m - kBeforeAdapter_m end
 
-local function before_mechanism(arm) arm.move_cp { goal = moved(drawn(arm, "payload"), { 0, 0, -kBeforeMechanism_m }) } end
+local function before_mechanism(arm)
+  arm.move_cp(with(kAlone, { goal = moved(drawn(arm, "payload"), { 0, 0, -kBeforeMechanism_m }) }))
+end
 
 local function before_site(arm)
   local way_m = { kBeforeSite_m[1], kBeforeSite_m[2], at_adapter_m(arm) + kBeforeSite_m[3] }
-  arm.move_cp { goal = moved(drawn(arm, "adapter"), way_m) }
+  arm.move_cp(with(loaded(arm), { goal = moved(drawn(arm, "adapter"), way_m) }))
 end
 
-local function servo_to(target, offset_m, how)
+local function servo_to(target, offset_m, how, swings)
   return function(arm)
-    local fields = { target = target, offset = { 0, 0, offset_m(arm), 1, 0, 0, 0 } }
-    for field, value in pairs(how) do fields[field] = value end
-    arm.servo_target(fields)
+    arm.servo_target(with(swings(arm), with(how, { target = target, offset = { 0, 0, offset_m(arm), 1, 0, 0, 0 } })))
   end
 end
 
@@ -160,7 +175,7 @@ return liana.mission "payload_install" {
   step "3 near the transfer mechanism" {
     device = "none",
     enter = at_rest(),
-    run = near_install(kNearPick_deg),
+    run = near_install(kNearPick_deg, alone),
     exit = all { near(kNearPick_deg), at_rest() },
     time_limit_s = 300,
     on_fail = "hold",
@@ -175,7 +190,7 @@ return liana.mission "payload_install" {
   },
   step "3 servo to the payload" {
     device = "none",
-    run = servo_to("grapple", function() return -kAtGrapple_m end, kServoToPayload),
+    run = servo_to("grapple", function() return -kAtGrapple_m end, kServoToPayload, alone),
     exit = all { servo_done(), at_rest() },
     fail_when = servo_failed(),
     time_limit_s = 210,
@@ -204,7 +219,7 @@ return liana.mission "payload_install" {
   step "3 to the site" {
     device = "none",
     enter = at_rest(),
-    run = near_install(kNearSite_deg),
+    run = near_install(kNearSite_deg, loaded),
     exit = all { near(kNearSite_deg), at_rest() },
     time_limit_s = 300,
     on_fail = "hold",
@@ -220,7 +235,7 @@ return liana.mission "payload_install" {
   step "3 servo to the adapter" {
     device = "none",
     enter = at_rest(),
-    run = servo_to("adapter", at_adapter_m, kServoToAdapter),
+    run = servo_to("adapter", at_adapter_m, kServoToAdapter, loaded),
     exit = all { servo_done(), at_rest() },
     fail_when = servo_failed(), -- target lost, base moving, not there in time
     time_limit_s = 210,
@@ -231,7 +246,7 @@ return liana.mission "payload_install" {
     device = "none",
     run = along_z(-kBackOff_m),
     exit = at_rest(),
-    time_limit_s = 60,
+    time_limit_s = 200,
     on_fail = "hold",
     next = { step = "3 servo to the adapter", at_most = 3 * kTries + 1 },
   },

@@ -9,8 +9,6 @@ micro.base = {
   damping_s = 0.02, -- assumed: of the locked joints, 0.02 s of their stiffness
 }
 micro.start_pose = "install"
--- The base swings with a period of 16 to 20 s and hardly damps: a minimum-jerk move leaves it swinging in proportion to its jerk.
-micro.limits.move_jerk_m_s3 = 1e-4
 
 -- The small arm's drives follow torques and damp by themselves (docs/force-control.md): the large arm is too soft for damping over the bus.
 micro.drives.mode = "torque"

@@ -57,11 +57,12 @@ M7_MEDIAN = 58_979  # where the whole slit crossing is not among them (./dev bit
 # A serial arm has no such median: its ticks without a tip command solve no IK. So its worst tick is held by itself.
 SERIAL_WORST = 40_000  # instructions on the Cortex-M7
 # 5004 needs a drive of the first segment, 5008 something to touch, 5009 a worn arm, 6001 a long mission, 2002 a joint
-# at the end of its range, 2004 and 2005 a push; 2xxx but 2001 are of a serial arm, 5xxx of a cable arm.
+# at the end of its range; 2xxx but 2001 are of a serial arm, 5xxx of a cable arm.
 NOT_REACHED = {
     "cable": {2002, 2003, 2004, 2005, 5004, 5008, 5009, 6001},
-    "serial": {2002, 2004, 2005, *range(5001, 5010), 6001},
+    "serial": {2002, *range(5001, 5010), 6001},
 }
+OF_A_PUSH = {2004, 2005}  # not in the quick tapes, which have none
 PATIENCE_S = 900  # wall clock after which a program counts as hung; nothing is measured by it
 
 
@@ -162,6 +163,7 @@ SHORT_MISSION = (ROOT / "tests/system/missions/short.lua", [], 0)
 SERIAL_MISSIONS = [
     (ROOT / "tests/system/missions/short_micro.lua", ["--robot", "micro"], 0),
     ("micro_reach", ["--robot", "micro"], 0),
+    ("payload_install", ["--scene", "payload_at_adapter", "--seed", "1"], 0),
 ]
 MISSIONS = [
     ("slit_crossing", ["--seed", "1"], 0),
@@ -371,7 +373,7 @@ def show(report):
     show_m7("serial", report["serial_cortex_m7"])
 
 
-def holds(report):
+def holds(report, quick):
     """No tick differs or costs too much, the comparison is one that finds differences, and every fault was among what
     was compared.
     """
@@ -385,7 +387,7 @@ def holds(report):
         and report["serial_cortex_m7"]["worst_instructions"] <= SERIAL_WORST
     )
     reached = all(
-        set(report[tape]["faults_not_reached"]) <= NOT_REACHED[arm]
+        set(report[tape]["faults_not_reached"]) <= NOT_REACHED[arm] | (OF_A_PUSH if quick else set())
         for arm, tape in {"cable": "tape", "serial": "serial_tape"}.items()
     )
     return same and found and unfused and bounded and reached
@@ -424,7 +426,7 @@ def main():
     show(report)
     if options.json:
         json.dump(report, options.json, indent=1)
-    return 0 if holds(report) else 1
+    return 0 if holds(report, options.quick) else 1
 
 
 if __name__ == "__main__":

@@ -21,11 +21,26 @@ void out_of_reach(serial::Inputs& inputs, std::uint32_t, std::size_t) {
                                      inputs.telecommand.first_tick() + kLife_ticks, 1, setpoint);
 }
 
+// The wrist's sensor in a push, and what it may feel there.
+void wrist_silent(serial::Inputs& inputs, std::uint32_t age, std::size_t) {
+  inputs.sensors.wrist.age_ticks = static_cast<std::uint16_t>(age + 1);
+}
+void wrist_failed(serial::Inputs& inputs, std::uint32_t, std::size_t) {
+  inputs.sensors.wrist.status = serial::WristStatus::kFailed;
+}
+void a_blow(serial::Inputs& inputs, std::uint32_t, std::size_t) { inputs.sensors.wrist.on_arm.force_N[2] -= 300.0; }
+void captured_early(serial::Inputs& inputs, std::uint32_t age, std::size_t) {
+  inputs.sensors.adapter.captured = 1;
+  inputs.sensors.adapter.sequence = static_cast<std::uint8_t>(age);
+  inputs.sensors.adapter.age_ticks = 0;
+}
+
 constexpr SerialWhatIf kEnabled[] = {
     {kBrief, Of::silent},          {kBrief, Of::missing},     {kBrief, Of::in_fault}, {kBrief, Of::off},
     {kBrief, Of::not_operational}, {kBrief, Of::jumped},      {kBrief, lagging},      {kBrief, Of::bus_lost},
     {kBrief, Of::twice},           {kBrief, Of::late},        {kBrief, Of::nonsense}, {kBrief, Of::no_telecommands},
     {kLong, out_of_reach},         {kLong, Of::straightened}, {kLong, Of::stop},      {kLong, Of::silent_then_cleared},
+    {kBrief, wrist_silent},        {kBrief, wrist_failed},    {kBrief, a_blow},       {kBrief, captured_early},
 };
 constexpr SerialWhatIf kEnabling[] = {
     {kLong, Of::off},

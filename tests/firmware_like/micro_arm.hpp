@@ -37,7 +37,7 @@ inline RobotTable table() {
     robot.joint[i] = {kDhRows[i], -kRange_deg * kDegree, kRange_deg * kDegree, 4.0 * kDegree, 4.0 * kDegree};
     robot.drive[i] = {2.0 * kPi / 1048576.0, i % 2 == 0 ? 1 : -1, 1000000, 0.15};
   }
-  robot.tip = {0.10, 0.10, 0.4, 0.4, 3.0 * kDegree, 3.0 * kDegree, 12.0 * kDegree};
+  robot.tip = {0.10, 0.10, 0.4, 3.0 * kDegree, 3.0 * kDegree, 12.0 * kDegree};
   robot.servo_time_constant_s = 0.03;
   robot.tick_s = 0.004;
   robot.interval_ticks = 5;

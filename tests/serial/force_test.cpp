@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "tests/serial/force_rig.hpp"
+#include "tests/serial/push_run.hpp"
 
 namespace liana::test {
 namespace {
@@ -19,43 +19,6 @@ using serial::PushPhase;
 constexpr std::uint64_t kFirstSeed = 101;
 constexpr std::uint64_t kSeeds = 24;
 constexpr int kImpedanceSeeds = 8;
-
-double given_N(const serial::Outputs& out) { return norm(out.push.given.force_N); }
-
-// What a push is judged by.
-struct PushRun {
-  double captured_s = -1.0;  // after it began; < 0: not captured
-  double peak_N = 0.0;       // of the contact, along the axis
-  double peak_Nm = 0.0;      // of any joint's gear
-  double base_m = 0.0;       // the most that the base moved
-  double after_1s_N = 0.0;   // at the wrist, a second after capture
-  int unload_ticks = -1;     // from the message to no set force
-  std::int32_t faults = 0;
-};
-
-PushRun run_push(ForceRig& rig, PushLaw law, double most_s) {
-  rig.enable();
-  rig.ask(rig.push(30.0, law));
-  PushRun run;
-  const double began_s = rig.time_s();
-  int since_message = -1;
-  while (rig.time_s() < began_s + most_s) {
-    const serial::Outputs& out = rig.tick();
-    run.peak_N = std::max(run.peak_N, rig.axial_N());
-    run.peak_Nm = std::max(run.peak_Nm, rig.most_gear_Nm());
-    run.base_m = std::max(run.base_m, rig.base_moved_m());
-    run.faults = out.faults.count;
-    if (out.push.captured != 0) ++since_message;
-    if (out.push.end != PushEnd::kCaptured) continue;
-    if (run.captured_s < 0.0) {
-      run.captured_s = rig.time_s() - began_s;
-      run.unload_ticks = since_message;
-    }
-    EXPECT_EQ(out.push.set_N, 0.0);
-    if (rig.time_s() < began_s + run.captured_s + 1.0) run.after_1s_N = given_N(out);
-  }
-  return run;
-}
 
 // One row a seed, as docs/force-control.md sums them up.
 void print(std::uint64_t seed, const char* law, const PushRun& run) {
@@ -73,6 +36,7 @@ TEST(Force, OfRandomPayloadsBasesAndAdaptersAllAreCapturedWithoutMoreForceThanAl
     EXPECT_LE(run.peak_Nm, 100.0) << seed;
     EXPECT_EQ(run.faults, 0) << seed;
     EXPECT_EQ(run.unload_ticks, 0) << seed << ": the set force goes in the tick that hears of the capture";
+    EXPECT_EQ(run.set_after_N, 0.0) << seed;
     EXPECT_LT(run.after_1s_N, 7.0) << seed;
     EXPECT_EQ(rig.out().state, OperatingState::kEnabled) << seed;
     print(seed, "force", run);

@@ -39,21 +39,21 @@ TEST(SwingFilter, FindsTheMiddleOfTwoSwingsWithinAMillimetreThoughPeriodsAreATen
   for (std::uint64_t seed = 81001; seed < 81101; ++seed) {
     const double off = 0.9 + 0.002 * static_cast<double>(seed - 81001);
     const SwingFilter filter = after(60.0, 25.0 * off, 8.0 * off, seed);
-    EXPECT_LT(norm(subtract(filter.mean_m(), kPlace_m)), 0.003) << seed;
-    EXPECT_NEAR(filter.amplitude_m(), 0.013, 0.005) << seed;
+    EXPECT_LT(norm(subtract(filter.mean(), kPlace_m)), 0.003) << seed;
+    EXPECT_NEAR(filter.amplitude(), 0.013, 0.005) << seed;
   }
 }
 
 TEST(SwingFilter, DoesNotKnowTheMiddleFromAShortPieceOfASwing) {
-  EXPECT_GT(after(2.0, 25.0, 8.0, 1).mean_deviation_m(), 0.002);
-  EXPECT_LT(after(30.0, 25.0, 8.0, 1).mean_deviation_m(), 0.001);
+  EXPECT_GT(after(2.0, 25.0, 8.0, 1).mean_deviation(), 0.002);
+  EXPECT_LT(after(30.0, 25.0, 8.0, 1).mean_deviation(), 0.001);
 }
 
 TEST(SwingFilter, CalmsWithWhatTheSlowSwingWasAQuarterOfItsPeriodBefore) {
   const SwingFilter filter = after(50.0, 25.0, 8.0, 2);
   for (const double time_s : {50.0, 53.0, 57.0}) {
     const double before_m = 0.01 * std::cos(kTurn_rad * (time_s - 6.25) / 25.0);
-    EXPECT_NEAR(filter.calming_m(time_s)[1], -before_m, 0.002) << time_s;
+    EXPECT_NEAR(filter.calming(time_s)[1], -before_m, 0.002) << time_s;
   }
 }
 
@@ -68,7 +68,7 @@ TEST(SwingFilter, CalmsABaseThatSwings) {
     const Vec3 seen_m{kPlace_m[0] - base_m, kPlace_m[1], kPlace_m[2]};
     if (i == 0) filter.begin(0.0, seen_m);
     if (i > 0 && i % 10 == 0) filter.see(time_s, seen_m);
-    const Vec3 wished = scale(subtract(filter.calming_m(time_s), arm_m), 1.0);
+    const Vec3 wished = scale(subtract(filter.calming(time_s), arm_m), 1.0);
     const Vec3 accel = scale(subtract(wished, arm_speed), 1.0);
     arm_speed = add(arm_speed, scale(accel, kStep_s));
     arm_m = add(arm_m, scale(arm_speed, kStep_s));

@@ -151,6 +151,22 @@ TEST(TargetServo, ATargetThatCannotBeReachedInTimeEndsIt) {
   EXPECT_NEAR(bench.servo.report().duration_s, 4.0, 0.05);
 }
 
+// req:B16
+TEST(TargetServo, OnABaseThatSwingsTheTipTakesTwiceTheSlowPeriodAndTheQuickOneForItsWay) {
+  ServoRequest request = near_request();
+  request.swings = {20.0, 5.0};
+  request.calming = 0.0;
+  request.timeout_s = 120.0;
+  Bench bench;
+  bench.tip.position_m[0] = 1.4;  // half a metre to go
+  bench.servo.begin(request, bench.tip);
+  bench.run(Bench::sound, 100.0);
+  EXPECT_EQ(bench.servo.report().phase, ServoPhase::kDone);
+  EXPECT_GT(bench.servo.report().duration_s, 45.0);
+  EXPECT_LT(bench.servo.report().duration_s, 75.0);
+  EXPECT_NEAR(bench.tip.position_m[0], 1.9, 0.0006);
+}
+
 TEST(TargetServo, WhoEndsItSaysWhy) {
   Bench bench;
   bench.servo.begin(near_request(), bench.tip);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace liana::servo {
 namespace {
 
@@ -86,6 +88,23 @@ TEST(TargetTrack, AFirstImageThatIsWrongDoesNotKeepOutThoseBehindIt) {
   EXPECT_TRUE(track.is_settled());
   EXPECT_EQ(track.rejected(), 1);
   EXPECT_LT(norm(subtract(track.target_in_base().position_m, kTarget.position_m)), 1e-12);
+}
+
+// req:B16
+TEST(TargetTrack, OnABaseThatSwingsPlaceAndAttitudeAreThoseOfItsMiddle) {
+  constexpr double kTurn_rad = 2.0 * 3.14159265358979323846;
+  TargetTrack track(4.0, {34.0, 8.6});
+  for (int i = 0; i < 600; ++i) {
+    const double capture_s = 0.1 * i, slow = std::sin(kTurn_rad * capture_s / 33.0),
+                 quick = std::cos(kTurn_rad * capture_s / 8.9);
+    const Pose swung{add(kTarget.position_m, {0.006 * slow, 0.004 * quick, 0.0}),
+                     multiply(quaternion_of({0.0, 0.001 * slow, 0.005 * quick}), kTarget.quaternion)};
+    ASSERT_EQ(track.see(capture_s, swung, Pose{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}), ImageUse::kUsed);
+    if (capture_s < 30.0) continue;
+    const Pose& middle = track.target_in_base();
+    EXPECT_LT(norm(subtract(middle.position_m, kTarget.position_m)), 0.001) << capture_s;
+    EXPECT_LT(norm(rotation_vector(multiply(middle.quaternion, conjugate(kTarget.quaternion)))), 0.0007) << capture_s;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,85 @@
+#include "host/motion/time_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace liana::motion {
+
+namespace {
+
+constexpr double kPeakSpeed = 1.875;         // of minimum jerk, per unit way and time
+constexpr double kPeakAccel = 5.7735026919;  // 10 / sqrt(3)
+constexpr double kPeakJerk = 60.0;
+
+}  // namespace
+
+FilterBounds share_of(const FilterBounds& bounds) {
+  return {kMoveShare * bounds.speed, kMoveShare * bounds.accel, kMoveShare * bounds.jerk};
+}
+
+void MoveNeeds::add(double way, const FilterBounds& bounds) {
+  speed_s = std::max(speed_s, way / bounds.speed);
+  accel_s2 = std::max(accel_s2, way / bounds.accel);
+  jerk_s3 = std::max(jerk_s3, way / bounds.jerk);
+}
+
+namespace {
+
+double minimum_jerk(double share) {
+  const double s = std::max(share, 0.0);
+  return s * s * s * (10.0 + s * (-15.0 + 6.0 * s));
+}
+
+double minimum_jerk_s(const MoveNeeds& needs) {
+  return std::max({kPeakSpeed * needs.speed_s, std::sqrt(kPeakAccel * needs.accel_s2), std::cbrt(kPeakJerk * needs.jerk_s3)});
+}
+
+constexpr double kBelow = 0.94, kAbove = 1.06;
+
+// The fourth average, where two about `slow_s` do not keep the limits: the fastest is one over the longest average, the
+// hardest acceleration one over the two longest. Two that are nearly equal meet in the middle: twice the jerk.
+double fourth_average_s(const MoveNeeds& needs, double slow_s) {
+  const double shorter_s = kBelow * slow_s, longer_s = kAbove * slow_s;
+  double out_s = 2.0 * needs.jerk_s3 / (shorter_s * longer_s);
+  if (needs.accel_s2 > shorter_s * longer_s) out_s = std::max(out_s, needs.accel_s2 / longer_s);
+  if (needs.speed_s > longer_s) out_s = std::max(out_s, needs.speed_s);
+  return out_s;
+}
+
+}  // namespace
+
+TimeLaw::TimeLaw(const MoveNeeds& needs, const Swings& swings) {
+  if (needs.speed_s <= 0.0) return;  // no way to go
+  if (swings.slow_s <= 0.0) {
+    duration_s_ = minimum_jerk_s(needs);
+    return;
+  }
+  for (const double length_s :
+       {kBelow * swings.slow_s, kAbove * swings.slow_s, swings.quick_s, fourth_average_s(needs, swings.slow_s)}) {
+    if (length_s <= 0.0) continue;
+    average_s_[averages_++] = length_s;
+    duration_s_ += length_s;
+  }
+}
+
+// n averages of a pulse, integrated, are polynomials of order n that set in at the sums of their lengths.
+double TimeLaw::share_at(double time_s) const {
+  if (time_s >= duration_s_) return 1.0;
+  if (averages_ == 0) return minimum_jerk(time_s / duration_s_);
+  double sum = 0.0;
+  for (unsigned subset = 0; subset < 1U << averages_; ++subset) {
+    double since_s = time_s, sign = 1.0;
+    for (std::size_t i = 0; i < averages_; ++i) {
+      if ((subset >> i & 1U) == 0) continue;
+      since_s -= average_s_[i];
+      sign = -sign;
+    }
+    if (since_s <= 0.0) continue;
+    double term = sign;
+    for (std::size_t i = 0; i < averages_; ++i) term *= since_s / (average_s_[i] * static_cast<double>(i + 1));
+    sum += term;
+  }
+  return std::clamp(sum, 0.0, 1.0);
+}
+
+}  // namespace liana::motion

@@ -1,0 +1,118 @@
+"""The payload's installation: 500 pushes of the controller against the bench's arm in which everything differs that may,
+and whole flights with programs, buses and drives.
+
+Alone: payload.py [--bin DIR] [--count PUSHES] [--flights N] [--keep FOLDER] [--json]. --keep: reports of flights are left
+in FOLDER, and those that are there already are not flown again.
+"""
+import argparse
+import concurrent.futures
+import json
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+
+from folders import ROOT
+from page import table
+
+PUSHES = 500
+FLIGHTS = 10
+FIRST_FLIGHT = 151001
+HEAD = ["asked", "least", "median", "95 %", "most"]
+# Name in the row, what is asked, field, factor.
+PUSH_ROWS = [
+    ("captured after, s", "7 to 8 (source)", "captured_s", 1.0),
+    ("peak force, N", "60", "peak_N", 1.0),
+    ("peak joint torque, N m", "100", "peak_Nm", 1.0),
+    ("base gives way, mm", "", "base_m", 1e3),
+    ("left 1 s after the capture, N", "5", "after_1s_N", 1.0),
+    ("loaded, s", "", "loaded_s", 1.0),
+    ("ticks from the message to no set force", "2", "unload_ticks", 1),
+]
+FLIGHT_ROWS = [
+    ("arm time, s", "", "duration_s", 1.0),
+    ("servo to the adapter: true error, mm", "1", "servo_error_m", 1e3),
+    ("its attitude, deg", "0.5", "servo_error_deg", 1.0),
+    ("its sway, mm", "15", "lateral_sway_m", 1e3),
+    ("force rises in, s", "about 7 (source)", "force_rise_s", 1.0),
+    ("force before the capture, N", "30 (source)", "force_N", 1.0),
+    ("peak force, N", "60", "peak_force_N", 1.0),
+    ("peak joint torque, N m", "100", "peak_joint_torque_Nm", 1.0),
+    ("insertion, mm", "about 20 (source)", "insertion_m", 1e3),
+    ("below 5 N after, s", "1", "unload_s", 1.0),
+    ("base gives way, mm", "", "base_deflection_m", 1e3),
+]
+
+
+def pushes(program, count):
+    done = subprocess.run([program, "--json", "--count", str(count)], capture_output=True, text=True, check=True)
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+def spread(name, asked, values):
+    if not values:
+        return [name, asked, "-", "-", "-", "-"]
+    ordered = sorted(values)
+    of = [ordered[0], statistics.median(ordered), ordered[min(len(ordered) - 1, int(0.95 * len(ordered)))], ordered[-1]]
+    return [name, asked, *(f"{value:.3g}" for value in of)]
+
+
+def flight(binaries, seed, folder):
+    file = folder / f"whole_{seed}.json"
+    if not file.exists():
+        call = [binaries / "liana", "run", "payload_install", "--time", "fast", "--seed", str(seed), "--json", file]
+        subprocess.run([str(word) for word in call], capture_output=True, check=False)
+    report = json.loads(file.read_text()) if file.exists() else {"outcome": "no report"}
+    print(f"   flight {seed}: {report['outcome']}", file=sys.stderr, flush=True)
+    return {"seed": seed, **report}
+
+
+def flights(binaries, count, folder):
+    folder.mkdir(parents=True, exist_ok=True)
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        jobs = [pool.submit(flight, binaries, FIRST_FLIGHT + i, folder) for i in range(count)]
+        return [job.result() for job in jobs]
+
+
+def measure(binaries, count=PUSHES, flown=FLIGHTS, keep=None):
+    pushed = pushes(binaries / "pushes", count)
+    with tempfile.TemporaryDirectory() as folder:
+        whole = flights(binaries, flown, pathlib.Path(keep or folder))
+    captured = [one for one in pushed if one["captured_s"] > 0]
+    rows = [spread(name, asked, [f * one[key] for one in captured]) for name, asked, key, f in PUSH_ROWS]
+    text = (
+        f"{len(captured)} of {len(pushed)} pushes captured, {sum(one['faults'] > 0 for one in pushed)} with a fault: payloads of"
+        " 300 to 1000 kg, base and gears of another stiffness, friction, noise and offset of the sensor, and pins from"
+        " soft to hard, all drawn.\n\n"
+    )
+    text += table([f"of {len(captured)} pushes", *HEAD], rows)
+    good = [one for one in whole if one["outcome"] == "success"]
+    text += f"\n\n`liana run payload_install --time fast`, seeds {FIRST_FLIGHT} on: {len(good)} of {len(whole)} installed.\n\n"
+    rows = [
+        spread(name, asked, [f * one[key] for one in good if one.get(key) is not None])
+        for name, asked, key, f in FLIGHT_ROWS
+    ]
+    text += table([f"of {len(good)} flights", *HEAD], rows)
+    for one in whole:
+        if one["outcome"] != "success":
+            text += f"\n\nSeed {one['seed']}: {one.get('reason', one['outcome'])}."
+    keys = ["seed", "outcome", *(key for _, _, key, _ in FLIGHT_ROWS)]
+    return {"pushes": pushed, "flights": [{key: one.get(key) for key in keys} for one in whole]}, text
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/bin")
+    parser.add_argument("--count", type=int, default=PUSHES)
+    parser.add_argument("--flights", type=int, default=FLIGHTS)
+    parser.add_argument("--keep", type=pathlib.Path)
+    parser.add_argument("--json", action="store_true")
+    options = parser.parse_args()
+    values, text = measure(options.bin, options.count, options.flights, options.keep)
+    print(json.dumps(values) if options.json else text)
+
+
+if __name__ == "__main__":
+    main()
