@@ -73,7 +73,9 @@ constexpr std::array kAxes{"x", "y", "z"};
 constexpr double kTargetBytes = 31;
 constexpr std::array kServoTarget{
     text("target", kTargetBytes, "which of what the camera sees: its `target_name`, or `slit` or `rod`"),
-    pose("offset", kReach, "where the tip should be, in the target's frame"),
+    pose("offset", kReach, "where the tip should be, or `point`, in the target's frame"),
+    pose("point", kReach, "what is led there, in the tip's frame: of what the arm holds; the tip itself when left out")
+        .optional(),
     word("axis", kAxes, "of the target: the way in, along which `speed_m_s` counts; x when left out").optional(),
     number("tolerance_m", 1e-4, 0.1, "xi: so near along each of the target's axes").otherwise(0.0006),
     number("tolerance_deg", 0.01, 10.0, "xi: so near about each of the target's axes").otherwise(0.4),

@@ -53,7 +53,6 @@ report::ReportSources report_sources(const system::RunOptions& options, const sy
   sources.last_state = &session.last_state();
   if (plan.scene.rod) sources.rod = plan.scene.rod->pose;
   sources.has_slit = plan.scene.slit.has_value();
-  if (plan.scene.payload) sources.payload_length_m = plan.scene.payload->length_m;
   for (const Json& file : plan.mission.value("files", Json::array()))
     sources.mission_files.push_back({{"file", file.at("file")}, {"sha256", file.at("sha256")}});
   if (!plan.is_serial) sources.body_at = body_at(options, plan);

@@ -9,7 +9,8 @@ namespace liana::daemon {
 servo::ServoRequest servo_request(const api::Arguments& fields) {
   servo::ServoRequest out;
   out.target = fields.text("target");
-  out.tip_in_target = fields.pose("offset");
+  out.place = fields.pose("offset");
+  if (fields.has("point")) out.point_in_tip = fields.pose("point");
   out.tolerance_m = fields.number("tolerance_m");
   out.tolerance_rad = fields.number("tolerance_deg") * kDegree;
   out.dwell_s = fields.number("dwell_s");

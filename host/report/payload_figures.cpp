@@ -54,7 +54,7 @@ void add_servo(Json& report, const PayloadSources& from) {
   });
   if (last == servos.rend()) return;
   const Rows rows = rows_of(from.truth, *last);
-  const Vec3 wanted_m = add(last->place->position_m, rotate(last->place->quaternion, Vec3{0.0, 0.0, from.length_m}));
+  const Vec3& wanted_m = last->place->position_m;
   report["servo_error_m"] = norm(beside_m(from.truth, rows.last, wanted_m));
   report["servo_error_deg"] = from.truth.at(rows.last, "plate_tilt_deg");
   report["lateral_sway_m"] = sway_m(from.truth, rows, wanted_m);

@@ -24,7 +24,6 @@ constexpr double kForceMean_s = 0.5;
 struct PayloadSources {
   const TruthLog& truth;
   const std::vector<Stage>& stages;
-  double length_m = 0.0;  // of the payload, from its grapple to the tips of its pins
   double period_s = 0.0;
 };
 

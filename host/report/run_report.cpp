@@ -110,7 +110,7 @@ std::string fault_text(const Json& fault) {
 
 void add_payload(Json& report, const TruthLog& truth, const ReportSources& sources, const Window& window,
                  double period_s) {
-  const PayloadSources payload{truth, sources.stages, sources.payload_length_m, period_s};
+  const PayloadSources payload{truth, sources.stages, period_s};
   const Json faults = read_json(sources.bench_summary_file).value("faults", Json::array());
   report["timeline"] = timeline_of(payload, steps_with_ticks(sources), faults, window.first_tick);
   add_payload_figures(report, payload);

@@ -53,7 +53,6 @@ struct ReportSources {
   const Json* last_state = nullptr;        // of lianad
   std::optional<config::ScenePose> rod;    // as the scene has it; none: it has none
   bool has_slit = false;                   // the scene has one; else its boxes are called boxes
-  double payload_length_m = 0.0;           // of the scene's payload; 0: it has none
   BodyAt body_at;                          // empty: no body is named
   Criteria criteria;                       // that a success has to keep, too
 };

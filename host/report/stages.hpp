@@ -17,7 +17,7 @@ struct Stage {
   std::uint64_t tick = 0;
   std::string servo = "standby";  // phase
   std::string target;             // of the servo
-  std::optional<Pose> place;      // where the servo brings the tip, in the target's frame
+  std::optional<Pose> place;      // where the servo brings its point, in the target's frame
   std::string push = "none";      // phase
   std::string push_end = "none";  // how it ended
   double set_N = 0.0;

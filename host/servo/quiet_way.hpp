@@ -1,4 +1,4 @@
-// The tip's way to its place beside a target, both in the target's frame, on a time law that leaves the base still.
+// A point's way to its place beside a target, both in the target's frame, on a time law that leaves the base still.
 #pragma once
 
 #include "host/motion/time_law.hpp"
@@ -12,7 +12,7 @@ class QuietWay {
   QuietWay(const Pose& from, const Pose& to, const ApproachLimits& limits, const motion::Swings& swings);
 
   double duration_s() const { return law_.duration_s(); }
-  // Where the tip should be so long after the begin.
+  // Where the point should be so long after the begin.
   Pose at(double time_s) const;
 
  private:

@@ -61,7 +61,9 @@ void TargetServo::note_tip(double now_s, const Pose& tip_measured) {
 
 void TargetServo::see(const std::string& target, double capture_s, const Pose& target_in_tip) {
   if (!is_under_way() || target != request_.target) return;
-  const ImageUse use = track_.see(capture_s, target_in_tip, history_.at(capture_s));
+  std::optional<Pose> point = history_.at(capture_s);
+  if (point) point = point_of(*point);
+  const ImageUse use = track_.see(capture_s, compose(inverse(request_.point_in_tip), target_in_tip), point);
   if (use == ImageUse::kUsed) saw_ = true;
   trouble_ = trouble_of(use);
 }
@@ -71,12 +73,12 @@ void TargetServo::begin(const ServoRequest& request, const Pose& tip_command) {
   request_.limits.sag_tau_s = request.swings.quick_s;  // an arm that gives way to a swing would feed it
   track_ = TargetTrack(request.tau_s, request.swings);
   approach_ = Approach(request.limits);
-  approach_.begin(tip_command);
+  approach_.begin(point_of(tip_command));
   way_.reset();
   report_ = {};
   report_.phase = ServoPhase::kApproaching;
   report_.target = request.target;
-  report_.place = request.tip_in_target;
+  report_.place = request.place;
   begun_s_ = last_seen_s_ = now_s_;
   saw_ = false;
   trouble_.clear();
@@ -86,20 +88,22 @@ std::optional<Pose> TargetServo::next(const Pose& tip_command) {
   if (!is_under_way()) return std::nullopt;
   look();
   if (!is_under_way()) return std::nullopt;
-  if (!track_.is_settled()) return approach_.brake(interval_s_);
+  const Pose from_point = inverse(request_.point_in_tip);
+  if (!track_.is_settled()) return compose(approach_.brake(interval_s_), from_point);
   const Pose& target = track_.target_in_base();
-  Pose goal = compose(target, place_now(tip_command));
+  const Pose command = point_of(tip_command);
+  Pose goal = compose(target, place_now(command));
   const double later_s = 1.0 / request_.limits.gain_1_s;  // so much later than its goal the tip moves
   goal.position_m = add(goal.position_m, scale(track_.calming_m(now_s_ + later_s), request_.calming));
-  return approach_.next(target, goal, tip_measured_, tip_command, interval_s_);
+  return compose(approach_.next(target, goal, point_of(tip_measured_), command, interval_s_), from_point);
 }
 
-// Where the tip should be beside the target now: on a base that swings the place comes to it slowly.
-Pose TargetServo::place_now(const Pose& tip_command) {
-  if (request_.swings.slow_s <= 0.0) return request_.tip_in_target;
+// Where the point should be beside the target now: on a base that swings the place comes to it slowly.
+Pose TargetServo::place_now(const Pose& point_command) {
+  if (request_.swings.slow_s <= 0.0) return request_.place;
   if (!way_) {
-    const Pose from = compose(inverse(track_.target_in_base()), tip_command);
-    way_.emplace(from, request_.tip_in_target, request_.limits, request_.swings);
+    const Pose from = compose(inverse(track_.target_in_base()), point_command);
+    way_.emplace(from, request_.place, request_.limits, request_.swings);
     way_begun_s_ = now_s_;
   }
   return way_->at(now_s_ - way_begun_s_);
@@ -114,7 +118,7 @@ void TargetServo::look() {
   report_.duration_s = now_s_ - begun_s_;
   if (track_.is_settled()) {
     const Pose& target = track_.target_in_base();
-    report_.error = error_between(target, compose(target, request_.tip_in_target), tip_measured_);
+    report_.error = error_between(target, compose(target, request_.place), point_of(tip_measured_));
     report_.swing_m = track_.swing_m();
   }
   if (now_s_ - last_seen_s_ > request_.lost_s + kPassed_s) {

@@ -1,5 +1,5 @@
-// The visual servo of the payload's mission (requirement B16): the tip goes to where it should be beside a target that
-// a camera sees, stays there for the dwell, and the servo ends by itself. It gives tip goals, one in a command
+// The visual servo of the payload's mission (requirement B16): the tip, or a point of what it holds, goes to where it
+// should be beside a target that a camera sees, stays there for the dwell, and the servo ends by itself. It gives tip goals, one in a command
 // interval; who verifies and releases them is no business of this.
 #pragma once
 
@@ -18,7 +18,8 @@ namespace liana::servo {
 // What is asked for.
 struct ServoRequest {
   std::string target;           // which of what the camera sees
-  Pose tip_in_target{};         // where the tip should be: D, with the standing distance along the way in
+  Pose place{};  // where the point should be, in the target's frame: D, with the standing distance along the way in
+  Pose point_in_tip{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};  // what is led there: the tip, or of what it holds
   double tolerance_m = 0.0006;  // xi: of each of the target's axes
   double tolerance_rad = 0.00698;
   double dwell_s = 1.0;  // so long within it
@@ -39,7 +40,7 @@ const char* servo_phase_name(ServoPhase phase);
 struct ServoReport {
   ServoPhase phase = ServoPhase::kStandby;
   std::string target;
-  std::optional<Pose> place;       // where the tip should be, in the target's frame; nothing before the first
+  std::optional<Pose> place;       // where the point should be, in the target's frame; nothing before the first
   std::optional<PoseError> error;  // left to go by the low-passed images; nothing before enough of them agree
   double swing_m = 0.0;            // how far the target swings in the arm's base
   std::int64_t images_used = 0;
@@ -73,7 +74,8 @@ class TargetServo {
  private:
   void look();
   bool is_within() const;
-  Pose place_now(const Pose& tip_command);
+  Pose place_now(const Pose& point_command);
+  Pose point_of(const Pose& tip) const { return compose(tip, request_.point_in_tip); }
   void end_as(ServoPhase phase, const std::string& reason);
 
   double interval_s_;

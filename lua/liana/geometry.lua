@@ -140,4 +140,18 @@ function geometry.quaternion_between(a, b)
   }
 end
 
+-- Poses as requests have them, { x, y, z, qw, qx, qy, qz }: b, which is told in the frame of a, in the frame that a is told in.
+function geometry.compose(a, b)
+  local attitude = { a[4], a[5], a[6], a[7] }
+  local p = geometry.add({ a[1], a[2], a[3] }, geometry.rotated({ b[1], b[2], b[3] }, attitude))
+  local q = geometry.quaternion_between({ a[4], -a[5], -a[6], -a[7] }, { b[4], b[5], b[6], b[7] })
+  return { p[1], p[2], p[3], q[1], q[2], q[3], q[4] }
+end
+
+-- The frame that pose a is told in, in the frame of a.
+function geometry.inverse(a)
+  local p = geometry.rotated({ -a[1], -a[2], -a[3] }, { a[4], -a[5], -a[6], -a[7] })
+  return { p[1], p[2], p[3], a[4], -a[5], -a[6], -a[7] }
+end
+
 return geometry

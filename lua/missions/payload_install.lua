@@ -29,20 +29,16 @@ local kLockLimit_s = 400 -- source: 298 s
 -- With which periods the locked large arm swings under the small one, alone and with the payload of the scene in hand: what moves is led so
 -- that it leaves the base still, whatever it carries. The squares of the periods grow with the mass.
 local kAlone = { swing_s = 26.7, quicker_swing_s = 5.6 }
-local kSlowest_s2_per_kg, kQuickest_s2_per_kg = 0.62, 0.08
+local kSlowest_s2_per_kg, kQuickest_s2_per_kg = 0.9, 0.08
 -- The end effector takes what is within 20 mm, a pin's funnel what is within 30 mm. With the payload in hand the arm is as heavy as what it
 -- stands on: there it keeps still against a swing instead of working against it.
 local kServoToPayload = { axis = "z", tolerance_m = 0.003, tolerance_deg = 0.8 } -- else as servo_target has it
-local kServoToAdapter = { axis = "z", tolerance_m = 0.002, tolerance_deg = 0.4, calming = 0.3, gain_1_s = 0.2, timeout_s = 200 }
+local kServoToAdapter = { axis = "z", tolerance_m = 0.003, tolerance_deg = 0.5, calming = 0.3, gain_1_s = 0.2, timeout_s = 200 }
 
 -- ---- places -------------------------------------------------------------------------------------------------------
 
 -- `pose` moved in its own axes.
-local function moved(pose, way_m)
-  local q = { pose[4], pose[5], pose[6], pose[7] }
-  local p = geometry.add({ pose[1], pose[2], pose[3] }, geometry.rotated(way_m, q))
-  return { p[1], p[2], p[3], q[1], q[2], q[3], q[4] }
-end
+local function moved(pose, way_m) return geometry.compose(pose, { way_m[1], way_m[2], way_m[3], 1, 0, 0, 0 }) end
 
 -- Where the scene's drawing has a part.
 local function drawn(arm, name)
@@ -87,6 +83,22 @@ local function near(turned_deg)
   end)
 end
 
+-- The grapple as the camera saw it when the end effector closed, in the tip's frame: so the payload is held. Unseen: as drawn.
+local held = { 0, 0, 0, 1, 0, 0, 0 }
+
+local function remember_grapple(arm)
+  local servo = arm.state.servo
+  local turn_deg = geometry.length(servo.error_deg)
+  local half, axis = math.rad(turn_deg / 2), turn_deg > 0 and geometry.scale(servo.error_deg, 1 / turn_deg) or { 1, 0, 0 }
+  local left = geometry.scale(axis, -math.sin(half))
+  local e = servo.error_m
+  local tip_in_grapple = geometry.compose({ -e[1], -e[2], -e[3] - kAtGrapple_m, 1, 0, 0, 0 }, { 0, 0, 0, math.cos(half), left[1], left[2], left[3] })
+  held = geometry.inverse(tip_in_grapple)
+end
+
+-- The middle of the pins' tips, in the tip's frame.
+local function pins(arm) return moved(held, { 0, 0, arm.part_of_scene("payload").length_m }) end
+
 -- Of the tip from the adapter's face, with the payload in hand.
 local function at_adapter_m(arm) return -arm.part_of_scene("payload").length_m - kBeforeAdapter_m end
 
@@ -99,9 +111,11 @@ local function before_site(arm)
   arm.move_cp(with(loaded(arm), { goal = moved(drawn(arm, "adapter"), way_m) }))
 end
 
-local function servo_to(target, offset_m, how, swings)
+-- The tip, or `point` of what it holds, to a place before a target along its axis.
+local function servo_to(target, before_m, how, swings, point)
   return function(arm)
-    arm.servo_target(with(swings(arm), with(how, { target = target, offset = { 0, 0, offset_m(arm), 1, 0, 0, 0 } })))
+    local place = { target = target, offset = { 0, 0, -before_m, 1, 0, 0, 0 }, point = point and point(arm) }
+    arm.servo_target(with(swings(arm), with(how, place)))
   end
 end
 
@@ -190,7 +204,7 @@ return liana.mission "payload_install" {
   },
   step "3 servo to the payload" {
     device = "none",
-    run = servo_to("grapple", function() return -kAtGrapple_m end, kServoToPayload, alone),
+    run = servo_to("grapple", kAtGrapple_m, kServoToPayload, alone),
     exit = all { servo_done(), at_rest() },
     fail_when = servo_failed(),
     time_limit_s = 210,
@@ -199,7 +213,10 @@ return liana.mission "payload_install" {
   },
   step "3 grapple" {
     device = "none",
-    run = liana.tool "grapple",
+    run = function(arm)
+      remember_grapple(arm)
+      arm.tool { command = "grapple" }
+    end,
     exit = liana.tool_done(),
     fail_when = condition("the end effector has failed", function(arm) return arm.state.tool.phase == "failed" end),
     time_limit_s = 30,
@@ -235,7 +252,7 @@ return liana.mission "payload_install" {
   step "3 servo to the adapter" {
     device = "none",
     enter = at_rest(),
-    run = servo_to("adapter", at_adapter_m, kServoToAdapter, loaded),
+    run = servo_to("adapter", kBeforeAdapter_m, kServoToAdapter, loaded, pins),
     exit = all { servo_done(), at_rest() },
     fail_when = servo_failed(), -- target lost, base moving, not there in time
     time_limit_s = 210,

@@ -1,5 +1,5 @@
 """Scenarios on CAN interfaces: their files (README.md), and what runs each."""
-from can import calibrate_run, real_kills
+from can import calibrate_run, mission_run, real_kills
 from can.stand import CanStand
 from can.system import BenchOnCan, kInterfaces
 from run_scenario import Run, outcome
@@ -15,6 +15,7 @@ kFields = {
     "restart": str,
     "mend": list,
     "calibrate": dict,
+    "mission": dict,
     "expect": dict,
     "reduced": bool,
     "only_in_vm": bool,
@@ -34,11 +35,13 @@ class CanScenario:
     def __init__(self, path):
         self.name = f"can/{path.parent.name}/{path.stem}"
         content = read(path)
-        self.calibrate = content.get("calibrate")
-        check_fields(
-            self.name, content, kFields, ("about", "on", "expect", *([] if self.calibrate else ["during"])), kReadme
-        )
-        if self.calibrate:
+        self.calibrate, self.mission = content.get("calibrate"), content.get("mission")
+        is_scenario = not self.calibrate and not self.mission
+        check_fields(self.name, content, kFields, ("about", "on", "expect", *(["during"] if is_scenario else [])), kReadme)
+        if self.mission:
+            check_fields(f"{self.name}: mission", self.mission, mission_run.kFields, ("name", "bus"), kReadme)
+            check_fields(f"{self.name}: expect", content["expect"], mission_run.kExpected, ("outcome",), kReadme)
+        elif self.calibrate:
             check_fields(f"{self.name}: calibrate", self.calibrate, calibrate_run.kFields, ("poses",), kReadme)
             check_fields(f"{self.name}: expect", content["expect"], calibrate_run.kExpected, ("code",), kReadme)
         else:
@@ -55,9 +58,12 @@ class CanScenario:
         self.numbers = [] if number is None else number if isinstance(number, list) else [number]
 
     def fault_count(self):
-        return 1 if self.do or (self.calibrate and "cross_wired" in self.calibrate) else 0
+        planted = self.do or "cross_wired" in (self.calibrate or {}) or "planted" in (self.mission or {})
+        return 1 if planted else 0
 
     def run(self, stand):
+        if self.mission:
+            return mission_run.MissionRun(self, stand)
         return calibrate_run.CalibrateRun(self, stand) if self.calibrate else Run(self, stand)
 
 

@@ -24,7 +24,7 @@ class ServoMoves : public testing::Test {
     now_.joint_command_rad = now_.joint_measured_rad = {0.1, 0.6, -0.2, 1.1, 0.3, 0.8, -0.1};
     now_.tip_command = serial::forward_kinematics(table_, now_.joint_command_rad).tip_in_base;
     request_.target = "adapter";
-    request_.tip_in_target = {{-0.2, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
+    request_.place = {{-0.2, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
   }
   std::optional<serial::Setpoint> next(double off_m, bool seen = true) {
     tick_ += 5;

@@ -14,7 +14,6 @@ namespace liana::report {
 namespace {
 
 constexpr double kPeriod_s = 0.01;
-constexpr double kLength_m = 1.0;
 constexpr double kBefore_m = 0.005;  // of the pins from the face, where the servo ends
 
 // What the truth has in a slot; what is left out is 0.
@@ -55,7 +54,7 @@ Stage stage(std::uint64_t tick, const std::string& servo, const std::string& pus
   out.tick = tick;
   out.servo = servo;
   out.target = "adapter";
-  out.place = Pose{{0.0, 0.0, -kLength_m - kBefore_m}, {1.0, 0.0, 0.0, 0.0}};
+  out.place = Pose{{0.0, 0.0, -kBefore_m}, {1.0, 0.0, 0.0, 0.0}};
   out.push = push;
   out.push_end = end;
   out.set_N = set_N;
@@ -64,7 +63,7 @@ Stage stage(std::uint64_t tick, const std::string& servo, const std::string& pus
 
 Json figures_of(const TruthLog& truth, const std::vector<Stage>& stages) {
   Json report = Json::object();
-  add_payload_figures(report, {truth, stages, kLength_m, kPeriod_s});
+  add_payload_figures(report, {truth, stages, kPeriod_s});
   return report;
 }
 
@@ -191,7 +190,7 @@ TEST(Timeline, HasStepsStagesTruthAndFaultsInTheirOrder) {
   const TruthLog truth = truth_of(insertion());
   const Json steps = {{{"name", "push"}, {"outcome", "success"}, {"start_tick", 100}, {"end_tick", 905}}};
   const Json faults = {{{"kind", "jam"}, {"begun_slot", 300}, {"ended_slot", nullptr}}};
-  const Json timeline = timeline_of({truth, kPush, kLength_m, kPeriod_s}, steps, faults, 100);
+  const Json timeline = timeline_of({truth, kPush, kPeriod_s}, steps, faults, 100);
   const Json expected = {{{"event", "push begins"}, {"time_s", 0.0}},
                          {{"event", "force control begins"}, {"time_s", 0.0}},
                          {{"event", "set force 30.0"}, {"time_s", 0.5}},

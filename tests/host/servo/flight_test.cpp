@@ -66,7 +66,7 @@ class Flown {
     const Pose true_tip = compose(kTarget, start_in_target);
     filter_.pose = arm_ = measured_of(true_tip);
     request_.target = "adapter";
-    request_.tip_in_target = {{-0.108, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
+    request_.place = {{-0.108, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
   }
 
   Flight fly() {
@@ -102,7 +102,7 @@ class Flown {
   Pose measured_of(const Pose& true_tip) const { return compose(off_, true_tip); }
   Pose true_of(const Pose& measured) const { return compose(inverse(off_), measured); }
   PoseError true_error() const {
-    return error_between(kTarget, compose(kTarget, request_.tip_in_target), true_of(arm_));
+    return error_between(kTarget, compose(kTarget, request_.place), true_of(arm_));
   }
 
   void photograph(double now_s) {

@@ -13,7 +13,7 @@ const Pose kTarget{{2.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
 ServoRequest near_request() {
   ServoRequest request;
   request.target = "adapter";
-  request.tip_in_target = {{-0.1, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
+  request.place = {{-0.1, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
   request.timeout_s = 60.0;
   return request;
 }
@@ -149,6 +149,20 @@ TEST(TargetServo, ATargetThatCannotBeReachedInTimeEndsIt) {
   bench.run(Bench::sound, 10.0);
   EXPECT_EQ(bench.servo.report().phase, ServoPhase::kTimedOut);
   EXPECT_NEAR(bench.servo.report().duration_s, 4.0, 0.05);
+}
+
+// What it holds is 0.5 m long and askew in it by 0.02 rad: the point arrives, turned as it should be, not the tip.
+TEST(TargetServo, APointOfWhatTheArmHoldsIsLedToItsPlace) {
+  ServoRequest request = near_request();
+  request.point_in_tip = {{0.5, 0.0, 0.01}, quaternion_of({0.0, 0.0, 0.02})};
+  Bench bench;
+  bench.tip = {{1.35, 0.0, 0.005}, {1.0, 0.0, 0.0, 0.0}};
+  bench.servo.begin(request, bench.tip);
+  bench.run(Bench::sound, 60.0);
+  EXPECT_EQ(bench.servo.report().phase, ServoPhase::kDone);
+  const Pose point = compose(bench.tip, request.point_in_tip);
+  EXPECT_LT(norm(subtract(point.position_m, {1.9, 0.0, 0.0})), 0.001);
+  EXPECT_LT(norm(rotation_vector(point.quaternion)), 0.0071);
 }
 
 // req:B16
