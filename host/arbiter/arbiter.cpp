@@ -45,7 +45,8 @@ bool Arbiter<Arm>::is_busy() const {
 }
 
 template <class Arm>
-void Arbiter<Arm>::move_joints(const Now& now, const Joints<Arm>& goal_rad, double rate_rad_s, const motion::Swings& swings) {
+void Arbiter<Arm>::move_joints(const Now& now, const Joints<Arm>& goal_rad, double rate_rad_s,
+                               const motion::Swings& swings) {
   require_free(now);
   way_.template emplace<JointMove<Arm>>(table_, Kind::command_rad(now), goal_rad, rate_rad_s, swings);
 }

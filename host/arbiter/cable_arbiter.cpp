@@ -31,7 +31,8 @@ void CableArbiter::require_free(const cable::Outputs& now) const {
   if (device_.engaged()) throw api::RequestError("busy", "the operator steers: wait for the deadman to open");
 }
 
-void CableArbiter::move_joints(const cable::Outputs& now, const cable::ThetaVector& goal_rad, double rate_rad_s, const motion::Swings& swings) {
+void CableArbiter::move_joints(const cable::Outputs& now, const cable::ThetaVector& goal_rad, double rate_rad_s,
+                               const motion::Swings& swings) {
   require_free(now);
   moves_.move_joints(now, goal_rad, rate_rad_s, swings);
 }

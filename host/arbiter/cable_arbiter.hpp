@@ -29,7 +29,8 @@ class CableArbiter {
 
   // Requests of the owner; they throw RequestError (not_enabled, fault, busy, refused). `now` is the newest tick of the
   // arm.
-  void move_joints(const cable::Outputs& now, const cable::ThetaVector& goal_rad, double rate_rad_s, const motion::Swings& swings = {});
+  void move_joints(const cable::Outputs& now, const cable::ThetaVector& goal_rad, double rate_rad_s,
+                   const motion::Swings& swings = {});
   void move_line(const cable::Outputs& now, const Pose& goal, const motion::Swings& swings = {});
   void servo_tip(const cable::Outputs& now, const Pose& goal);
   void move_path(const cable::Outputs& now, const PathRequest<cable::CableArm>& request);

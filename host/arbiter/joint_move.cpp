@@ -42,7 +42,8 @@ JointMove<Arm>::JointMove(const Table& table, const Joints<Arm>& from_rad, const
   motion::MoveNeeds needs;
   for (std::size_t i = 0; i < Kind::joint_count(table); ++i) {
     const double way_rad = std::fabs(to_rad[i] - from_rad[i]);
-    needs.speed_s = std::max(needs.speed_s, way_rad / (motion::kMoveShare * std::min(rate_rad_s, Kind::rate_rad_s(table, i))));
+    needs.speed_s =
+        std::max(needs.speed_s, way_rad / (motion::kMoveShare * std::min(rate_rad_s, Kind::rate_rad_s(table, i))));
     needs.accel_s2 = std::max(needs.accel_s2, way_rad / Kind::move_accel_rad_s2(table, i));
   }
   const TipWay tip = steepest_tip_way<Arm>(table, from_rad, to_rad);

@@ -29,7 +29,8 @@ void SerialArbiter::follow(const Now& now) {
   asked_->kind = CommandKind::kFollow;
 }
 
-void SerialArbiter::move_joints(const Now& now, const serial::JointVector& goal_rad, double rate_rad_s, const motion::Swings& swings) {
+void SerialArbiter::move_joints(const Now& now, const serial::JointVector& goal_rad, double rate_rad_s,
+                                const motion::Swings& swings) {
   Base::move_joints(now, goal_rad, rate_rad_s, swings);
   asked_.reset();
 }

@@ -25,7 +25,8 @@ class SerialArbiter : public Arbiter<serial::SerialArm> {
   void follow(const Now& now);
 
   // As those of plain motion; each ends what was asked for here.
-  void move_joints(const Now& now, const serial::JointVector& goal_rad, double rate_rad_s, const motion::Swings& swings = {});
+  void move_joints(const Now& now, const serial::JointVector& goal_rad, double rate_rad_s,
+                   const motion::Swings& swings = {});
   void move_line(const Now& now, const Pose& goal, const motion::Swings& swings = {});
   void servo_tip(const Now& now, const Pose& goal);
   void servo_target(const Now& now, const servo::ServoRequest& request);

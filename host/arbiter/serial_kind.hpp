@@ -38,8 +38,7 @@ struct ArmKind<serial::SerialArm> {
   static double drive_time_s(const serial::RobotTable&, const Joints&, const Joints&) { return 0.0; }
   static TipBounds tip_bounds(const serial::RobotTable& table) {
     const serial::TipLimits& l = table.tip;
-    return {{l.speed_m_s, l.accel_m_s2, l.jerk_m_s3},
-            {l.rate_rad_s, l.angular_accel_rad_s2, l.angular_jerk_rad_s3}};
+    return {{l.speed_m_s, l.accel_m_s2, l.jerk_m_s3}, {l.rate_rad_s, l.angular_accel_rad_s2, l.angular_jerk_rad_s3}};
   }
   static Pose tip_at(const serial::RobotTable& table, const Joints& joint_rad) {
     return serial::forward_kinematics(table, joint_rad).tip_in_base;

@@ -2,7 +2,8 @@
 
 namespace liana::arbiter {
 
-TipLine::TipLine(const TipBounds& bounds, const Pose& from, const Pose& to, double speed_m_s, const motion::Swings& swings)
+TipLine::TipLine(const TipBounds& bounds, const Pose& from, const Pose& to, double speed_m_s,
+                 const motion::Swings& swings)
     : from_(from), to_(to) {
   FilterBounds linear = bounds.linear;
   linear.speed = speed_m_s;

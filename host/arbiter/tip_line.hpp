@@ -10,7 +10,8 @@ namespace liana::arbiter {
 class TipLine {
  public:
   // Within the bounds, and the tip not faster than `speed_m_s`.
-  TipLine(const TipBounds& bounds, const Pose& from, const Pose& to, double speed_m_s, const motion::Swings& swings = {});
+  TipLine(const TipBounds& bounds, const Pose& from, const Pose& to, double speed_m_s,
+          const motion::Swings& swings = {});
   double duration_s() const { return law_.duration_s(); }
   Pose at(double time_s) const;
 

@@ -108,8 +108,8 @@ void read_joint_drives(const Field& drives, SerialRobotConfig& out) {
 }
 
 void read_tip_limits(const Field& field, serial::TipLimits& tip) {
-  field.only({"tip_speed_m_s", "tip_accel_m_s2", "tip_jerk_m_s3", "tip_rate_deg_s",
-              "tip_angular_accel_deg_s2", "tip_angular_jerk_deg_s3"});
+  field.only({"tip_speed_m_s", "tip_accel_m_s2", "tip_jerk_m_s3", "tip_rate_deg_s", "tip_angular_accel_deg_s2",
+              "tip_angular_jerk_deg_s3"});
   tip.speed_m_s = field.at("tip_speed_m_s").number({0.0001, 2});
   tip.accel_m_s2 = field.at("tip_accel_m_s2").number({0.0001, 50});
   tip.jerk_m_s3 = field.at("tip_jerk_m_s3").number({0.001, 1000});

@@ -31,7 +31,8 @@ double minimum_jerk(double share) {
 }
 
 double minimum_jerk_s(const MoveNeeds& needs) {
-  return std::max({kPeakSpeed * needs.speed_s, std::sqrt(kPeakAccel * needs.accel_s2), std::cbrt(kPeakJerk * needs.jerk_s3)});
+  return std::max(
+      {kPeakSpeed * needs.speed_s, std::sqrt(kPeakAccel * needs.accel_s2), std::cbrt(kPeakJerk * needs.jerk_s3)});
 }
 
 constexpr double kBelow = 0.94, kAbove = 1.06;

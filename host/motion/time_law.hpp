@@ -1,4 +1,5 @@
-// How planned motion spends its time, from rest to rest: minimum jerk, or a law after which a base that swings is still.
+// How planned motion spends its time, from rest to rest: minimum jerk, or a law after which a base that swings is
+// still.
 #pragma once
 
 #include <array>

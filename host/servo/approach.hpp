@@ -39,8 +39,8 @@ class Approach {
 
   // Starts from rest, where the tip is commanded to be.
   void begin(const Pose& tip_command) { *this = Approach(limits_, tip_command); }
-  // The tip goal for the next `dt_s`: towards `goal`, and as far beyond as the arm is measured off its command. What has
-  // been asked for and the command has not done yet counts as done, or its lag would turn into overshoot.
+  // The tip goal for the next `dt_s`: towards `goal`, and as far beyond as the arm is measured off its command. What
+  // has been asked for and the command has not done yet counts as done, or its lag would turn into overshoot.
   Pose next(const Pose& target_in_base, const Pose& goal, const Pose& tip_measured, const Pose& tip_command,
             double dt_s);
   // The tip goal for the next `dt_s` while it is not known where to go: comes to rest.
@@ -54,8 +54,8 @@ class Approach {
   ApproachLimits limits_;
   Pose asked_{};
   std::optional<PoseError> sag_;  // of the arm against its command
-  Vec3 velocity_m_s_{};  // base frame
-  Vec3 rate_rad_s_{};    // base frame
+  Vec3 velocity_m_s_{};           // base frame
+  Vec3 rate_rad_s_{};             // base frame
 };
 
 }  // namespace liana::servo

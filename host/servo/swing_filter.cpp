@@ -98,8 +98,7 @@ void SwingFilter::see(double time_s, const Vec3& seen) {
   for (const std::size_t j : kSeenStates) variance += with_seen2[j];
   for (std::size_t i = 0; i < kSwingStates; ++i) {
     state_[i] = add(state_[i], scale(off, with_seen2[i] / variance));
-    for (std::size_t j = 0; j < kSwingStates; ++j)
-      covariance_[i][j] -= with_seen2[i] * with_seen2[j] / variance;
+    for (std::size_t j = 0; j < kSwingStates; ++j) covariance_[i][j] -= with_seen2[i] * with_seen2[j] / variance;
   }
 }
 
@@ -114,8 +113,7 @@ Vec3 SwingFilter::calming(double time_s) const { return scale(at(time_s)[quadrat
 
 double SwingFilter::amplitude() const {
   double out = 0.0;
-  for (std::size_t k = 0; k < kSwings; ++k)
-    out += std::hypot(norm(state_[in_phase(k)]), norm(state_[quadrature(k)]));
+  for (std::size_t k = 0; k < kSwings; ++k) out += std::hypot(norm(state_[in_phase(k)]), norm(state_[quadrature(k)]));
   return out;
 }
 

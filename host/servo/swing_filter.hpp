@@ -1,6 +1,6 @@
 // Where a target is that swings in the arm's base, because the base swings: each axis, of its place or of its attitude,
-// is a mean and up to two oscillations whose periods are roughly known, told apart by a Kalman filter (states: the mean,
-// then each oscillation and what it is a quarter of a period later). All figures are in the unit of what is seen.
+// is a mean and up to two oscillations whose periods are roughly known, told apart by a Kalman filter (states: the
+// mean, then each oscillation and what it is a quarter of a period later). All figures are in the unit of what is seen.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ constexpr std::size_t kSwingStates = 1 + 2 * kSwings;
 
 // Deviations that a filter assumes; with them 10 mm of swing with a period that is a tenth off is followed.
 struct SwingNoise {
-  double seen;               // of an image: the camera that is assumed
-  double swing;              // before the first image
+  double seen;                // of an image: the camera that is assumed
+  double swing;               // before the first image
   double mean_change_sqrt_s;  // per root of a second
   double swing_change_sqrt_s;
 };

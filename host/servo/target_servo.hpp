@@ -1,6 +1,6 @@
 // The visual servo of the payload's mission (requirement B16): the tip, or a point of what it holds, goes to where it
-// should be beside a target that a camera sees, stays there for the dwell, and the servo ends by itself. It gives tip goals, one in a command
-// interval; who verifies and releases them is no business of this.
+// should be beside a target that a camera sees, stays there for the dwell, and the servo ends by itself. It gives tip
+// goals, one in a command interval; who verifies and releases them is no business of this.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +17,17 @@ namespace liana::servo {
 
 // What is asked for.
 struct ServoRequest {
-  std::string target;           // which of what the camera sees
+  std::string target;  // which of what the camera sees
   Pose place{};  // where the point should be, in the target's frame: D, with the standing distance along the way in
   Pose point_in_tip{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};  // what is led there: the tip, or of what it holds
-  double tolerance_m = 0.0006;  // xi: of each of the target's axes
+  double tolerance_m = 0.0006;                               // xi: of each of the target's axes
   double tolerance_rad = 0.00698;
   double dwell_s = 1.0;  // so long within it
   double timeout_s = 120.0;
-  double lost_s = 1.0;                    // without a usable image
-  double tau_s = 4.0;                     // of the low-pass on images
-  motion::Swings swings{};                // with which periods the arm's base swings
-  double calming = 1.0;  // share of the slow swing by which the tip moves against it; 0: it is left as it is
+  double lost_s = 1.0;      // without a usable image
+  double tau_s = 4.0;       // of the low-pass on images
+  motion::Swings swings{};  // with which periods the arm's base swings
+  double calming = 1.0;     // share of the slow swing by which the tip moves against it; 0: it is left as it is
   ApproachLimits limits{};
 };
 

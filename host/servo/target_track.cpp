@@ -42,7 +42,8 @@ bool TargetTrack::is_frozen(const Pose& target_in_tip, const Pose& tip_in_base) 
 // Where the next image should show it.
 Pose TargetTrack::expected_in_base(double capture_s) const {
   if (!place_ || agreed_ == 0) return target_in_base_;
-  return {place_->expected(capture_s), normalize(multiply(quaternion_of(attitude_->expected(capture_s)), first_attitude_))};
+  return {place_->expected(capture_s),
+          normalize(multiply(quaternion_of(attitude_->expected(capture_s)), first_attitude_))};
 }
 
 // The first images cannot tell which of two that disagree is wrong: they begin anew with the newer one.

@@ -103,11 +103,13 @@ TEST(LuaGeometry, QuaternionIsTheRotationAndHasUnitLength) {
 
 // req:B16
 TEST(LuaGeometry, APoseBehindItsInverseIsNone) {
-  const auto none = evaluate_lua(golden_cases()[0]["theta_deg"],
-                                 "geometry.compose({1, -2, 3, 0.5, 0.5, -0.5, 0.5}, geometry.inverse({1, -2, 3, 0.5, 0.5, -0.5, 0.5}))");
+  const auto none = evaluate_lua(
+      golden_cases()[0]["theta_deg"],
+      "geometry.compose({1, -2, 3, 0.5, 0.5, -0.5, 0.5}, geometry.inverse({1, -2, 3, 0.5, 0.5, -0.5, 0.5}))");
   for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(none[i].get<double>(), i == 3 ? 1.0 : 0.0, kTolerance) << i;
-  const auto beyond = evaluate_lua(golden_cases()[0]["theta_deg"],
-                                   "geometry.compose({1, 2, 3, math.sqrt(0.5), 0, 0, math.sqrt(0.5)}, {1, 0, 0, 1, 0, 0, 0})");
+  const auto beyond =
+      evaluate_lua(golden_cases()[0]["theta_deg"],
+                   "geometry.compose({1, 2, 3, math.sqrt(0.5), 0, 0, math.sqrt(0.5)}, {1, 0, 0, 1, 0, 0, 0})");
   EXPECT_NEAR(beyond[0].get<double>(), 1.0, kTolerance);
   EXPECT_NEAR(beyond[1].get<double>(), 3.0, kTolerance) << "a quarter turn about z";
 }

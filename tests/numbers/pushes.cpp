@@ -12,10 +12,11 @@ constexpr std::uint64_t kFirstSeed = 150001;
 constexpr double kMost_s = 40.0;  // as the mission allows
 
 void print(std::uint64_t seed, const test::PushRun& run, bool json) {
-  const char* form = json ? "{\"seed\": %d, \"captured_s\": %.3f, \"peak_N\": %.2f, \"peak_Nm\": %.2f, \"base_m\": %.5f, "
-                            "\"after_1s_N\": %.2f, \"loaded_s\": %.3f, \"unload_ticks\": %d, \"faults\": %d}\n"
-                          : "seed %d: captured %.3f s, %.2f N, %.2f N m, base %.5f m, after 1 s %.2f N, loaded %.3f s, "
-                            "%d ticks, %d faults\n";
+  const char* form =
+      json ? "{\"seed\": %d, \"captured_s\": %.3f, \"peak_N\": %.2f, \"peak_Nm\": %.2f, \"base_m\": %.5f, "
+             "\"after_1s_N\": %.2f, \"loaded_s\": %.3f, \"unload_ticks\": %d, \"faults\": %d}\n"
+           : "seed %d: captured %.3f s, %.2f N, %.2f N m, base %.5f m, after 1 s %.2f N, loaded %.3f s, "
+             "%d ticks, %d faults\n";
   std::printf(form, static_cast<int>(seed), run.captured_s, run.peak_N, run.peak_Nm, run.base_m, run.after_1s_N,
               run.loaded_s, run.unload_ticks, static_cast<int>(run.faults));
 }

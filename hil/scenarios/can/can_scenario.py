@@ -37,7 +37,9 @@ class CanScenario:
         content = read(path)
         self.calibrate, self.mission = content.get("calibrate"), content.get("mission")
         is_scenario = not self.calibrate and not self.mission
-        check_fields(self.name, content, kFields, ("about", "on", "expect", *(["during"] if is_scenario else [])), kReadme)
+        check_fields(
+            self.name, content, kFields, ("about", "on", "expect", *(["during"] if is_scenario else [])), kReadme
+        )
         if self.mission:
             check_fields(f"{self.name}: mission", self.mission, mission_run.kFields, ("name", "bus"), kReadme)
             check_fields(f"{self.name}: expect", content["expect"], mission_run.kExpected, ("outcome",), kReadme)

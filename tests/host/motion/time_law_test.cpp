@@ -52,7 +52,8 @@ MoveNeeds needs_of(double way, const FilterBounds& bounds) {
 
 TEST(TimeLaw, WithoutSwingsIsTheShortestMinimumJerkMotionWithinTheLimits) {
   EXPECT_NEAR(TimeLaw(needs_of(0.4, {0.05, 10.0, 10.0}), {}).duration_s(), 1.875 * 0.4 / 0.05, 1e-12);
-  EXPECT_NEAR(TimeLaw(needs_of(0.4, {10.0, 0.02, 10.0}), {}).duration_s(), std::sqrt(10.0 / std::sqrt(3.0) * 20.0), 1e-8);
+  EXPECT_NEAR(TimeLaw(needs_of(0.4, {10.0, 0.02, 10.0}), {}).duration_s(), std::sqrt(10.0 / std::sqrt(3.0) * 20.0),
+              1e-8);
   EXPECT_NEAR(TimeLaw(needs_of(0.4, {10.0, 10.0, 0.01}), {}).duration_s(), std::cbrt(60.0 * 40.0), 1e-12);
 }
 

@@ -101,9 +101,7 @@ class Flown {
   // The arm's own reading of where the tip is: beside the truth by what its geometry is off.
   Pose measured_of(const Pose& true_tip) const { return compose(off_, true_tip); }
   Pose true_of(const Pose& measured) const { return compose(inverse(off_), measured); }
-  PoseError true_error() const {
-    return error_between(kTarget, compose(kTarget, request_.place), true_of(arm_));
-  }
+  PoseError true_error() const { return error_between(kTarget, compose(kTarget, request_.place), true_of(arm_)); }
 
   void photograph(double now_s) {
     if (now_s + 1e-9 < static_cast<double>(images_) / camera_.rate_hz) return;
