@@ -1,7 +1,9 @@
 // `liana drive`: one motor on a desk, before there is a robot table.
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdio>
+#include <optional>
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
@@ -27,16 +29,35 @@ std::int64_t as_signed(const desk::Answer& answer) {
   return (value >> (bits - 1)) != 0 ? static_cast<std::int64_t>(value) - (std::int64_t{1} << bits) : value;
 }
 
-// A value of up to four bytes as number, anything longer as text.
+// What more than four bytes say: text, where all of them are printable but zeros at the end, as some drives fill up
+// their names; nothing else goes to a terminal.
+std::optional<std::string> text_of(const std::vector<std::uint8_t>& bytes) {
+  const auto end = std::find_if(bytes.rbegin(), bytes.rend(), [](std::uint8_t byte) { return byte != 0; }).base();
+  const bool is_text = std::all_of(bytes.begin(), end, [](std::uint8_t byte) { return byte >= 0x20 && byte < 0x7F; });
+  return is_text && bytes.size() > 4 ? std::optional(std::string(bytes.begin(), end)) : std::nullopt;
+}
+
+// A value of up to four bytes as number, anything longer as text where it is one.
 Json value_json(const desk::Answer& answer) {
-  Json out = {{"bytes", answer.bytes}, {"unsigned", answer.value()}, {"signed", as_signed(answer)}};
-  if (answer.bytes.size() > 4)
-    out = {{"bytes", answer.bytes}, {"text", std::string(answer.bytes.begin(), answer.bytes.end())}};
+  Json out = {{"bytes", answer.bytes}};
+  if (answer.bytes.size() <= 4) {
+    out["unsigned"] = answer.value();
+    out["signed"] = as_signed(answer);
+  } else if (const std::optional<std::string> text = text_of(answer.bytes)) {
+    out["text"] = *text;
+  }
   return out;
 }
 
+std::string bytes_text(const std::vector<std::uint8_t>& bytes) {
+  std::string text = "bytes";
+  for (const std::uint8_t byte : bytes) text += " " + hex(byte, 2).substr(2);
+  return text;
+}
+
 std::string value_text(const desk::Answer& answer) {
-  if (answer.bytes.size() > 4) return "\"" + std::string(answer.bytes.begin(), answer.bytes.end()) + "\"";
+  if (const std::optional<std::string> text = text_of(answer.bytes)) return "\"" + *text + "\"";
+  if (answer.bytes.size() > 4) return bytes_text(answer.bytes);
   const std::int64_t number = as_signed(answer);
   std::string text =
       hex(answer.value(), 2 * static_cast<int>(answer.bytes.size())) + "  " + std::to_string(answer.value());
@@ -49,9 +70,9 @@ Json found_json(DriveSession& session, desk::Place at) {
   const auto add = [&](const char* key, std::uint16_t index, std::uint8_t sub) {
     const desk::Answer answer = session.desk.read(at, index, sub);
     if (!answer.is_done()) return;
-    if (answer.bytes.size() > 4) {
-      out[key] = std::string(answer.bytes.begin(), answer.bytes.end());
-    } else {
+    if (const std::optional<std::string> text = text_of(answer.bytes)) {
+      out[key] = *text;
+    } else if (answer.bytes.size() <= 4) {
       out[key] = answer.value();
     }
   };
@@ -74,6 +95,24 @@ std::string described(const Json& found) {
          ", product " + number("product") + ", revision " + number("revision") + ", serial " + number("serial") +
          (found.contains("name") && found["name"].is_string() ? ", \"" + found["name"].text() + "\"" : "") +
          (found.contains("modes") ? (has_csp ? ", has csp" : ", has no csp") : ", is no CiA 402 drive");
+}
+
+// `text` as a whole number that fits into so many bits: decimal, or hexadecimal as `read` writes it.
+std::int64_t value_of(const std::string& text, std::int64_t bits) {
+  const std::int64_t most = (std::int64_t{1} << bits) - 1;
+  if (!text.starts_with("0x") && !text.starts_with("0X"))
+    return parse_whole("VALUE", text, -(most / 2) - 1, most, ", or hexadecimal as 0x1F");
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data() + 2, text.data() + text.size(), value, 16);
+  if (error != std::errc{} || end != text.data() + text.size() || value < 0 || value > most)
+    throw system::BadInput("VALUE: '" + text + "': allowed: 0x0 to " + hex(static_cast<std::uint32_t>(most), 1) +
+                           " for --bits " + std::to_string(bits));
+  return value;
+}
+
+bool is_of_another_size(const desk::Answer& answer) {
+  constexpr std::array<std::uint32_t, 3> kLengths{0x06070010, 0x06070012, 0x06070013};
+  return std::find(kLengths.begin(), kLengths.end(), answer.abort_code) != kLengths.end();
 }
 
 }  // namespace
@@ -119,7 +158,7 @@ int drive_write_command(const DriveOptions& options) {
   if (bits != 8 && bits != 16 && bits != 32)
     throw system::BadInput("--bits: '" + options.bits + "': allowed 8, 16 or 32, the size of the object");
   const std::int64_t most = (std::int64_t{1} << bits) - 1;
-  const std::int64_t value = parse_whole("VALUE", options.value, -(most / 2) - 1, most);
+  const std::int64_t value = value_of(options.value, bits);
   if (object.index == 0x6040 || object.index == 0x6060)
     throw system::BadInput("OBJECT: " + options.object + ": this switches torque: allowed is any other object");
   const std::uint8_t node = node_of(options);
@@ -131,7 +170,11 @@ int drive_write_command(const DriveOptions& options) {
   const std::string what = "writing " + options.value + " to " + config::object_name(object);
   const desk::Answer written =
       session.desk.write(at, object.index, object.sub, {bytes.data(), static_cast<std::size_t>(bits / 8)});
-  if (!written.is_done()) return tell_failure(session, at, what, written, options.json);
+  if (!written.is_done()) {
+    const char* remedy =
+        is_of_another_size(written) ? ": give --bits as liana drive read says them of this object" : "";
+    return tell_failure(session, at, what, written, options.json, remedy);
+  }
   const desk::Answer answer = session.desk.read(at, object.index, object.sub);
   const bool kept = answer.is_done() && answer.value() == (static_cast<std::uint32_t>(value) & most);
   if (options.json) {
