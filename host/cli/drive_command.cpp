@@ -1,13 +1,13 @@
 // `liana drive`: one motor on a desk, before there is a robot table.
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdio>
 #include <optional>
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/drive_session.hpp"
+#include "host/cli/drive_value.hpp"
 #include "host/config/drive_type.hpp"
 #include "host/config/field.hpp"
 #include "host/json/json.hpp"
@@ -20,49 +20,6 @@ namespace {
 config::ObjectId object_of(const std::string& text) {
   const Json json = text;
   return system::checked([&] { return config::parse_object(config::Field(json, "drive", "OBJECT"), text); });
-}
-
-std::int64_t as_signed(const desk::Answer& answer) {
-  const std::uint32_t value = answer.value();
-  const std::size_t bits = 8 * std::min<std::size_t>(4, answer.bytes.size());
-  if (bits == 0 || bits == 32) return static_cast<std::int32_t>(value);
-  return (value >> (bits - 1)) != 0 ? static_cast<std::int64_t>(value) - (std::int64_t{1} << bits) : value;
-}
-
-// What more than four bytes say: text, where all of them are printable but zeros at the end, as some drives fill up
-// their names; nothing else goes to a terminal.
-std::optional<std::string> text_of(const std::vector<std::uint8_t>& bytes) {
-  const auto end = std::find_if(bytes.rbegin(), bytes.rend(), [](std::uint8_t byte) { return byte != 0; }).base();
-  const bool is_text = std::all_of(bytes.begin(), end, [](std::uint8_t byte) { return byte >= 0x20 && byte < 0x7F; });
-  return is_text && bytes.size() > 4 ? std::optional(std::string(bytes.begin(), end)) : std::nullopt;
-}
-
-// A value of up to four bytes as number, anything longer as text where it is one.
-Json value_json(const desk::Answer& answer) {
-  Json out = {{"bytes", answer.bytes}};
-  if (answer.bytes.size() <= 4) {
-    out["unsigned"] = answer.value();
-    out["signed"] = as_signed(answer);
-  } else if (const std::optional<std::string> text = text_of(answer.bytes)) {
-    out["text"] = *text;
-  }
-  return out;
-}
-
-std::string bytes_text(const std::vector<std::uint8_t>& bytes) {
-  std::string text = "bytes";
-  for (const std::uint8_t byte : bytes) text += " " + hex(byte, 2).substr(2);
-  return text;
-}
-
-std::string value_text(const desk::Answer& answer) {
-  if (const std::optional<std::string> text = text_of(answer.bytes)) return "\"" + *text + "\"";
-  if (answer.bytes.size() > 4) return bytes_text(answer.bytes);
-  const std::int64_t number = as_signed(answer);
-  std::string text =
-      hex(answer.value(), 2 * static_cast<int>(answer.bytes.size())) + "  " + std::to_string(answer.value());
-  if (number < 0) text += "  " + std::to_string(number);
-  return text + "  (" + std::to_string(8 * answer.bytes.size()) + " bits)";
 }
 
 Json found_json(DriveSession& session, desk::Place at) {
@@ -95,19 +52,6 @@ std::string described(const Json& found) {
          ", product " + number("product") + ", revision " + number("revision") + ", serial " + number("serial") +
          (found.contains("name") && found["name"].is_string() ? ", \"" + found["name"].text() + "\"" : "") +
          (found.contains("modes") ? (has_csp ? ", has csp" : ", has no csp") : ", is no CiA 402 drive");
-}
-
-// `text` as a whole number that fits into so many bits: decimal, or hexadecimal as `read` writes it.
-std::int64_t value_of(const std::string& text, std::int64_t bits) {
-  const std::int64_t most = (std::int64_t{1} << bits) - 1;
-  if (!text.starts_with("0x") && !text.starts_with("0X"))
-    return parse_whole("VALUE", text, -(most / 2) - 1, most, ", or hexadecimal as 0x1F");
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data() + 2, text.data() + text.size(), value, 16);
-  if (error != std::errc{} || end != text.data() + text.size() || value < 0 || value > most)
-    throw system::BadInput("VALUE: '" + text + "': allowed: 0x0 to " + hex(static_cast<std::uint32_t>(most), 1) +
-                           " for --bits " + std::to_string(bits));
-  return value;
 }
 
 bool is_of_another_size(const desk::Answer& answer) {
