@@ -117,16 +117,17 @@ std::string head(const std::string& name, const Answers& a) {
          "finds it\n"
          "  end\n"
          "end\n\n"
-         "local zero, bent, back = {}, {}, {} -- poses: pitch, yaw of segment 1, 2, ...\n"
-         "-- `bent` is a wave, first to one side, then twice to the other: from there the tip moves along lines in "
-         "every\n"
-         "-- direction (docs/your-own-arm.md).\n"
-         "for m = 1, kSegments do\n"
-         "  local side = m % 4 < 2 and 1 or -1\n"
-         "  for k = 2 * m - 1, 2 * m do\n" +
-         filled("    zero[k], bent[k], back[k] = 0, %.3g * side, %g * (k %% 3 == 0 and -1 or 1)\n",
-                start_bend_deg({a.segments, a.modules, a.theta_limit_deg}), 0.3 * a.theta_limit_deg) +
-         "  end\nend\n\n";
+         "local zero, bent, back, wave = {}, {}, {}, {} -- poses: pitch, yaw of segment 1, 2, ...\n"
+         "-- `wave` goes to one side, twice to the other, and back: from there the tip moves along lines in every "
+         "direction\n"
+         "-- (docs/your-own-arm.md).\n"
+         "for k = 1, 2 * kSegments do\n"
+         "  local m = (k + 1) // 2\n" +
+         filled("  zero[k], bent[k], back[k] = 0, %g * (k %% 2 == 0 and -1 or 1), %g * (k %% 3 == 0 and -1 or 1)\n",
+                0.4 * a.theta_limit_deg, 0.3 * a.theta_limit_deg) +
+         filled("  wave[k] = %.3g * (m %% 4 < 2 and 1 or -1)\n",
+                start_bend_deg({a.segments, a.modules, a.theta_limit_deg})) +
+         "end\n\n";
 }
 
 // Sizes in proportion to an arm of 1.44 m with discs of 25 mm radius.
@@ -172,13 +173,13 @@ std::string body(const std::string& name, const Answers& a) {
              theta_rate_deg_s, theta_accel_deg_s2) +
          filled(
              "    tip_speed_m_s = %.3g, -- and acceleration: what these angles can give in every direction from "
-             "`bent`\n"
+             "`wave`\n"
              "    tip_speed_slit_m_s = %.3g,\n    tip_accel_m_s2 = %.3g,\n",
              speed_m_s, 0.3 * speed_m_s, std::min(0.15 * reach, kShareOfAccel * tip_m_deg * theta_accel_deg_s2)) +
          "    tip_jerk_m_s3 = 1,\n    tip_rate_deg_s = 20,\n    tip_angular_accel_deg_s2 = 40,\n"
          "    tip_angular_jerk_deg_s3 = 400,\n    cable_speed_m_s = 0.010,\n  },\n"
-         "  named_poses_deg = { zero = zero, bent = bent, back = back },\n"
-         "  start_pose = \"bent\",\n"
+         "  named_poses_deg = { zero = zero, bent = bent, back = back, wave = wave },\n"
+         "  start_pose = \"wave\",\n"
          "  -- fixture_poses = { \"zero\", \"bent\", \"back\" }, -- where you have fixtures, for `liana "
          "calibrate`\n}\n";
 }

@@ -138,6 +138,9 @@ class DriveCommand(SystemTest):
         bad = self.drive("check", "--node", "2", "--type", "nanotec_cl4e", "--json", bus=bus)
         self.assertEqual(bad.returncode, 1, bad.stdout)
         self.assertIn("0x1018:1", " ".join(json.loads(bad.stdout)["refusals"]))
+        torque = self.drive("check", "--node", "2", "--type", "liana_cst", bus=bus)
+        self.assertIn("object 0x3001:1 (damping): reading refused with abort code 0x06020000", torque.stdout)
+        self.assertNotIn("writing", torque.stdout)
         generic = self.drive("check", "--node", "2", "--json", bus=bus)
         self.assertIn("608F:1 (encoder counts)", json.loads(generic.stdout)["not_there"])
 

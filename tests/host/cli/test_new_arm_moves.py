@@ -16,7 +16,7 @@ local geometry = require "liana.geometry"
 local kNear_m = 0.001
 
 local function beside(arm, axis, way_m)
-  local tip = geometry.tip(arm.robot, arm.named_pose "bent")
+  local tip = geometry.tip(arm.robot, arm.named_pose "wave")
   local p, q = tip.position, geometry.quaternion(tip.rotation)
   local goal = { p[1], p[2], p[3], q[1], q[2], q[3], q[4] }
   goal[axis] = goal[axis] + way_m
