@@ -42,9 +42,7 @@ def read(path):
         return value
 
     try:
-        content = json.loads(
-            path.read_text(), object_pairs_hook=each_once, parse_float=number, parse_constant=number
-        )
+        content = json.loads(path.read_text(), object_pairs_hook=each_once, parse_float=number, parse_constant=number)
     except ValueError as error:
         raise BadScenario(f"{path}: is no good JSON: {error}") from None
     if beyond:

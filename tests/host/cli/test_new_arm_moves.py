@@ -91,7 +91,9 @@ class NewArm(unittest.TestCase):
             mission, report = self.folder / "lines.lua", self.folder / "report.json"
             mission.write_text(LINES.replace("WAY", repr(way_m)))
             with self.subTest(seed=seed, segments=segments, robot=file.read_text().splitlines()[3:5]):
-                _, _, error = liana("run", mission, "--robot", robot, "--scene", "none", "--json", report)
+                _, _, error = liana(
+                    "run", mission, "--robot", robot, "--scene", "none", "--json", report, timeout_s=900
+                )
                 said = json.loads(report.read_text())
                 done = [step["name"] for step in said["steps"] if step["outcome"] == "success"]
                 self.assertEqual((said["outcome"], len(done)), ("success", 12), f"{said.get('reason')}\n{error}")
