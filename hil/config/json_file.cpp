@@ -3,9 +3,13 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
+
+#include "hil/config/number_overflow.hpp"
 
 namespace liana::bench {
 
@@ -21,6 +25,9 @@ struct JsonFile::Document {
 
 namespace {
 
+constexpr double kLargest = std::numeric_limits<double>::max();
+constexpr std::size_t kLongestNumberShown = 60;
+
 std::string range_text(double low, double high) {
   char text[80];
   std::snprintf(text, sizeof text, "allowed is %.15g to %.15g", low, high);
@@ -33,9 +40,14 @@ JsonFile::JsonFile(std::string path, const std::string& kind)
     : path_(std::move(path)), document_(std::make_unique<Document>()) {
   std::ifstream stream(path_);
   if (!stream) throw std::runtime_error(path_ + ": cannot be opened; check the path");
+  const std::string content{std::istreambuf_iterator<char>(stream), {}};
   try {
-    document_->root = json::parse(stream);
-  } catch (const json::exception& error) {  // numbers beyond the largest are no parse_error
+    document_->root = json::parse(content);
+  } catch (const json::out_of_range&) {
+    const NumberOverflow found = first_overflow(content);
+    fail(found.field,
+         "is " + found.number.substr(0, kLongestNumberShown) + "; " + range_text(-kLargest, kLargest) + "; correct it");
+  } catch (const json::exception& error) {
     throw std::runtime_error(path_ + ": is not JSON: " + error.what() + "; write it with `liana-mission eval`");
   }
   if (kind.empty()) return;

@@ -1,5 +1,6 @@
 """What scenarios on every kind of bus share: reading their files, refusing bad ones, and saying why one failed."""
 import json
+import math
 
 
 class BadScenario(Exception):
@@ -17,12 +18,35 @@ def each_once(pairs):
     return dict(pairs)
 
 
+def not_finite(content, where=""):
+    """The place of the first number that is none to compute with, as a[0].b; None where all are."""
+    if isinstance(content, float) and not math.isfinite(content):
+        return where
+    steps = content.items() if isinstance(content, dict) else enumerate(content) if isinstance(content, list) else ()
+    for step, value in steps:
+        place = f"{where}[{step}]" if isinstance(content, list) else f"{where}.{step}".lstrip(".")
+        found = not_finite(value, place)
+        if found is not None:
+            return found
+    return None
+
+
 def read(path):
     """The JSON object in a scenario's file."""
+    beyond = []
+
+    def number(text):
+        value = float(text)
+        if not math.isfinite(value):
+            beyond.append(text)
+        return value
+
     try:
-        content = json.loads(path.read_text(), object_pairs_hook=each_once)
+        content = json.loads(path.read_text(), object_pairs_hook=each_once, parse_float=number, parse_constant=number)
     except ValueError as error:
         raise BadScenario(f"{path}: is no good JSON: {error}") from None
+    if beyond:
+        raise BadScenario(f"{path}: {not_finite(content)}: {beyond[0]}: allowed are finite numbers; correct it")
     if not isinstance(content, dict):
         raise BadScenario(f"{path.parent.name}/{path.stem}: must be a JSON object")
     return content

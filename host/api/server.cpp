@@ -16,7 +16,7 @@
 #include "host/api/request_error.hpp"
 #include "host/api/request_text.hpp"
 #include "host/api/stop_packet.hpp"
-#include "host/json/json.hpp"
+#include "host/json/number_error.hpp"
 
 namespace liana::api {
 
@@ -246,6 +246,9 @@ void ApiServer::take_packet(Client& client, const std::string& packet) {
   } catch (const RequestError& error) {
     if (!take_bad_stop(client, packet, error.what()))
       enqueue(client, Topic::kState, false, error_packet(request, error.code(), error.what()));
+  } catch (const JsonNumberError& error) {
+    if (!take_bad_stop(client, packet, error.what()))
+      enqueue(client, Topic::kState, false, error_packet(Json(), "out_of_range", error.what()));
   } catch (const JsonError& error) {
     const std::string why = std::string("not JSON: ") + error.what();
     if (!take_bad_stop(client, packet, why))

@@ -24,7 +24,7 @@ api::UniqueFd connect_to(const std::string& path) {
 
 wire::Welcome greet(int descriptor, const std::string& path) {
   wire::Hello hello;
-  std::strncpy(hello.name.data(), "lianad", hello.name.size() - 1);
+  std::strncpy(hello.name.data(), program_invocation_short_name, hello.name.size() - 1);
   std::array<char, 4096> packet{};
   ssize_t size = -1;
   if (send(descriptor, &hello, sizeof hello, MSG_NOSIGNAL) == static_cast<ssize_t>(sizeof hello)) {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "host/bus/wire_packets.hpp"
-#include "host/json/json.hpp"
+#include "host/bus_sim/json_file.hpp"
 
 namespace liana::bus_sim {
 namespace {
@@ -41,7 +41,7 @@ WireConfig read_wire(const std::string& path, const std::string& where, const Js
 void load_wires(const std::string& path, BusHubOptions& options) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read; give the bus table with --buses");
-  const Json table = Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}});
+  const Json table = parse_file(std::string{std::istreambuf_iterator<char>(file), {}}, path);
   if (!table.is_object())
     throw std::runtime_error(path + ": is no JSON object; write it with liana-mission eval buses");
   const auto rate = field(table, "rate_hz");

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "host/json/json.hpp"
+#include "host/bus_sim/json_file.hpp"
 
 namespace liana::bus_sim {
 namespace {
@@ -172,7 +172,7 @@ FaultScript load_fault_script(const std::string& path, int bus_count) {
 }
 
 FaultScript parse_fault_script(const std::string& text, const std::string& path, int bus_count) {
-  const Json script = Json::parse_or_null(text);
+  const Json script = parse_file(text, path);
   if (!script.is_array()) throw std::runtime_error(path + ": is not a JSON array of faults (docs/bus-protocol.md)");
   std::vector<BusFault> faults;
   for (std::size_t i = 0; i < script.size(); ++i)

@@ -133,7 +133,7 @@ void BootNode::refused(BootFailure failure) noexcept {
   BootMismatch mismatch = {failure, bus_, node_};
   mismatch.index = object().index;
   mismatch.sub = failure == BootFailure::kValue ? plan_.sub_to_blame(at_, *transfer_.found()) : object().sub;
-  mismatch.written = object().write;
+  mismatch.written = object().write && !look_only_;
   mismatch.object_name = object().name.c_str();
   mismatch.rule = object().rule;
   mismatch.expected_before = object().before;

@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <optional>
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/drive_session.hpp"
+#include "host/cli/drive_value.hpp"
 #include "host/config/drive_type.hpp"
 #include "host/config/field.hpp"
 #include "host/json/json.hpp"
@@ -20,38 +22,14 @@ config::ObjectId object_of(const std::string& text) {
   return system::checked([&] { return config::parse_object(config::Field(json, "drive", "OBJECT"), text); });
 }
 
-std::int64_t as_signed(const desk::Answer& answer) {
-  const std::uint32_t value = answer.value();
-  const std::size_t bits = 8 * std::min<std::size_t>(4, answer.bytes.size());
-  if (bits == 0 || bits == 32) return static_cast<std::int32_t>(value);
-  return (value >> (bits - 1)) != 0 ? static_cast<std::int64_t>(value) - (std::int64_t{1} << bits) : value;
-}
-
-// A value of up to four bytes as number, anything longer as text.
-Json value_json(const desk::Answer& answer) {
-  Json out = {{"bytes", answer.bytes}, {"unsigned", answer.value()}, {"signed", as_signed(answer)}};
-  if (answer.bytes.size() > 4)
-    out = {{"bytes", answer.bytes}, {"text", std::string(answer.bytes.begin(), answer.bytes.end())}};
-  return out;
-}
-
-std::string value_text(const desk::Answer& answer) {
-  if (answer.bytes.size() > 4) return "\"" + std::string(answer.bytes.begin(), answer.bytes.end()) + "\"";
-  const std::int64_t number = as_signed(answer);
-  std::string text =
-      hex(answer.value(), 2 * static_cast<int>(answer.bytes.size())) + "  " + std::to_string(answer.value());
-  if (number < 0) text += "  " + std::to_string(number);
-  return text + "  (" + std::to_string(8 * answer.bytes.size()) + " bits)";
-}
-
 Json found_json(DriveSession& session, desk::Place at) {
   Json out = {{"bus", session.buses.buses[static_cast<std::size_t>(at.bus)].name}, {"node", at.node}};
   const auto add = [&](const char* key, std::uint16_t index, std::uint8_t sub) {
     const desk::Answer answer = session.desk.read(at, index, sub);
     if (!answer.is_done()) return;
-    if (answer.bytes.size() > 4) {
-      out[key] = std::string(answer.bytes.begin(), answer.bytes.end());
-    } else {
+    if (const std::optional<std::string> text = text_of(answer.bytes)) {
+      out[key] = *text;
+    } else if (answer.bytes.size() <= 4) {
       out[key] = answer.value();
     }
   };
@@ -74,6 +52,11 @@ std::string described(const Json& found) {
          ", product " + number("product") + ", revision " + number("revision") + ", serial " + number("serial") +
          (found.contains("name") && found["name"].is_string() ? ", \"" + found["name"].text() + "\"" : "") +
          (found.contains("modes") ? (has_csp ? ", has csp" : ", has no csp") : ", is no CiA 402 drive");
+}
+
+bool is_of_another_size(const desk::Answer& answer) {
+  constexpr std::array<std::uint32_t, 3> kLengths{0x06070010, 0x06070012, 0x06070013};
+  return std::find(kLengths.begin(), kLengths.end(), answer.abort_code) != kLengths.end();
 }
 
 }  // namespace
@@ -119,7 +102,7 @@ int drive_write_command(const DriveOptions& options) {
   if (bits != 8 && bits != 16 && bits != 32)
     throw system::BadInput("--bits: '" + options.bits + "': allowed 8, 16 or 32, the size of the object");
   const std::int64_t most = (std::int64_t{1} << bits) - 1;
-  const std::int64_t value = parse_whole("VALUE", options.value, -(most / 2) - 1, most);
+  const std::int64_t value = value_of(options.value, bits);
   if (object.index == 0x6040 || object.index == 0x6060)
     throw system::BadInput("OBJECT: " + options.object + ": this switches torque: allowed is any other object");
   const std::uint8_t node = node_of(options);
@@ -131,7 +114,11 @@ int drive_write_command(const DriveOptions& options) {
   const std::string what = "writing " + options.value + " to " + config::object_name(object);
   const desk::Answer written =
       session.desk.write(at, object.index, object.sub, {bytes.data(), static_cast<std::size_t>(bits / 8)});
-  if (!written.is_done()) return tell_failure(session, at, what, written, options.json);
+  if (!written.is_done()) {
+    const char* remedy =
+        is_of_another_size(written) ? ": give --bits as liana drive read says them of this object" : "";
+    return tell_failure(session, at, what, written, options.json, remedy);
+  }
   const desk::Answer answer = session.desk.read(at, object.index, object.sub);
   const bool kept = answer.is_done() && answer.value() == (static_cast<std::uint32_t>(value) & most);
   if (options.json) {

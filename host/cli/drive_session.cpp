@@ -85,11 +85,11 @@ std::string hex(std::uint32_t value, int digits) {
 }
 
 int tell_failure(const DriveSession& session, desk::Place at, const std::string& what, const desk::Answer& answer,
-                 bool json) {
+                 bool json, const std::string& remedy) {
   const bool silent = answer.status == canopen::SdoStatus::kTimeout;
-  const std::string why =
-      silent ? "no answer within 1 s: the node is missing, stopped, or has another id or bit rate"
-             : "refused with abort code " + hex(answer.abort_code, 8) + ", " + canopen::abort_text(answer.abort_code);
+  const std::string why = silent ? "no answer within 1 s: the node is missing, stopped, or has another id or bit rate"
+                                 : "refused with abort code " + hex(answer.abort_code, 8) + ", " +
+                                       canopen::abort_text(answer.abort_code) + remedy;
   if (json) {
     Json said = {{"node", at.node}, {"ok", false}, {"why", why}};
     if (!silent) said["abort_code"] = answer.abort_code;

@@ -39,9 +39,9 @@ struct DriveSession {
 
 // "0x1A", at least so many digits.
 std::string hex(std::uint32_t value, int digits);
-// One exit code for what came of a transfer, told with `what` where it failed.
+// One exit code for what came of a transfer, told with `what` where it failed, and what to do after an abort code.
 int tell_failure(const DriveSession& session, desk::Place at, const std::string& what, const desk::Answer& answer,
-                 bool json);
+                 bool json, const std::string& remedy = "");
 // What nothing stops when its master is lost, by its type; empty where something is sure to.
 std::string nothing_stops(const config::DriveType& type);
 // Throws when somebody else is the master here.

@@ -35,7 +35,8 @@ std::vector<cable::ThetaVector> read_waypoints(const std::string& path, const ca
   if (!std::filesystem::is_regular_file(path, unreadable))
     throw system::BadInput("--path: " + path + ": cannot be read; give an existing JSON file with waypoints_deg");
   const std::string text = system::checked([&] { return config::read_text_file(path); });
-  const Json document = Json::parse_or_null(text);
+  const Json document = system::checked(
+      [&] { return config::parse_json(text, "--path: " + path, "give a JSON object with waypoints_deg"); });
   const Json rows = document.is_object() ? document.value("waypoints_deg", Json()) : Json();
   if (!rows.is_array() || rows.empty() || rows.size() > reach::kMaxWaypoints) {
     throw system::BadInput("--path: " + path + ": waypoints_deg: allowed: a JSON object with 1 to " +

@@ -9,16 +9,20 @@
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/robot_new_questions.hpp"
+#include "host/cli/robot_new_start.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/output.hpp"
 
 namespace liana::cli {
 namespace {
 
-constexpr double kHoleShare = 0.8;          // of the radius, where the cables' holes are
-constexpr double kHoleApart_m = 0.0015;     // between neighbours among them
-constexpr double kLeastPlan_N = 3.0;        // less is lost in a drive's friction and the steps of its torque
-constexpr double kShortestLead_m = 0.1;     // drives are not smaller with the arm
+constexpr double kHoleShare = 0.8;                         // of the radius, where the cables' holes are
+constexpr double kHoleApart_m = 0.0015;                    // between neighbours among them
+constexpr double kUsualPlan_N = 30.0, kUsualJump_N = 7.0;  // of discs of 25 mm radius
+constexpr double kLeastPlan_N = 3.0;      // less is lost in a drive's friction and the steps of its torque
+constexpr double kShortestLead_m = 0.1;   // drives are not smaller with the arm
+constexpr double kThetaRate_deg_s = 2.0;  // no faster than the tip needs it
+constexpr double kShareOfAccel = 0.7;     // for the tip on its line; what is left catches up where the way gets harder
 constexpr double kPlanStretch_m = 0.15e-3;  // of the shortest cable at plan_N, as of the usual arm
 
 struct Answers {
@@ -113,19 +117,28 @@ std::string head(const std::string& name, const Answers& a) {
          "finds it\n"
          "  end\n"
          "end\n\n"
-         "local zero, bent, back = {}, {}, {} -- poses: pitch, yaw of segment 1, 2, ...\n"
-         "for k = 1, 2 * kSegments do\n" +
+         "local zero, bent, back, wave = {}, {}, {}, {} -- poses: pitch, yaw of segment 1, 2, ...\n"
+         "-- `wave` goes to one side, twice to the other, and back: from there the tip moves along lines in every "
+         "direction\n"
+         "-- (docs/your-own-arm.md).\n"
+         "for k = 1, 2 * kSegments do\n"
+         "  local m = (k + 1) // 2\n" +
          filled("  zero[k], bent[k], back[k] = 0, %g * (k %% 2 == 0 and -1 or 1), %g * (k %% 3 == 0 and -1 or 1)\n",
                 0.4 * a.theta_limit_deg, 0.3 * a.theta_limit_deg) +
+         filled("  wave[k] = %.3g * (m %% 4 < 2 and 1 or -1)\n",
+                start_bend_deg({a.segments, a.modules, a.theta_limit_deg})) +
          "end\n\n";
 }
 
 // Sizes in proportion to an arm of 1.44 m with discs of 25 mm radius.
 std::string body(const std::string& name, const Answers& a) {
   const double arm_m = a.segments * a.modules * a.length_m, size = a.radius_m / 0.025;
-  const double plan_N = std::max(kLeastPlan_N, 30.0 * size * size), drum_m = 0.012 * std::sqrt(size),
+  const double plan_N = std::max(kLeastPlan_N, kUsualPlan_N * size * size), drum_m = 0.012 * std::sqrt(size),
                hard_N = 15.0 * plan_N;
   const double mass_kg = std::max(0.001, 0.2 * size * size * (a.length_m / 0.08)), reach = std::min(1.0, arm_m / 1.44);
+  const double tip_m_deg = tip_way_m_deg({a.segments, a.modules, a.theta_limit_deg}, arm_m);
+  const double theta_rate_deg_s = std::min(kThetaRate_deg_s, 0.1 * reach / tip_m_deg);
+  const double theta_accel_deg_s2 = 2.0 * theta_rate_deg_s, speed_m_s = tip_m_deg * theta_rate_deg_s;
   const double lead_m = std::clamp(0.2 * arm_m, kShortestLead_m, 10.0), shortest_m = a.modules * a.length_m + lead_m;
   const double EA_N =
       std::clamp(150000.0 * size * size, 1500.0, std::max(1500.0, plan_N * shortest_m / kPlanStretch_m));
@@ -137,7 +150,9 @@ std::string body(const std::string& name, const Answers& a) {
          filled("    phase_deg = phase_deg,\n    EA_N = %.4g, -- stiffness of the rope: modulus times area\n", EA_N) +
          filled("    lead_m = %.3g, -- free cable between drum and first disc\n", lead_m) +
          "    friction_mu = { nominal = 0.05, ideal = 0, worn = 0.10 }, -- of a cable in its holes; `liana calibrate "
-         "--friction`\n"
+         "--friction`\n" +
+         filled("    watch = { jump_N = %.3g }, -- tension that comes or goes at once, and is a fault\n",
+                std::max(kUsualJump_N, kUsualJump_N * plan_N / kUsualPlan_N)) +
          "  },\n" +
          filled(
              "  tension = { plan_N = %.3g, floor_motor_N = %.3g, floor_anywhere_N = %.3g, ceiling_free_N = %.3g, "
@@ -151,14 +166,20 @@ std::string body(const std::string& name, const Answers& a) {
              "needs\n",
              1.05 * hard_N * drum_m) +
          "    identity = { vendor = 0x4C49, product = 1, revision = 1 }, -- object 0x1018 of your drives\n"
-         "    direction = direction,\n    zero_counts = zero_counts,\n  },\n"
-         "  limits = { -- slow, as for a first motion\n    theta_rate_deg_s = 2,\n    theta_accel_deg_s2 = 4,\n" +
-         filled("    tip_speed_m_s = %.3g,\n    tip_speed_slit_m_s = %.3g,\n    tip_accel_m_s2 = %.3g,\n", 0.1 * reach,
-                0.03 * reach, 0.15 * reach) +
+         "    direction = direction,\n    zero_counts = zero_counts,\n  },\n" +
+         filled(
+             "  limits = { -- slow, as for a first motion\n    theta_rate_deg_s = %.3g,\n    theta_accel_deg_s2 = "
+             "%.3g,\n",
+             theta_rate_deg_s, theta_accel_deg_s2) +
+         filled(
+             "    tip_speed_m_s = %.3g, -- and acceleration: what these angles can give in every direction from "
+             "`wave`\n"
+             "    tip_speed_slit_m_s = %.3g,\n    tip_accel_m_s2 = %.3g,\n",
+             speed_m_s, 0.3 * speed_m_s, std::min(0.15 * reach, kShareOfAccel * tip_m_deg * theta_accel_deg_s2)) +
          "    tip_jerk_m_s3 = 1,\n    tip_rate_deg_s = 20,\n    tip_angular_accel_deg_s2 = 40,\n"
          "    tip_angular_jerk_deg_s3 = 400,\n    cable_speed_m_s = 0.010,\n  },\n"
-         "  named_poses_deg = { zero = zero, bent = bent, back = back },\n"
-         "  start_pose = \"bent\",\n"
+         "  named_poses_deg = { zero = zero, bent = bent, back = back, wave = wave },\n"
+         "  start_pose = \"wave\",\n"
          "  -- fixture_poses = { \"zero\", \"bent\", \"back\" }, -- where you have fixtures, for `liana "
          "calibrate`\n}\n";
 }

@@ -252,7 +252,8 @@ ObjectId parse_object(const Field& field, const std::string& given) {
   const std::string sub = colon == text.npos ? "0" : text.substr(colon + 1);
   const bool plain = index.size() == 4 && index.find_first_not_of("0123456789ABCDEFabcdef") == index.npos &&
                      !sub.empty() && sub.size() <= 3 && sub.find_first_not_of("0123456789") == sub.npos;
-  if (!plain || std::stoul(sub) > 255) field.refuse(allowed, "the index is hexadecimal, the sub-index decimal");
+  if (!plain || std::stoul(sub) > 255)
+    field.refuse(allowed, "the index is hexadecimal, 0 to FFFF, the sub-index decimal, 0 to 255");
   return {static_cast<std::uint16_t>(std::stoul(index, nullptr, 16)), static_cast<std::uint8_t>(std::stoul(sub))};
 }
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "host/config/canonical.hpp"
+#include "host/json/number_error.hpp"
 
 namespace liana::config {
 namespace {
@@ -106,6 +107,8 @@ Json parse_json(const std::string& text, const std::string& file, const std::str
     return Json::parse(text, Json::Twice::kRefuse);
   } catch (const JsonTwiceError& error) {
     throw std::runtime_error(file + ": " + error.key + ": given twice: allowed once: remove one of them");
+  } catch (const JsonNumberError& error) {
+    throw std::runtime_error(file + ": " + error.place(1) + (error.way.empty() ? "" : ": ") + error.complaint());
   } catch (const JsonParseError& error) {
     throw std::runtime_error(file + ": not JSON: " + error.what() + ": " + advice);
   }

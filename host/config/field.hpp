@@ -66,7 +66,8 @@ class Field {
   std::string path_;
 };
 
-// Parses `text`; a syntax error becomes a message that names the file and the place.
+// Parses `text`; a syntax error becomes a message that names the file and the place, a number that no double holds one
+// like that of any other bad number.
 Json parse_json(const std::string& text, const std::string& file,
                 const std::string& advice = "export the Lua table again with liana-mission eval");
 

@@ -27,7 +27,7 @@ struct JsonError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A text that is no JSON; what() says line, column and what was expected.
+// A text that is no JSON; what() says line, column and what was expected. Or JsonNumberError (number_error.hpp).
 struct JsonParseError : JsonError {
   JsonParseError(const std::string& what, std::size_t at) : JsonError(what), byte(at) {}
   std::size_t byte;  // where reading ended, counted from 1; 0 for a text that is nested too deep

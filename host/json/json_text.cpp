@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/json/json.hpp"
+#include "host/json/number_error.hpp"
 #include "host/json/plain_reader.hpp"
 
 namespace liana {
@@ -12,6 +13,7 @@ namespace {
 
 using Library = nlohmann::json;
 
+constexpr int kNumberOverflow = 406;          // the library's number of this error
 constexpr std::size_t kLongestMessage = 200;  // the library shows all of a text that does not end
 
 // "[json.exception.parse_error.101] parse error at line ...": the number in brackets says nothing to the reader.
@@ -42,7 +44,8 @@ class Builder : public nlohmann::json_sax<Library> {
     member_ = &(*open_.back())[name];
     return true;
   }
-  bool parse_error(std::size_t at, const std::string&, const Library::exception& error) override {
+  bool parse_error(std::size_t at, const std::string& token, const Library::exception& error) override {
+    if (error.id == kNumberOverflow) throw JsonNumberError(way(), token, at);
     throw JsonParseError(plain(error.what()), at);
   }
 
@@ -50,6 +53,24 @@ class Builder : public nlohmann::json_sax<Library> {
   Json& result() { return result_; }
 
  private:
+  // From the whole to the value that comes next.
+  std::vector<JsonNumberError::Step> way() const {
+    std::vector<JsonNumberError::Step> steps;
+    for (std::size_t level = 0; level < open_.size(); ++level) {
+      const bool is_last = level + 1 == open_.size();
+      steps.push_back(is_last ? step_to_next(*open_[level]) : step_to(*open_[level], open_[level + 1]));
+    }
+    return steps;
+  }
+  JsonNumberError::Step step_to_next(const Json& container) const {
+    return container.is_array() ? container.size() : step_to(container, member_);
+  }
+  static JsonNumberError::Step step_to(const Json& container, const Json* value) {
+    if (container.is_array()) return static_cast<std::size_t>(value - container.begin());
+    const Json::Object& members = container.items();
+    return std::find_if(members.begin(), members.end(), [&](const auto& each) { return &each.second == value; })->first;
+  }
+
   bool add(Json value) {
     place(std::move(value));
     return true;

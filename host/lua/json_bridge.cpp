@@ -54,7 +54,11 @@ class Reader {
     if (lua_isinteger(state_, index) != 0) return static_cast<std::int64_t>(lua_tointeger(state_, index));
     const double value = lua_tonumber(state_, index);
     if (!std::isfinite(value))
-      refuse(path, std::isnan(value) ? "nan" : "inf", "finite numbers", "correct the computation");
+      refuse(path,
+             std::isnan(value) ? "nan"
+             : value < 0.0     ? "-inf"
+                               : "inf",
+             "finite numbers", "correct the computation");
     return value;
   }
 

@@ -10,6 +10,24 @@ std::vector<FaultConfig> faults_of(const std::string& text) {
   return load_faults(path, 15, 10);
 }
 
+TEST(FaultList, ANumberThatNoDoubleHoldsIsRefusedWithFileFieldAndItself) {
+  const char* rows[][2] = {
+      {"1e400", ": is 1e400; "},
+      {R"([{"kind":"drive_silent","at_slot":1e400}])", ": /0/at_slot: is 1e400; "},
+      {R"([{"a":[{"b":1},[2,[3]],4,{"c":5}]},{"b":true,"c":null,"d":"x","e":[0.5,[],-1e400]}])",
+       ": /1/e/2: is -1e400; "},
+  };
+  for (const auto& [text, said] : rows) {
+    try {
+      faults_of(text);
+      ADD_FAILURE() << text << " was accepted";
+    } catch (const std::runtime_error& error) {
+      const std::string start = temporary("faults.json") + said + "allowed is -1.79769313486232e+308 to 1.79";
+      EXPECT_TRUE(std::string(error.what()).starts_with(start)) << error.what();
+    }
+  }
+}
+
 struct Outcome {
   Truth truth;
   nlohmann::json summary;

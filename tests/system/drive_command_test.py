@@ -87,6 +87,40 @@ class DriveCommand(SystemTest):
         self.assertEqual(done.returncode, 1)
         self.assertIn("0x06010002", done.stderr)
 
+    def test_a_value_is_written_as_read_writes_it(self):
+        for given, bits, kept in (("0x4D2", "32", 1234), ("0Xffffffff", "32", 0xFFFFFFFF), ("-1", "32", 0xFFFFFFFF)):
+            done = self.drive("write", "--node", "3", "6065", given, "--bits", bits, "--json")
+            self.assertEqual((done.returncode, json.loads(done.stdout)["unsigned"]), (0, kept), done.stderr)
+        for given, bits, said in (
+            ("0x", "32", "VALUE: '0x': allowed: 0x0 to 0xFFFFFFFF for --bits 32"),
+            ("0x100", "8", "VALUE: '0x100': allowed: 0x0 to 0xFF for --bits 8"),
+            ("0x-1", "32", "VALUE: '0x-1': allowed"),
+            ("0x1g", "16", "VALUE: '0x1g': allowed: 0x0 to 0xFFFF for --bits 16"),
+            ("1e3", "32", "a whole number from -2147483648 to 4294967295, or hexadecimal as 0x1F"),
+        ):
+            done = run("liana", "drive", "write", "--node", "3", "6065", given, "--bits", bits, "--can", "can9")
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(said, done.stderr)
+
+    def test_a_write_of_another_size_than_the_object_s_is_told_where_the_size_stands(self):
+        for bits in ("8", "16"):
+            done = self.drive("write", "--node", "3", "6065", "100", "--bits", bits)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn("give --bits as liana drive read says them of this object", done.stderr)
+        self.assertIn("(32 bits)", self.drive("read", "--node", "3", "6065").stdout)
+
+    def test_help_says_the_exit_codes_of_these_commands(self):
+        for words in ((), ("scan",), ("jog",)):
+            said = run("liana", "drive", *words, "--help").stdout
+            self.assertIn("3 nobody answers", said)
+            self.assertNotIn("inverse kinematics", said)
+
+    def test_what_ends_the_bus_is_called_by_its_own_name(self):
+        with Desk() as desk:
+            self.assertEqual(run("liana", "drive", "read", "--node", "3", "6064", *desk.where()).returncode, 0)
+            desk.children["liana-bus"].wait(timeout=60)
+            self.assertIn("liana left after", desk.log("liana-bus"))
+
     def test_watch_reads_again_and_again(self):
         done = self.drive("watch", "--node", "3", "6064", "--seconds", "1", "--rate", "5", "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -104,6 +138,9 @@ class DriveCommand(SystemTest):
         bad = self.drive("check", "--node", "2", "--type", "nanotec_cl4e", "--json", bus=bus)
         self.assertEqual(bad.returncode, 1, bad.stdout)
         self.assertIn("0x1018:1", " ".join(json.loads(bad.stdout)["refusals"]))
+        torque = self.drive("check", "--node", "2", "--type", "liana_cst", bus=bus)
+        self.assertIn("object 0x3001:1 (damping): reading refused with abort code 0x06020000", torque.stdout)
+        self.assertNotIn("writing", torque.stdout)
         generic = self.drive("check", "--node", "2", "--json", bus=bus)
         self.assertIn("608F:1 (encoder counts)", json.loads(generic.stdout)["not_there"])
 

@@ -174,9 +174,12 @@ class Files(unittest.TestCase):
     }
 
     def read(self, **changed):
+        return self.read_text(json.dumps({**self.GOOD, **changed}))
+
+    def read_text(self, text):
         folder = self.enterContext(tempfile.TemporaryDirectory())
         path = pathlib.Path(folder) / "one.json"
-        path.write_text(json.dumps({**self.GOOD, **changed}))
+        path.write_text(text)
         return scenario.Scenario(path)
 
     def refused(self, *words, **changed):
@@ -187,6 +190,13 @@ class Files(unittest.TestCase):
 
     def test_a_good_file_is_read(self):
         self.assertEqual(self.read().expect["fault"], 3002)
+
+    def test_a_number_beyond_all_is_refused_with_its_place_and_itself(self):
+        for number in ("1e400", "-1e400", "NaN"):
+            text = json.dumps({**self.GOOD, "faults": [{"kind": "a"}, {"at": [0, "HERE"]}]}).replace('"HERE"', number)
+            with self.assertRaises(BadScenario) as caught:
+                self.read_text(text)
+            self.assertIn(f"one.json: faults[1].at[1]: {number}: allowed are finite numbers", str(caught.exception))
 
     def test_mistakes_are_refused_with_the_field(self):
         self.refused("durign", "not known", durign="move")

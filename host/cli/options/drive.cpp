@@ -5,6 +5,10 @@
 namespace liana::cli {
 namespace {
 
+constexpr const char* kDriveFooter =
+    "Exit codes: 0 done, 1 refused or failed, 2 bad input, a bus that is not there included, 3 nobody answers,\n"
+    "130 interrupted; one message on standard error says what, with --json standard output has it, too.";
+
 // A command of `drive`, with what says on which bus.
 Declared<DriveOptions> add_on_bus(CLI::App& group, Action& action, const char* name, const char* text,
                                   int (*command)(const DriveOptions&)) {
@@ -43,7 +47,7 @@ Declared<DriveOptions> add_on_object(CLI::App& group, Action& action, const char
 void add_write(CLI::App& group, Action& action) {
   auto [sub, write] =
       add_on_object(group, action, "write", "give an object a value, and read it back", drive_write_command);
-  sub.add_option("value", write.value, "whole number that fits in --bits")->required();
+  sub.add_option("value", write.value, "whole number that fits in --bits, decimal or as 0x1F")->required();
   sub.add_option("--bits", write.bits, "size of the object: 8, 16 or 32")->capture_default_str();
 }
 
@@ -89,6 +93,7 @@ void add_jog(CLI::App& group, Action& action) {
 
 void declare_drive(CLI::App& app, Action& action) {
   CLI::App& group = add_group(app, "drive", "one motor on a desk, before there is a robot table (docs/drives.md)");
+  group.footer(kDriveFooter);  // of its commands, too
   add_scan(group, action);
   add_on_object(group, action, "read", "an object of a drive", drive_read_command);
   add_write(group, action);

@@ -136,7 +136,7 @@ TEST(Lockstep, BothEndsCountTheSameFramesAndBits) {
   }
   EXPECT_EQ(bus_thread.outcome().stats[1].frames, stats.sent + stats.received);
   EXPECT_EQ(bus_thread.outcome().stats[1].bits, stats.bits);
-  EXPECT_EQ(bus_thread.outcome().end_reason, "lianad left");
+  EXPECT_EQ(bus_thread.outcome().end_reason, program_invocation_short_name + std::string(" left"));
 }
 
 TEST(Lockstep, AScriptedPauseCostsTheControllerItsDeadlinesAndTheBusGoesOn) {
@@ -304,7 +304,7 @@ TEST(RealTime, FramesGoBothWaysWithoutAnybodyWaiting) {
     EXPECT_GT(tpdos, 10) << "how many arrive in time is the machine's business, most of them usually";
     bus.reset();
   }
-  EXPECT_EQ(bus_thread.outcome().end_reason, "lianad left");
+  EXPECT_EQ(bus_thread.outcome().end_reason, program_invocation_short_name + std::string(" left"));
   EXPECT_GE(bus_thread.outcome().stats[0].frames, 50U);
 }
 

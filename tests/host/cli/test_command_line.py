@@ -483,8 +483,14 @@ class Help(unittest.TestCase):
         for words in (["pose"], ["run", "nosuch", "--json", "report.json"]):
             self.assertEqual(liana(*words)[:2], (2, ""), words)
 
+    def file_with(self, text):
+        path = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())) / "huge.json"
+        path.write_text(text)
+        return str(path)
+
     def test_bad_input_of_every_other_program_ends_with_2_and_one_message_with_its_name(self):
         tables = ["--robot", "/no/such/robot", "--scene", "/no/such/scene", "--buses", "/no/such/buses"]
+        huge = self.file_with('{"rate_hz":1e400}')
         for name, words, said in (
             ("lianad", ["--nosuch"], "--nosuch: no such option"),
             ("lianad", [], "--robot is required"),
@@ -492,6 +498,7 @@ class Help(unittest.TestCase):
             ("lianad", [*tables, "--api", "a", "--time", "never"], "--time never: allowed fast, paced, real"),
             ("liana-bus", ["--nosuch"], "--nosuch: no such option"),
             ("liana-bus", ["--socket", "s", "--buses", "/dev/null"], "/dev/null: is no JSON object"),
+            ("liana-bus", ["--socket", "s", "--buses", huge], f"{huge}: rate_hz: 1e400: allowed "),
             ("liana-bus", ["--socket", "s", "--buses", "b", "--log", "/no/such"], "/no/such"),
             ("liana-bench", ["--nosuch"], "not expected: --nosuch"),
             ("liana-bench", [], "--robot is required"),

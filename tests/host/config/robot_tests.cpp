@@ -1,6 +1,8 @@
 #include <cmath>
+#include <functional>
 
 #include "host/config/config.hpp"
+#include "host/config/serial_robot.hpp"
 #include "tests/host/config/tables.hpp"
 
 namespace liana::config {
@@ -96,6 +98,37 @@ TEST(Robot, NeedsEveryDriveOnABusAndNoOther) {
   EXPECT_THROW(parse_robot(robot, "r", "nominal", parse_buses(table.dump(), "b")), std::runtime_error);
   table["buses"][1]["nodes"] = {9, 10, 11, 12, 13, 14, 15, 16};
   EXPECT_THROW(parse_robot(robot, "r", "nominal", parse_buses(table.dump(), "b")), std::runtime_error);
+}
+
+// Of every table the same reader; its entries count from 1, as in Lua.
+TEST(Robot, ANumberThatNoDoubleHoldsIsRefusedWithFileFieldAndItself) {
+  struct Row {
+    const char* kind;
+    const char* name;
+    std::string field;
+    std::function<void(const std::string&)> read;
+  };
+  const Row rows[] = {
+      {"robot", "zhu2022", "limits", [](const std::string& text) { parse_robot(text, "f", "nominal", buses()); }},
+      {"robot", "micro", "named_poses_deg", [](const std::string& text) { parse_serial_robot(text, "f"); }},
+      {"scene", "panel_slit", "slit", [](const std::string& text) { parse_scene(text, "f"); }},
+      {"buses", "embedded", "buses", [](const std::string& text) { parse_buses(text, "f"); }},
+  };
+  for (const Row& row : rows) {
+    for (const std::string number : {"1e400", "-1e400"}) {
+      Json table = good_table(row.kind, row.name);
+      table[row.field] = {{"a", {0, "HERE"}}};
+      std::string text = table.dump();
+      text.replace(text.find("\"HERE\""), 6, number);
+      try {
+        row.read(text);
+        ADD_FAILURE() << row.name << " was accepted";
+      } catch (const std::runtime_error& error) {
+        EXPECT_EQ(error.what(),
+                  "f: " + row.field + ".a[2]: " + number + ": allowed -1.797e308 to 1.797e308: correct the number");
+      }
+    }
+  }
 }
 
 TEST(Robot, TextThatIsNoJsonIsRefusedWithItsFile) {

@@ -1,7 +1,7 @@
 // Reading texts, also hostile ones.
 #include <gtest/gtest.h>
 
-#include "host/json/json.hpp"
+#include "host/json/number_error.hpp"
 
 namespace liana {
 namespace {
@@ -45,6 +45,37 @@ TEST(JsonText, WhatIsNoJsonIsRefused) {
   EXPECT_NE(refusal_of(std::string_view("1\0", 2)), "");
   EXPECT_NE(refusal_of(std::string_view("1\0x", 3)), "");
   EXPECT_NE(refusal_of(std::string_view("\"\0\"", 3)), "");
+}
+
+TEST(JsonText, NumberThatNoDoubleHoldsIsRefusedWithItsPlaceAndItself) {
+  struct Row {
+    std::string text, place_from_0, place_from_1, number;
+  };
+  const std::string long_number = std::string(400, '9') + ".5";
+  const Row rows[] = {
+      {"1e400", "", "", "1e400"},
+      {"[-1e400]", "[0]", "[1]", "-1e400"},
+      {R"({"a": 1E999})", "a", "a", "1E999"},
+      {R"({"a":{"b":[1,{"c":2},[3,1e400]]}})", "a.b[2][1]", "a.b[3][2]", "1e400"},
+      {R"([{"z":[]},{"z":[],"y":-1e400,"x":1}])", "[1].y", "[2].y", "-1e400"},
+      {R"({"ä":[0,1e309]})", "\xc3\xa4[1]", "\xc3\xa4[2]", "1e309"},
+      {"[" + long_number + "]", "[0]", "[1]", std::string(60, '9') + "..."},
+  };
+  for (const Row& row : rows) {
+    try {
+      (void)Json::parse(row.text);
+      FAIL() << row.text << " was accepted";
+    } catch (const JsonNumberError& error) {
+      EXPECT_EQ(error.place(0), row.place_from_0);
+      EXPECT_EQ(error.place(1), row.place_from_1);
+      EXPECT_EQ(error.text, row.number);
+      EXPECT_EQ(error.what(), (row.place_from_0.empty() ? "" : row.place_from_0 + ": ") + error.complaint());
+      EXPECT_TRUE(error.complaint().starts_with(row.number + ": allowed -1.797e308 to 1.797e308: "));
+    }
+    EXPECT_TRUE(Json::parse_or_null(row.text).is_null());
+  }
+  for (const char* text : {"1e308", "-1.7976931348623157e308", "1e-400", "[18446744073709551616]"})
+    EXPECT_FALSE(Json::parse(text).is_null()) << text;
 }
 
 TEST(JsonText, TextThatIsNoUtf8IsRefusedInBothDirections) {
