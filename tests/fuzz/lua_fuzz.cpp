@@ -11,7 +11,8 @@ using namespace liana;
 
 namespace {
 
-constexpr script::ScriptLimits kLimits{4u << 20, 20000, 0};
+// Small: what a script may do besides, a string of megabytes a thousand times, says nothing new and takes a second.
+constexpr script::ScriptLimits kLimits{1u << 20, 4000, 0};
 constexpr int kScriptsOfOneState = 200;
 
 // Every script has an environment of its own, as scripts that one evaluation runs have; so one state serves many. What

@@ -21,7 +21,11 @@ MOST_BYTES = 1024
 FEW_BYTES = 256  # in a run of many executions: longer ones take as much longer
 # What is freed is kept apart for a while, and of an allocation some of the way to it: more than this costs half the speed.
 ASAN = "quarantine_size_mb=4:malloc_context_size=5"
-FLAGS = ["-entropic=0", "-timeout=20", "-rss_limit_mb=2048", "-print_final_stats=1", "-verbosity=0"]
+# What one input may take. It is time on the wall: in an hour of many executions beside other work, an input of a second
+# of processor was once given up after 20, so there it is long enough for a hang alone.
+SECONDS_AN_INPUT = 20
+SECONDS_AN_INPUT_OF_MANY = 600
+FLAGS = ["-entropic=0", "-rss_limit_mb=2048", "-print_final_stats=1", "-verbosity=0"]
 
 
 def targets():
@@ -62,19 +66,22 @@ def inputs_of(name):
     return [folder for folder in (own, HERE / "corpus" / name) if folder.is_dir()]
 
 
-def run_target(name, *bounds, least=MOST_BYTES, programs=CHECKED):
+def run_target(name, *bounds, least=MOST_BYTES, programs=CHECKED, seconds_an_input=SECONDS_AN_INPUT):
     """`bounds`: -max_total_time=S, -runs=N, -seed=S."""
     program = programs / (f"{name}_fuzz" if name != "planted" else name)
     start = time.monotonic()
     size = most_bytes(name, least)
-    executions, found = run_program(program, name, [*bounds, f"-max_len={size}", *inputs_of(name)])
+    executions, found = run_program(
+        program, name, [*bounds, f"-max_len={size}", f"-timeout={seconds_an_input}", *inputs_of(name)]
+    )
     seconds = time.monotonic() - start
     return {"name": name, "bytes": size, "executions": executions, "seconds": seconds, "found": found}
 
 
 def run_many(name, executions):
     """So many executions without sanitizers, then every input that reached something new once more with them."""
-    result = run_target(name, f"-runs={executions}", least=FEW_BYTES, programs=FAST)
+    bounds = {"least": FEW_BYTES, "programs": FAST, "seconds_an_input": SECONDS_AN_INPUT_OF_MANY}
+    result = run_target(name, f"-runs={executions}", **bounds)
     if result["found"] is None:
         again = run_target(name, "-runs=0")
         result["again"], result["found"] = again["executions"], again["found"]
