@@ -58,9 +58,8 @@ void DeviceSteer::steer_node(const HandReading& left, const cable::Outputs& now,
     node_anchor_m_ = node_target_.node == use_.node ? node_target_.position_m
                                                     : now.node_command_m[static_cast<std::size_t>(use_.node - 1)];
   }
-  node_target_ = {use_.node,
-                  clutch_point(use_.mapping.scale, node_hand_anchor_m_, node_anchor_m_, hand.position_m), 1.0,
-                  kNodeThreshold_m};
+  node_target_ = {use_.node, clutch_point(use_.mapping.scale, node_hand_anchor_m_, node_anchor_m_, hand.position_m),
+                  1.0, kNodeThreshold_m};
 }
 
 std::optional<SteerGoal> DeviceSteer::finish_interval(const cable::Outputs& now, double interval_s) {

@@ -22,10 +22,10 @@ class HandCoast {
   const Pose& go_on(double interval_s);
 
  private:
-  Pose at_{};             // seen, or gone on to
-  Pose seen_{};           // last
-  Vec3 velocity_m_s_{};   // low-passed
-  Vec3 rate_rad_s_{};     // low-passed
+  Pose at_{};            // seen, or gone on to
+  Pose seen_{};          // last
+  Vec3 velocity_m_s_{};  // low-passed
+  Vec3 rate_rad_s_{};    // low-passed
   double unseen_s_ = 0.0;
   bool any_ = false;
 };
