@@ -12,6 +12,8 @@ void DeviceSteer::use(const DeviceUse& use) {
   rate_ = device::SampleRate{};
   tip_ = HandTrack{};
   node_ = HandTrack{};
+  tip_coast_.forget();
+  node_coast_.forget();
   engaged_ = node_engaged_ = must_let_go_ = false;
   silent_s_ = 0.0;
   newest_us_ = made_of_us_ = oldest_us_ = made_from_us_ = -1;
@@ -36,27 +38,28 @@ void DeviceSteer::lose_device() {
 }
 
 void DeviceSteer::disengage(const char* reason) {
+  tip_coast_.forget();
   if (engaged_) reason_ = reason;
   engaged_ = false;
   must_let_go_ = true;
 }
 
 // The node target follows the left hand while its trigger is closed, and stays where it was put when it is let go.
-void DeviceSteer::steer_node(const HandReading& left, const cable::Outputs& now) {
+void DeviceSteer::steer_node(const HandReading& left, const cable::Outputs& now, double interval_s) {
   const bool held = use_.node > 0 && left.pressed && !left.let_go && !left.lost;
-  if (!held || !left.has_mean) {
-    node_engaged_ = node_engaged_ && held;
-    return;
-  }
+  node_engaged_ = node_engaged_ && held;
+  if (!held) return node_coast_.forget();
+  if (!left.has_mean && !node_engaged_) return;
+  if (left.has_mean) node_coast_.see(left.mean, interval_s);
+  const Pose& hand = left.has_mean ? left.mean : node_coast_.go_on(interval_s);
   if (!node_engaged_) {
     node_engaged_ = true;
-    node_hand_anchor_m_ = left.mean.position_m;
+    node_hand_anchor_m_ = hand.position_m;
     node_anchor_m_ = node_target_.node == use_.node ? node_target_.position_m
                                                     : now.node_command_m[static_cast<std::size_t>(use_.node - 1)];
   }
-  node_target_ = {use_.node,
-                  clutch_point(use_.mapping.scale, node_hand_anchor_m_, node_anchor_m_, left.mean.position_m), 1.0,
-                  kNodeThreshold_m};
+  node_target_ = {use_.node, clutch_point(use_.mapping.scale, node_hand_anchor_m_, node_anchor_m_, hand.position_m),
+                  1.0, kNodeThreshold_m};
 }
 
 std::optional<SteerGoal> DeviceSteer::finish_interval(const cable::Outputs& now, double interval_s) {
@@ -69,19 +72,22 @@ std::optional<SteerGoal> DeviceSteer::finish_interval(const cable::Outputs& now,
   silent_s_ = tip.samples > 0 ? 0.0 : silent_s_ + interval_s;
 
   if (tip.let_go) {
+    tip_coast_.forget();
     engaged_ = must_let_go_ = false;
     reason_ = "";
   }
   if (tip.lost) disengage("tracking lost");
   if (silent_s_ > kDeviceSilent_s) disengage("device silent");
-  steer_node(left, now);
+  steer_node(left, now, interval_s);
   if (!tip.pressed || must_let_go_) return std::nullopt;
   if (tip.has_mean) {
     hand_ = tip.mean;
+    tip_coast_.see(hand_, interval_s);
     if (!engaged_) anchor_ = {hand_, now.tip_command};
     engaged_ = true;
   }
   if (!engaged_) return std::nullopt;
+  if (!tip.has_mean) hand_ = tip_coast_.go_on(interval_s);
   const Pose goal = clutch_goal(use_.mapping, anchor_, hand_);
   move_anchor(use_.mapping, hand_, goal, anchor_);
   made_of_us_ = newest_us_;

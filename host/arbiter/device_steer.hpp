@@ -9,6 +9,7 @@
 
 #include "firmware_like/cable_controller.hpp"
 #include "host/arbiter/clutch.hpp"
+#include "host/arbiter/hand_coast.hpp"
 #include "host/arbiter/hand_track.hpp"
 #include "host/device/capability.hpp"
 #include "host/device/sample_rate.hpp"
@@ -77,10 +78,11 @@ class DeviceSteer {
 
  private:
   void disengage(const char* reason);
-  void steer_node(const HandReading& left, const cable::Outputs& now);
+  void steer_node(const HandReading& left, const cable::Outputs& now, double interval_s);
 
   DeviceUse use_{};
   HandTrack tip_{}, node_{};
+  HandCoast tip_coast_{}, node_coast_{};
   bool engaged_ = false, node_engaged_ = false;
   bool must_let_go_ = false;  // after a loss: nothing before the deadman was open once
   const char* reason_ = "";
@@ -89,7 +91,7 @@ class DeviceSteer {
   device::SampleRate rate_{};
   std::optional<UseRecord> ended_use_;
   ClutchAnchor anchor_{};
-  Pose hand_{};  // newest averaged pose
+  Pose hand_{};  // newest averaged pose, or where it went on to unseen
   std::int64_t newest_us_ = -1, made_of_us_ = -1;
   std::int64_t oldest_us_ = -1, made_from_us_ = -1;  // oldest of the newest interval that had samples
   bool interval_has_samples_ = false;

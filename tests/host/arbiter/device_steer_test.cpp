@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <cmath>
 
 namespace liana::arbiter {
 
@@ -82,14 +82,53 @@ TEST_F(Steering, AfterALossTheOperatorHasToLetGoFirst) {
   EXPECT_TRUE(interval(0.3));
 }
 
-TEST_F(Steering, AShortDropoutKeepsTheGoal) {
+// req:A32
+TEST_F(Steering, AStandingHandThatIsNotSeenForAWhileKeepsTheGoal) {
   interval(0.3);
-  const Pose before = interval(0.32)->tip_in_base;
+  const Pose before = interval(0.3)->tip_in_base;
   for (int i = 0; i < 7; ++i) {  // 140 ms
-    const auto goal = interval(0.32, true, false);
+    const auto goal = interval(0.3, true, false);
     ASSERT_TRUE(goal);
     EXPECT_EQ(goal->tip_in_base.position_m, before.position_m);
   }
+}
+
+// The goal of a hand at constant velocity, as if it had been seen all the time.
+// req:A32
+TEST_F(Steering, AHandThatIsNotSeenForAWhileIsTakenToGoOnAsItWent) {
+  constexpr double kStep_m = 3e-4;  // 15 mm/s
+  double x = 0.3;
+  for (int i = 0; i < 120; ++i) interval(x += kStep_m);
+  double before_m = interval(x += kStep_m)->tip_in_base.position_m[0];
+  for (int i = 0; i < 20; ++i) {
+    const bool seen = i >= 8;
+    const auto goal = interval(x += kStep_m, true, seen);
+    ASSERT_TRUE(goal) << i;
+    EXPECT_NEAR(goal->tip_in_base.position_m[0] - before_m, 2.0 * kStep_m, 1e-3 * kStep_m) << i;
+    before_m = goal->tip_in_base.position_m[0];
+  }
+}
+
+// req:A32
+TEST_F(Steering, ANodeThatIsLedByAHandThatIsNotSeenGoesOnForAQuarterOfASecond) {
+  constexpr double kStep_m = 3e-4;
+  double x = 0.0;
+  const auto left = [&](bool valid) {
+    steer_.add({.t_us = t_us_ + 1, .hand = 1, .valid = valid, .deadman = true, .pose = {{x += kStep_m, 0.0, 0.0}}});
+    return interval(0.3)->node.position_m[0];
+  };
+  double before_m = 0.0;
+  for (int i = 0; i < 60; ++i) before_m = left(true);
+  const double lost_at_m = before_m;
+  for (int i = 0; i < 30; ++i) {
+    const double now_m = left(i < 6 ? false : i > 9);
+    EXPECT_TRUE(i >= 6 || std::fabs(now_m - before_m - 2.0 * kStep_m) < 1e-3 * kStep_m) << i;
+    before_m = now_m;
+  }
+  steer_.add({.t_us = t_us_ + 1, .hand = 1, .valid = true, .deadman = true, .pose = {{x, 0.0, 0.0}}});
+  for (int i = 0; i < 100; ++i) before_m = interval(0.3)->node.position_m[0];  // the left hand's samples have ended
+  EXPECT_LT(before_m - lost_at_m, 2.0 * kStep_m * (31.0 + kTrackingLost_s / kInterval_s));
+  EXPECT_EQ(interval(0.3)->node.position_m[0], before_m) << "stands at last";
 }
 
 // req:A12
