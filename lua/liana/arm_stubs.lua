@@ -152,8 +152,10 @@ function arm.servo_cp(fields) end
 ---@class arm.servo_target
 ---which of what the camera sees: its `target_name`, or `slit` or `rod`
 ---@field target string
----where the tip should be, in the target's frame
+---where the tip should be, or `point`, in the target's frame
 ---@field offset number[]
+---what is led there, in the tip's frame: of what the arm holds; the tip itself when left out
+---@field point? number[]
 ---of the target: the way in, along which `speed_m_s` counts; x when left out
 ---@field axis? "x"|"y"|"z"
 ---xi: so near along each of the target's axes (else 6e-04)
