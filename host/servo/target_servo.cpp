@@ -93,8 +93,7 @@ std::optional<Pose> TargetServo::next(const Pose& tip_command) {
   const Pose& target = track_.target_in_base();
   const Pose command = point_of(tip_command);
   Pose goal = compose(target, place_now(command));
-  const double later_s = 1.0 / request_.limits.gain_1_s;  // so much later than its goal the tip moves
-  goal.position_m = add(goal.position_m, scale(track_.calming_m(now_s_ + later_s), request_.calming));
+  goal.position_m = add(goal.position_m, calming_m());
   return compose(approach_.next(target, goal, point_of(tip_measured_), command, interval_s_), from_point);
 }
 
@@ -107,6 +106,14 @@ Pose TargetServo::place_now(const Pose& point_command) {
     way_begun_s_ = now_s_;
   }
   return way_->at(now_s_ - way_begun_s_);
+}
+
+// Against the slow swing, once the place has come to the target: what moves in addition would be led by a swing that the
+// filter does not know well yet.
+Vec3 TargetServo::calming_m() const {
+  if (way_ && now_s_ - way_begun_s_ < way_->duration_s()) return {};
+  const double later_s = 1.0 / request_.limits.gain_1_s;  // so much later than its goal the tip moves
+  return scale(track_.calming_m(now_s_ + later_s), request_.calming);
 }
 
 // The phase, and what is reported.

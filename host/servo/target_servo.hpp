@@ -75,6 +75,7 @@ class TargetServo {
   void look();
   bool is_within() const;
   Pose place_now(const Pose& point_command);
+  Vec3 calming_m() const;
   Pose point_of(const Pose& tip) const { return compose(tip, request_.point_in_tip); }
   void end_as(ServoPhase phase, const std::string& reason);
 
