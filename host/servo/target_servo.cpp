@@ -108,8 +108,8 @@ Pose TargetServo::place_now(const Pose& point_command) {
   return way_->at(now_s_ - way_begun_s_);
 }
 
-// Against the slow swing, once the place has come to the target: what moves in addition would be led by a swing that the
-// filter does not know well yet.
+// Against the slow swing, once the place has come to the target: what moves in addition would be led by a swing that
+// the filter does not know well yet.
 Vec3 TargetServo::calming_m() const {
   if (way_ && now_s_ - way_begun_s_ < way_->duration_s()) return {};
   const double later_s = 1.0 / request_.limits.gain_1_s;  // so much later than its goal the tip moves

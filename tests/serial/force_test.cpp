@@ -260,7 +260,7 @@ TEST(Force, FreeMotionWithAPayloadArrivesAndFollowsWithoutAFault) {
   joints.joint_rad[1] += 0.02;
   joints.joint_rad[5] -= 0.03;
   rig.ask(joints);
-  rig.run_s(12.0);
+  rig.run_s(30.0);
   EXPECT_EQ(rig.out().faults.count, 0);
   for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(rig.chain().rotor_rad(i), joints.joint_rad[i], 5e-4) << i;
 }
