@@ -559,7 +559,7 @@ class Help(unittest.TestCase):
             ("liana run sli", "slit_crossing slit_crossing_servo"),
             ("liana check sli", "slit_crossing slit_crossing_servo"),
             ("liana check --true-physics wo", "worn"),
-            ("liana run --bus vc", "vcan"),
+            ("liana run --bus vc", "vcan vcan_payload"),
             ("liana plan --follow sl", "slit"),
             ("liana cl", "clear"),
             ("liana console --sim", "--simulate"),
