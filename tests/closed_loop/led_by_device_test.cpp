@@ -87,7 +87,7 @@ class LedByDevice {
 // shows the hand where it was, and then where it is, does to the arm what waiting for the hand did.
 // req:A32
 TEST(LedByDevice, AHandThatIsNotSeenForAMomentCostsNoTension) {
-  for (const std::uint64_t seed : {1, 2}) {
+  for (const std::uint64_t seed : {1U, 2U}) {
     const std::string arm = "seed " + std::to_string(seed);
     const double undisturbed_N = LedByDevice(seed).lead({});
     double unseen_N = undisturbed_N, waited_for_N = undisturbed_N;
