@@ -1,14 +1,30 @@
 """A whole mission on CAN interfaces in real time, as `liana run` flies it (field `mission`)."""
 import json
+import os
+import pathlib
 import subprocess
 import tempfile
+import time
 
-from can.system import reset_interfaces
+from can.system import kHardwarePriority, reset_interfaces
 from liana.system import program
 from scenario_file import expect_that
 
 kFields = {"name": str, "bus": str, "scene": str, "planted": str, "seed": int}
 kExpected = {"outcome": str, "says": str}
+
+
+def put_bench_first(process):
+    """The bench stands for hardware, which is never late for want of a processor."""
+    while process.poll() is None:
+        for name in pathlib.Path("/proc").glob("[0-9]*/comm"):
+            try:
+                if name.read_text().strip() == "liana-bench":
+                    os.sched_setscheduler(int(name.parent.name), os.SCHED_FIFO, os.sched_param(kHardwarePriority))
+                    return
+            except OSError:  # it has just ended
+                continue
+        time.sleep(0.01)
 
 
 class MissionRun:
@@ -32,7 +48,11 @@ class MissionRun:
         for field, option in {"scene": "--scene", "planted": "--fault", "seed": "--seed"}.items():
             if field in mission:
                 words += [option, str(mission[field])]
-        done = subprocess.run([program("liana"), "run", *words], capture_output=True, text=True, check=False)
-        expect_that(done.returncode in (0, 1), f"liana run ended with {done.returncode}: {done.stderr.strip()[-600:]}")
+        process = subprocess.Popen(
+            [program("liana"), "run", *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
+        )
+        put_bench_first(process)
+        _, said = process.communicate()
+        expect_that(process.returncode in (0, 1), f"liana run ended with {process.returncode}: {said.strip()[-600:]}")
         with open(file, encoding="utf-8") as report:
             return json.load(report)
