@@ -14,7 +14,30 @@ void add_point(double mass_kg, const Vec3& offset_m, LinkMass& to) noexcept {
   to.inertia_kgm2[kYz] -= mass_kg * y * z;
 }
 
+// NaN is not within.
+bool is_at_most(double value, double most) noexcept { return value >= -most && value <= most; }
+
+// By its leading minors; of principal moments none exceeds the other two, so that no diagonal element does.
+bool is_inertia(const std::array<double, kInertiaElements>& I) noexcept {
+  const double minor = I[kXx] * I[kYy] - I[kXy] * I[kXy];
+  const double det = I[kZz] * minor - I[kXx] * I[kYz] * I[kYz] - I[kYy] * I[kXz] * I[kXz] +
+                     2.0 * I[kXy] * I[kXz] * I[kYz];
+  return I[kXx] > 0.0 && minor > 0.0 && det > 0.0 && I[kXx] <= I[kYy] + I[kZz] && I[kYy] <= I[kXx] + I[kZz] &&
+         I[kZz] <= I[kXx] + I[kYy];
+}
+
 }  // namespace
+
+bool is_body(const LinkMass& body) noexcept {
+  if (!(body.mass_kg >= 0.0 && body.mass_kg <= kMostMass_kg)) return false;
+  for (const double center : body.center_m) {
+    if (!is_at_most(center, kMostCenter_m)) return false;
+  }
+  for (const double inertia : body.inertia_kgm2) {
+    if (!is_at_most(inertia, kMostInertia_kgm2)) return false;
+  }
+  return body.mass_kg == 0.0 || is_inertia(body.inertia_kgm2);
+}
 
 LinkMass joined(const LinkMass& a, const LinkMass& b) noexcept {
   LinkMass both;

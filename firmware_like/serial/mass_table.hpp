@@ -27,6 +27,14 @@ struct MassTable {
 
 static_assert(std::is_trivially_copyable_v<MassTable>);
 
+constexpr double kMostMass_kg = 1e5;
+constexpr double kMostCenter_m = 20.0;
+constexpr double kMostInertia_kgm2 = 1e6;
+
+// True for what a body can be: finite, within these bounds, an inertia that is positive definite and of which no moment
+// is larger than the other two together; without mass, anything finite.
+bool is_body(const LinkMass& body) noexcept;
+
 // Both bodies as one, in the frame that both are given in; a body without mass adds nothing.
 LinkMass joined(const LinkMass& a, const LinkMass& b) noexcept;
 

@@ -50,6 +50,7 @@ void SerialArm::watch(WatchScope, std::uint64_t tick, FaultList& faults) noexcep
 
 void SerialArm::take(const Setpoint& setpoint) noexcept {
   accept_setpoint(table_, setpoint, motion_);
+  if (is_motion(setpoint.kind)) payload_ = setpoint.payload_at_tip;
   if (is_force(setpoint.kind)) {
     accept_force(setpoint, push_);
   } else {
@@ -89,6 +90,7 @@ std::uint32_t SerialArm::advance(bool allowed) noexcept {
     wanted = give_way(allowed && !motion_.braking);
   } else {
     advance_motion(table_, allowed, motion_);
+    dynamics_.set_payload(payload_);
     if (gives_torque(table_)) wanted = planned_motion(table_, dynamics_, motion_.limiter, told_);
   }
   if (gives_torque(table_)) tell_torque(table_, wanted, measured_rad(), motion_.limiter, told_);

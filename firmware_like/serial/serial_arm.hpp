@@ -78,6 +78,7 @@ class SerialArm {
     v("adapter", self.adapter_);
     v("push", self.push_);
     v("told", self.told_);
+    v("payload", self.payload_);
   }
 
   JointVector measured_rad() const noexcept;
@@ -93,6 +94,7 @@ class SerialArm {
   AdapterState adapter_{};
   PushState push_{};
   TorqueTold told_{};
+  LinkMass payload_{};  // at the tip, as the newest setpoint that moves the arm says
 };
 
 static_assert(std::is_trivially_copyable_v<SerialArm>);

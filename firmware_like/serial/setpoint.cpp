@@ -29,6 +29,7 @@ bool is_usable(const TorqueTable& table, const Push& push) noexcept {
 }  // namespace
 
 bool is_usable(const RobotTable& table, const Setpoint& setpoint) noexcept {
+  if (!is_body(setpoint.payload_at_tip)) return false;
   if (is_joint(setpoint.kind)) return inside_ranges(table, setpoint.joint_rad);
   if (is_force(setpoint.kind) && table.torque.gives_torque == 0) return false;
   if (setpoint.kind == CommandKind::kPush) return is_usable(table.torque, setpoint.push);

@@ -6,6 +6,7 @@
 #include "firmware_like/command/telecommand.hpp"
 #include "firmware_like/math/pose.hpp"
 #include "firmware_like/serial/force_law.hpp"
+#include "firmware_like/serial/mass_table.hpp"
 #include "firmware_like/serial/robot_table.hpp"
 
 namespace liana::serial {
@@ -31,10 +32,11 @@ struct Setpoint {
   JointVector joint_rad{};     // kJoint, kRetreat
   double tip_speed_m_s = 0.0;  // kTip: limit for this motion, > 0; the robot's own limit holds besides
   Push push{};                 // kPush
+  LinkMass payload_at_tip{};   // all that move: what the arm carries, in the tip's frame; torque drives are told of it
 };
 static_assert(std::is_trivially_copyable_v<Setpoint>);
 
-// True when the core can act on it: finite, a valid pose, joints inside their ranges, a speed above 0; a push
+// True when the core can act on it: finite, a valid pose, joints inside their ranges, a speed above 0, a payload that is a body; a push
 // inside the table's bounds, of an arm that gives torque. Hold and stop always are.
 bool is_usable(const RobotTable& table, const Setpoint& setpoint) noexcept;
 

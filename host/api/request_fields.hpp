@@ -214,6 +214,15 @@ constexpr std::array kPush{
     flag("tare", "what the wrist sensor says in the first 0.1 s is taken for nothing").otherwise(1.0),
     object("gains", kPushGainFields, "other gains than the robot's, within its ranges").optional(),
 };
+constexpr std::array kPayload{
+    number("mass_kg", 0.0, 1e5, "0: nothing"),
+    point("center_m", "centre of mass, in the frame of the tip; left out: the tip's origin").optional(),
+    number("inertia_kgm2", -1e6, 1e6,
+           "xx, yy, zz, xy, xz, yz about the centre of mass, along the axes of the tip's frame; all six, or left out of "
+           "nothing")
+        .optional()
+        .list(6),
+};
 constexpr std::array kAdapterCommands{"lock", "release"};
 constexpr std::array kAdapter{word("command", kAdapterCommands, "what the adapter should do")};
 constexpr std::array kMissionControl{word("command", kMissionCommands, "what the mission should do")};

@@ -103,6 +103,13 @@ constexpr std::array kTable{
                .arms = kSerialArm,
                .in_missions = true,
                .motion = Motion::kReplaces},
+    RequestRow{.op = "payload",
+               .doc = "What the arm carries from now on, until another is told: drives that follow torques get what "
+                      "moving it takes.",
+               .fields = kPayload,
+               .owner_only = true,
+               .arms = kSerialArm,
+               .in_missions = true},
     RequestRow{.op = "adapter",
                .doc = "Tells the adapter to lock or to release the payload; how it goes is `adapter` of the state.",
                .fields = kAdapter,

@@ -70,8 +70,9 @@ std::optional<SerialArbiter::Setpoint> SerialArbiter::next_setpoint(std::uint64_
   const bool ready = begin_interval(tick, now);
   if (!ready || now.faults.count > 0) asked_.reset();
   if (!ready) return std::nullopt;
-  if (asked_) return asked_;
-  return ask(now);
+  std::optional<Setpoint> setpoint = asked_ ? asked_ : ask(now);
+  if (setpoint) setpoint->payload_at_tip = payload_at_tip_;
+  return setpoint;
 }
 
 void SerialArbiter::refused(const std::string& why) {

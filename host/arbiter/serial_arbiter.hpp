@@ -23,6 +23,9 @@ class SerialArbiter : public Arbiter<serial::SerialArm> {
   void push(const Now& now, const serial::Push& push);
   // From now on the joints give way to what pushes them; throws as push.
   void follow(const Now& now);
+  // What the arm carries from now on, as a body in the tip's frame; without mass: nothing.
+  void carry(const serial::LinkMass& payload_at_tip) { payload_at_tip_ = payload_at_tip; }
+  const serial::LinkMass& carried() const { return payload_at_tip_; }
 
   // As those of plain motion; each ends what was asked for here.
   void move_joints(const Now& now, const serial::JointVector& goal_rad, double rate_rad_s,
@@ -44,6 +47,7 @@ class SerialArbiter : public Arbiter<serial::SerialArm> {
 
   bool gives_torque_;
   std::optional<Setpoint> asked_;
+  serial::LinkMass payload_at_tip_{};
 };
 
 }  // namespace liana::arbiter

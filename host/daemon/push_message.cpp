@@ -1,5 +1,6 @@
 #include "host/daemon/push_message.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -88,6 +89,27 @@ serial::Push push_of(const config::SerialRobotConfig& robot, const api::Argument
   require("depth_m", push.depth_m, 0.0, push.travel_m);
   push.turn_rad = std::fmin(push.turn_rad, most.most_turn_rad);
   return push;
+}
+
+serial::LinkMass payload_of(const api::Arguments& fields) {
+  serial::LinkMass payload;
+  payload.mass_kg = fields.number("mass_kg");
+  if (payload.mass_kg == 0.0) return payload;
+  if (fields.has("center_m")) payload.center_m = fields.point("center_m");
+  const auto inertia = fields.has("inertia_kgm2") ? fields.numbers("inertia_kgm2") : std::vector<double>{};
+  if (inertia.size() != payload.inertia_kgm2.size())
+    throw api::RequestError("out_of_range", "inertia_kgm2: " + std::to_string(inertia.size()) +
+                                                " numbers: give six, xx, yy, zz, xy, xz, yz about the centre of mass");
+  std::copy(inertia.begin(), inertia.end(), payload.inertia_kgm2.begin());
+  if (!serial::is_body(payload))
+    throw api::RequestError("out_of_range", "inertia_kgm2: " + Json(inertia).dump() +
+                                                ": no body has it: moments are over 0, none is larger than the other "
+                                                "two together: compute it from the body, about its centre of mass");
+  return payload;
+}
+
+Json payload_json(const serial::LinkMass& payload_at_tip) {
+  return {{"mass_kg", payload_at_tip.mass_kg}, {"center_m", payload_at_tip.center_m}};
 }
 
 Json push_json(const serial::PushReport& push, double tick_s) {

@@ -12,8 +12,12 @@ namespace liana::daemon {
 // robot's table.
 serial::Push push_of(const config::SerialRobotConfig& robot, const api::Arguments& fields);
 
-// `push` and `adapter` of the state.
+// What the arm carries, as the request `payload` says. Throws RequestError out_of_range for what is no body.
+serial::LinkMass payload_of(const api::Arguments& fields);
+
+// `push`, `adapter` and `payload` of the state.
 Json push_json(const serial::PushReport& push, double tick_s);
+Json payload_json(const serial::LinkMass& payload_at_tip);
 Json adapter_json(const serial::PushReport& push, double tick_s);
 
 }  // namespace liana::daemon

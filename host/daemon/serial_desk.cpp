@@ -42,6 +42,7 @@ SerialDesk::SerialDesk(const config::SerialRobotConfig& robot, timing::TimeMode 
               std::make_unique<verify::SimulationEnd<serial::SerialArm>>(robot.table), taken(time_mode)),
       robot_(robot) {
   handlers_["push"] = [this](const MotionRequest& r) { arbiter_.push(outputs(), push_of(robot_, r.fields)); };
+  handlers_["payload"] = [this](const MotionRequest& r) { arbiter_.carry(payload_of(r.fields)); };
   handlers_["follow"] = [this](const MotionRequest&) { arbiter_.follow(outputs()); };
   handlers_["adapter"] = [this](const MotionRequest& r) { tell_adapter(r.fields); };
 }
@@ -85,6 +86,7 @@ void SerialDesk::add_state(Json& state) const {
   Json told_Nm = Json::array();
   for (std::size_t i = 0; i < table_.joints(); ++i) told_Nm.push_back(o.torque_told_Nm[i]);
   state["torque_told_Nm"] = told_Nm;
+  state["payload"] = payload_json(arbiter_.carried());
   state["push"] = push_json(o.push, table_.tick_s);
   state["adapter"] = adapter_json(o.push, table_.tick_s);
   add_tip(state, o);

@@ -85,6 +85,7 @@ void visit(A& a, T& s) {
   visit_first(a, "joint_rad", s.joint_rad, counts_of_visitor(a).thetas);
   a("tip_speed_m_s", s.tip_speed_m_s);
   a("push", s.push);
+  a("payload_at_tip", s.payload_at_tip);
 }
 
 template <class A, Like<serial::Outputs> T>

@@ -96,6 +96,14 @@ local function remember_grapple(arm)
   held = geometry.inverse(tip_in_grapple)
 end
 
+-- What moving the payload takes is the drives' to know from the moment that it hangs on the arm, by its drawn mass.
+local function carry_payload(arm)
+  local payload = arm.part_of_scene("payload")
+  local c = payload.center_m
+  local center = moved(held, c)
+  arm.payload { mass_kg = payload.mass_kg, center_m = { center[1], center[2], center[3] }, inertia_kgm2 = payload.inertia_kgm2 }
+end
+
 -- The middle of the pins' tips, in the tip's frame.
 local function pins(arm) return moved(held, { 0, 0, arm.part_of_scene("payload").length_m }) end
 
@@ -227,7 +235,10 @@ return liana.mission "payload_install" {
   step "3 retreat" {
     device = "none",
     enter = at_rest(),
-    run = along_z(-kRetreat_m),
+    run = function(arm)
+      carry_payload(arm)
+      along_z(-kRetreat_m)(arm)
+    end,
     exit = at_rest(),
     time_limit_s = 100,
     on_fail = "hold",
@@ -269,7 +280,10 @@ return liana.mission "payload_install" {
   },
   step "3 mutual mode" {
     device = "none",
-    run = function(arm) arm.hold() end,
+    run = function(arm)
+      if begins_on_arm.met(arm) then carry_payload(arm) end
+      arm.hold()
+    end,
     exit = all { at_rest(), adapter_heard },
     time_limit_s = 30,
     on_fail = "hold",
