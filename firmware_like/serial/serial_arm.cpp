@@ -4,7 +4,10 @@
 
 namespace liana::serial {
 
-SerialArm::SerialArm(const RobotTable& table) noexcept : table_(table), dynamics_(table, table.torque.masses) {
+SerialArm::SerialArm(const RobotTable& table) noexcept
+    : table_(table),
+      dynamics_(table, table.torque.masses),
+      friction_(declared_friction(table)) {
   stand();
 }
 
@@ -84,14 +87,23 @@ ForceMotion SerialArm::give_way(bool allowed) noexcept {
   return wanted;
 }
 
+// Planned motion: what moving the links and what they carry takes, and what friction does.
+ForceMotion SerialArm::lead() noexcept {
+  dynamics_.set_payload(payload_);
+  ForceMotion wanted = planned_motion(table_, dynamics_, motion_.limiter, told_);
+  find_friction(table_, wanted.rate_rad_s, wanted.torque_Nm, torque_measured_Nm_, friction_);
+  const JointVector friction = friction_Nm(table_, friction_, wanted.rate_rad_s);
+  for (std::size_t i = 0; i < table_.joints(); ++i) wanted.torque_Nm[i] += friction[i];
+  return wanted;
+}
+
 std::uint32_t SerialArm::advance(bool allowed) noexcept {
   ForceMotion wanted;
   if (gives_torque(table_) && is_force(motion_.to.kind)) {
     wanted = give_way(allowed && !motion_.braking);
   } else {
     advance_motion(table_, allowed, motion_);
-    dynamics_.set_payload(payload_);
-    if (gives_torque(table_)) wanted = planned_motion(table_, dynamics_, motion_.limiter, told_);
+    if (gives_torque(table_)) wanted = lead();
   }
   if (gives_torque(table_)) tell_torque(table_, wanted, measured_rad(), motion_.limiter, told_);
   return motion_.limits;

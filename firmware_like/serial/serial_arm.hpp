@@ -8,6 +8,7 @@
 #include "firmware_like/drive/drive_io.hpp"
 #include "firmware_like/safety/supervisor.hpp"
 #include "firmware_like/serial/drive_units.hpp"
+#include "firmware_like/serial/joint_friction.hpp"
 #include "firmware_like/serial/joint_watch.hpp"
 #include "firmware_like/serial/motion.hpp"
 #include "firmware_like/serial/report.hpp"
@@ -79,10 +80,12 @@ class SerialArm {
     v("push", self.push_);
     v("told", self.told_);
     v("payload", self.payload_);
+    v("friction", self.friction_);
   }
 
   JointVector measured_rad() const noexcept;
   ForceMotion give_way(bool allowed) noexcept;
+  ForceMotion lead() noexcept;
 
   RobotTable table_{};
   JointWatchState joints_{};
@@ -94,6 +97,7 @@ class SerialArm {
   AdapterState adapter_{};
   PushState push_{};
   TorqueTold told_{};
+  FrictionFound friction_;
   LinkMass payload_{};  // at the tip, as the newest setpoint that moves the arm says
 };
 

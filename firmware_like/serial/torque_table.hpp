@@ -30,6 +30,8 @@ using PushGains = std::array<double, kPushGainCount>;
 struct TorqueTable {
   std::uint8_t gives_torque = 0;     // 1: the drives run in cyclic synchronous torque
   MassTable masses{};                // of the links, for the torque that a motion takes
+  double coulomb_Nm = 0.0;           // friction of each joint, as declared
+  double viscous_Nms_per_rad = 0.0;
   double position_gain_per_s = 0.0;  // joint rate for a joint that is off its target
   double most_joint_Nm = 0.0;        // that a push may ask of a joint
   double most_force_N = 0.0;         // on the tip, in a push; what is set is below it

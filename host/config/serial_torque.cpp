@@ -51,7 +51,10 @@ void read_torque(const Field& table, SerialRobotConfig& out) {
   serial::TorqueTable& torque = out.table.torque;
   torque.gives_torque = 1;
   torque.masses = out.masses;
-  torque.position_gain_per_s = drives.at("position_gain_per_s").number({0.1, 20});
+  const Field friction = table.at("friction");
+  torque.coulomb_Nm = friction.at("coulomb_Nm").number({0, 1e5});
+  torque.viscous_Nms_per_rad = friction.at("viscous_Nms_per_rad").number({0, 1e5});
+  torque.position_gain_per_s = drives.at("position_gain_per_s").number({0.001, 20});
   read_force_control(table.at("force_control"), out);
 }
 

@@ -167,6 +167,8 @@ template <class A, Like<serial::TorqueTable> T>
 void visit(A& a, T& t) {
   a("gives_torque", t.gives_torque);
   a("masses", t.masses);
+  a("coulomb_Nm", t.coulomb_Nm);
+  a("viscous_Nms_per_rad", t.viscous_Nms_per_rad);
   a("position_gain_per_s", t.position_gain_per_s);
   a("most_joint_Nm", t.most_joint_Nm);
   a("most_force_N", t.most_force_N);

@@ -111,6 +111,14 @@ void visit(A& a, T& s) {
   a("aside_m", s.aside_m);
 }
 
+template <class A, Like<serial::JointFriction> T>
+void visit(A& a, T& f) {
+  a("coulomb_Nm", f.coulomb_Nm);
+  a("sum_Nm", f.sum_Nm);
+  a("rate_rad_s", f.rate_rad_s);
+  a("ticks", f.ticks);
+}
+
 template <class A, Like<serial::TorqueTold> T>
 void visit(A& a, T& s) {
   a("rate_rad_s", s.rate_rad_s);
