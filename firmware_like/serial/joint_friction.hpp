@@ -13,7 +13,7 @@ constexpr double kSlides_rad_s = 5e-4;          // from this planned rate on a j
 constexpr double kBeginsToSlide_s = 1.0;        // that its drive's integral needs to take over
 constexpr double kLeastSlide_s = 10.0;          // of which the mean counts: swings of a soft base are not friction
 constexpr double kFrictionShare = 3.0;          // of the declared friction, the most that is believed
-constexpr double kFrictionSmooth_rad_s = 1e-4;  // friction turns round over about this rate, without a step
+constexpr double kFrictionSmooth_rad_s = 3e-5;  // friction turns round over about this rate, without a step
 
 // One joint's. What a slide shows counts from its end on: friction that followed what is felt at once would give back
 // with a delay what a swing of the base does to the joint, and feed the swing.

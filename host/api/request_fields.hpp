@@ -69,6 +69,10 @@ constexpr RequestField kStreamTtl =
 
 constexpr std::array kAxes{"x", "y", "z"};
 
+constexpr RequestField kSwingOff =
+    number("swing_off", 0.0, 0.2, "share by which `swing_s` may differ from the true period; over 0.1 takes longer")
+        .otherwise(0.1);
+
 // Which of what the camera sees: names that both sides use.
 constexpr double kTargetBytes = 31;
 constexpr std::array kServoTarget{
@@ -88,6 +92,7 @@ constexpr std::array kServoTarget{
            " calms it; 0: the base stands still")
         .otherwise(0.0),
     number("quicker_swing_s", 0.0, 60.0, "period of a second swing; 0: there is none").otherwise(0.0),
+    kSwingOff,
     number("calming", 0.0, 2.0,
            "way of the tip against the slow swing, as a share of the swing: less for an arm that is heavy beside its"
            " base, 0: the swing is left as it is")
@@ -117,6 +122,7 @@ constexpr std::array kMoveJp{
     number("rate_deg_s", 0.01, Figure::kAngleRate, "the most that any angle may turn at").otherwise(Figure::kAngleRate),
     kMoveSwing,
     kMoveQuickerSwing,
+    kSwingOff,
     kSequence,
     kTime,
     kTtl,
@@ -138,6 +144,7 @@ constexpr std::array kMoveCp{
         .only_for(kCableArm),
     kMoveSwing,
     kMoveQuickerSwing,
+    kSwingOff,
     kSequence,
     kTime,
     kTtl,

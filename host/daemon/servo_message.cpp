@@ -30,7 +30,7 @@ servo::ServoRequest servo_request(const api::Arguments& fields) {
 }
 
 motion::Swings swings_of(const api::Arguments& fields) {
-  return {fields.number("swing_s"), fields.number("quicker_swing_s")};
+  return {fields.number("swing_s"), fields.number("quicker_swing_s"), fields.number("swing_off")};
 }
 
 Json servo_json(const servo::ServoReport& report) {

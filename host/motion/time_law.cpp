@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace liana::motion {
 
@@ -35,12 +36,15 @@ double minimum_jerk_s(const MoveNeeds& needs) {
       {kPeakSpeed * needs.speed_s, std::sqrt(kPeakAccel * needs.accel_s2), std::cbrt(kPeakJerk * needs.jerk_s3)});
 }
 
-constexpr double kBelow = 0.94, kAbove = 1.06;
+constexpr double kFewOff = 0.1;  // what two averages allow a period to be off
 
-// The fourth average, where two about `slow_s` do not keep the limits: the fastest is one over the longest average, the
+// Averages about the slow period, as shares of it, the longest two last.
+constexpr std::array kFew{0.94, 1.06};
+constexpr std::array kMany{0.85, 1.0, 1.18};
+
+// One average more, where those about the slow period do not keep the limits: the fastest is one over the longest, the
 // hardest acceleration one over the two longest. Two that are nearly equal meet in the middle: twice the jerk.
-double fourth_average_s(const MoveNeeds& needs, double slow_s) {
-  const double shorter_s = kBelow * slow_s, longer_s = kAbove * slow_s;
+double further_average_s(const MoveNeeds& needs, double shorter_s, double longer_s) {
   double out_s = 2.0 * needs.jerk_s3 / (shorter_s * longer_s);
   if (needs.accel_s2 > shorter_s * longer_s) out_s = std::max(out_s, needs.accel_s2 / longer_s);
   if (needs.speed_s > longer_s) out_s = std::max(out_s, needs.speed_s);
@@ -55,12 +59,17 @@ TimeLaw::TimeLaw(const MoveNeeds& needs, const Swings& swings) {
     duration_s_ = minimum_jerk_s(needs);
     return;
   }
-  for (const double length_s :
-       {kBelow * swings.slow_s, kAbove * swings.slow_s, swings.quick_s, fourth_average_s(needs, swings.slow_s)}) {
-    if (length_s <= 0.0) continue;
-    average_s_[averages_++] = length_s;
-    duration_s_ += length_s;
-  }
+  const std::span<const double> shares = swings.off > kFewOff ? std::span<const double>(kMany) : kFew;
+  const double shorter_s = shares[shares.size() - 2] * swings.slow_s, longer_s = shares.back() * swings.slow_s;
+  for (const double share : shares) add_average(share * swings.slow_s);
+  add_average(swings.quick_s);
+  add_average(further_average_s(needs, shorter_s, longer_s));
+}
+
+void TimeLaw::add_average(double length_s) {
+  if (length_s <= 0.0) return;
+  average_s_[averages_++] = length_s;
+  duration_s_ += length_s;
 }
 
 // n averages of a pulse, integrated, are polynomials of order n that set in at the sums of their lengths.

@@ -17,6 +17,7 @@ FilterBounds share_of(const FilterBounds& bounds);
 struct Swings {
   double slow_s = 0.0;
   double quick_s = 0.0;
+  double off = 0.1;  // share by which slow_s may differ from the true period, at most 0.2
 };
 
 // What a move needs of its law for a way of 1: its longest way per speed, per acceleration and per jerk.
@@ -29,9 +30,9 @@ struct MoveNeeds {
 };
 
 // Share of the way over time: the shortest minimum-jerk motion that keeps the limits, where nothing swings. Else the
-// velocity is a pulse averaged twice about the slow period and once over the quick one. An average over a swing's own
-// period leaves nothing of it (a zero of the spectrum: input shaping); two about it, 6 % below and above, leave less
-// than 1 % of any that is up to a tenth off.
+// velocity is a pulse averaged about the slow period and once over the quick one. An average over a swing's own period
+// leaves nothing of it (a zero of the spectrum: input shaping); two about it, 6 % below and above, leave less than 1 %
+// of the way to any that is up to a tenth off; three, over 0.85, 1 and 1.18 of it, to any that is up to a fifth off.
 // That takes the sum of those times at least, however short the way.
 class TimeLaw {
  public:
@@ -43,7 +44,9 @@ class TimeLaw {
   double share_at(double time_s) const;
 
  private:
-  static constexpr std::size_t kAverages = 4;
+  void add_average(double length_s);
+
+  static constexpr std::size_t kAverages = 5;
 
   std::array<double, kAverages> average_s_{};  // those with a length, first
   std::size_t averages_ = 0;                   // 0: minimum jerk

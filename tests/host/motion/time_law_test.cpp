@@ -72,7 +72,7 @@ TEST(TimeLaw, GoesFromEndToEndWithoutTurningBackAndKeepsEveryLimit) {
     const FilterBounds bounds{in(0.005, 0.2), in(0.001, 0.2), in(0.001, 0.5)};
     const double way = in(0.001, 5.0);
     const Swings swings{i % 3 == 0 ? 0.0 : in(5.0, 40.0), i % 3 == 1 ? 0.0 : in(1.0, 5.0)};
-    const TimeLaw law(needs_of(way, bounds), swings);
+    const TimeLaw law(needs_of(way, bounds), {swings.slow_s, swings.quick_s, i % 2 == 0 ? 0.1 : 0.2});
     EXPECT_EQ(law.share_at(-1.0), 0.0);
     EXPECT_EQ(law.share_at(law.duration_s()), 1.0);
     EXPECT_NEAR(law.share_at(0.5 * law.duration_s()), 0.5, 1e-9);
@@ -83,6 +83,20 @@ TEST(TimeLaw, GoesFromEndToEndWithoutTurningBackAndKeepsEveryLimit) {
     EXPECT_LE(way * most.accel, bounds.accel * 1.001) << i;
     EXPECT_LE(way * most.jerk, bounds.jerk * 1.02) << i;  // by differences of third order
   }
+}
+
+// req:B16
+// req:B16
+TEST(TimeLaw, LeavesLittleOfItsWayToASwingWhosePeriodIsAFifthOffWhenItIsToldThatItMayBe) {
+  const FilterBounds arm{0.09, 0.09, 0.36};
+  for (const double way : {0.05, 0.5, 4.0}) {
+    const TimeLaw law(needs_of(way, arm), {36.0, 9.0, 0.2});
+    for (const double off : {0.8, 0.85, 0.9, 1.0, 1.1, 1.2}) {
+      EXPECT_LT(left_swinging(law, off * 36.0), 0.008) << way << " m, " << off;
+      EXPECT_LT(left_swinging(law, off * 9.0), 0.005) << way << " m, " << off;
+    }
+  }
+  EXPECT_GT(left_swinging(TimeLaw(needs_of(0.5, arm), {36.0, 9.0}), 1.2 * 36.0), 0.03) << "which two averages do not";
 }
 
 // req:B16
