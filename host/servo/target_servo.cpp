@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kSwingShare =
     2.0;  // of the tolerance: what a base may still swing by, the noise of the estimate with it
+constexpr double kKnownAfter = 1.5;  // periods of the slow swing
 constexpr double kPassed_s = 1e-9;  // times are sums of intervals
 
 const char* trouble_of(ImageUse use) {
@@ -108,10 +109,9 @@ Pose TargetServo::place_now(const Pose& point_command) {
   return way_->at(now_s_ - way_begun_s_);
 }
 
-// Against the slow swing, once the place has come to the target: what moves in addition would be led by a swing that
-// the filter does not know well yet.
+// Against the slow swing, once the filter has seen enough of it to know it well.
 Vec3 TargetServo::calming_m() const {
-  if (way_ && now_s_ - way_begun_s_ < way_->duration_s()) return {};
+  if (!way_ || now_s_ - way_begun_s_ < kKnownAfter * request_.swings.slow_s) return {};
   const double later_s = 1.0 / request_.limits.gain_1_s;  // so much later than its goal the tip moves
   return scale(track_.calming_m(now_s_ + later_s), request_.calming);
 }

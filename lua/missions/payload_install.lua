@@ -125,7 +125,9 @@ end
 local function servo_to(target, before_m, how, swings, point)
   return function(arm)
     local place = { target = target, offset = { 0, 0, -before_m, 1, 0, 0, 0 }, point = point and point(arm) }
-    arm.servo_target(with(swings(arm), with(how, place)))
+    local fields = with(swings(arm), with(how, place))
+    fields.swing_off = 0.1 -- it is quicker so, and calms what is left
+    arm.servo_target(fields)
   end
 end
 
