@@ -20,8 +20,8 @@ bool is_at_most(double value, double most) noexcept { return value >= -most && v
 // By its leading minors; of principal moments none exceeds the other two, so that no diagonal element does.
 bool is_inertia(const std::array<double, kInertiaElements>& I) noexcept {
   const double minor = I[kXx] * I[kYy] - I[kXy] * I[kXy];
-  const double det = I[kZz] * minor - I[kXx] * I[kYz] * I[kYz] - I[kYy] * I[kXz] * I[kXz] +
-                     2.0 * I[kXy] * I[kXz] * I[kYz];
+  const double det =
+      I[kZz] * minor - I[kXx] * I[kYz] * I[kYz] - I[kYy] * I[kXz] * I[kXz] + 2.0 * I[kXy] * I[kXz] * I[kYz];
   return I[kXx] > 0.0 && minor > 0.0 && det > 0.0 && I[kXx] <= I[kYy] + I[kZz] && I[kYy] <= I[kXx] + I[kZz] &&
          I[kZz] <= I[kXx] + I[kYy];
 }

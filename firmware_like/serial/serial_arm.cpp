@@ -5,9 +5,7 @@
 namespace liana::serial {
 
 SerialArm::SerialArm(const RobotTable& table) noexcept
-    : table_(table),
-      dynamics_(table, table.torque.masses),
-      friction_(declared_friction(table)) {
+    : table_(table), dynamics_(table, table.torque.masses), friction_(declared_friction(table)) {
   stand();
 }
 

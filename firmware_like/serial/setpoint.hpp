@@ -36,8 +36,8 @@ struct Setpoint {
 };
 static_assert(std::is_trivially_copyable_v<Setpoint>);
 
-// True when the core can act on it: finite, a valid pose, joints inside their ranges, a speed above 0, a payload that is a body; a push
-// inside the table's bounds, of an arm that gives torque. Hold and stop always are.
+// True when the core can act on it: finite, a valid pose, joints inside their ranges, a speed above 0, a payload that
+// is a body; a push inside the table's bounds, of an arm that gives torque. Hold and stop always are.
 bool is_usable(const RobotTable& table, const Setpoint& setpoint) noexcept;
 
 }  // namespace liana::serial

@@ -28,9 +28,9 @@ using PushGains = std::array<double, kPushGainCount>;
 
 // All zero, and without effect, for an arm whose drives follow positions.
 struct TorqueTable {
-  std::uint8_t gives_torque = 0;     // 1: the drives run in cyclic synchronous torque
-  MassTable masses{};                // of the links, for the torque that a motion takes
-  double coulomb_Nm = 0.0;           // friction of each joint, as declared
+  std::uint8_t gives_torque = 0;  // 1: the drives run in cyclic synchronous torque
+  MassTable masses{};             // of the links, for the torque that a motion takes
+  double coulomb_Nm = 0.0;        // friction of each joint, as declared
   double viscous_Nms_per_rad = 0.0;
   double position_gain_per_s = 0.0;  // joint rate for a joint that is off its target
   double most_joint_Nm = 0.0;        // that a push may ask of a joint

@@ -10,7 +10,7 @@ namespace {
 constexpr double kSwingShare =
     2.0;  // of the tolerance: what a base may still swing by, the noise of the estimate with it
 constexpr double kKnownAfter = 1.5;  // periods of the slow swing
-constexpr double kPassed_s = 1e-9;  // times are sums of intervals
+constexpr double kPassed_s = 1e-9;   // times are sums of intervals
 
 const char* trouble_of(ImageUse use) {
   switch (use) {

@@ -74,6 +74,8 @@ function arm.state_command(fields) end
 ---@field swing_s? number
 ---period of a second swing; 0: there is none (else 0)
 ---@field quicker_swing_s? number
+---share by which `swing_s` may differ from the true period; over 0.1 takes longer (else 0.1)
+---@field swing_off? number
 ---grows from setpoint to setpoint of one owner: repeated and overtaken ones are refused
 ---@field sequence? integer
 ---the client's clock when it made the setpoint; never goes back (in virtual time: arm time)
@@ -121,6 +123,8 @@ function arm.move_path(fields) end
 ---@field swing_s? number
 ---period of a second swing; 0: there is none (else 0)
 ---@field quicker_swing_s? number
+---share by which `swing_s` may differ from the true period; over 0.1 takes longer (else 0.1)
+---@field swing_off? number
 ---grows from setpoint to setpoint of one owner: repeated and overtaken ones are refused
 ---@field sequence? integer
 ---the client's clock when it made the setpoint; never goes back (in virtual time: arm time)
@@ -175,6 +179,8 @@ function arm.servo_cp(fields) end
 ---@field swing_s? number
 ---period of a second swing; 0: there is none (else 0)
 ---@field quicker_swing_s? number
+---share by which `swing_s` may differ from the true period; over 0.1 takes longer (else 0.1)
+---@field swing_off? number
 ---way of the tip against the slow swing, as a share of the swing: less for an arm that is heavy beside its
 ---base, 0: the swing is left as it is (else 1)
 ---@field calming? number
@@ -332,6 +338,21 @@ function arm.push(fields) end
 ---For serial arms only.
 ---@return integer id
 function arm.follow() end
+
+---@class arm.payload
+---0: nothing
+---@field mass_kg number
+---centre of mass, in the frame of the tip; left out: the tip's origin
+---@field center_m? number[]
+---xx, yy, zz, xy, xz, yz about the centre of mass, along the axes of the tip's frame; all six, or left out of
+---nothing
+---@field inertia_kgm2? number
+
+---What the arm carries from now on, until another is told: drives that follow torques get what moving it
+---takes. For serial arms only.
+---@param fields arm.payload
+---@return integer id
+function arm.payload(fields) end
 
 ---@class arm.adapter
 ---what the adapter should do

@@ -200,6 +200,20 @@ TEST(SerialMotion, OnlyUsableSetpointsAreUsable) {
   const Pose tip = forward_kinematics(robot, {}).tip_in_base;
   const double nan = std::nan("");
   EXPECT_TRUE(is_usable(robot, tip_setpoint(tip)));
+  const LinkMass good{500.0, {0.0, 0.0, 0.5}, {80.0, 80.0, 80.0, 0.0, 0.0, 0.0}};
+  for (const auto& [body, usable] : {std::pair{good, true},
+                                     {LinkMass{}, true},
+                                     {LinkMass{nan, good.center_m, good.inertia_kgm2}, false},
+                                     {LinkMass{-1.0, good.center_m, good.inertia_kgm2}, false},
+                                     {LinkMass{2.0 * kMostMass_kg, good.center_m, good.inertia_kgm2}, false},
+                                     {LinkMass{500.0, {0.0, nan, 0.0}, good.inertia_kgm2}, false},
+                                     {LinkMass{500.0, good.center_m, {}}, false},
+                                     {LinkMass{500.0, good.center_m, {80.0, 80.0, 170.0, 0.0, 0.0, 0.0}}, false},
+                                     {LinkMass{500.0, good.center_m, {80.0, 80.0, 80.0, 90.0, 0.0, 0.0}}, false}}) {
+    Setpoint carrying = tip_setpoint(tip);
+    carrying.payload_at_tip = body;
+    EXPECT_EQ(is_usable(robot, carrying), usable) << body.mass_kg << " kg";
+  }
   EXPECT_FALSE(is_usable(robot, tip_setpoint(tip, 0.0)));
   EXPECT_FALSE(is_usable(robot, tip_setpoint(tip, nan)));
   EXPECT_FALSE(is_usable(robot, tip_setpoint({{nan, 0.0, 0.0}, tip.quaternion})));

@@ -265,7 +265,7 @@ TEST(Force, FreeMotionWithAPayloadArrivesAndFollowsWithoutAFault) {
   for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(rig.chain().rotor_rad(i), joints.joint_rad[i], 5e-4) << i;
 }
 
-// At the joints' limits, as no planned move asks for: what the payload weighs is in no feed-forward.
+// At the joints' limits, as no planned move asks for, and with a payload that nobody has told of.
 TEST(Force, AtFullRateWithAPayloadTheJointsLagLessThanTheWindow) {
   ForceCase settings;
   settings.before_m = 1.0;
@@ -286,6 +286,42 @@ TEST(Force, AtFullRateWithAPayloadTheJointsLagLessThanTheWindow) {
   EXPECT_LT(most_rad, 0.5 * serial::kTorqueFollowingWindow_rad);
   EXPECT_LT(swings_rad, 1e-3);
   EXPECT_EQ(rig.out().faults.count, 0);
+}
+
+// The greatest lag of a joint that is led away and stops, and by how much it is off at the end.
+struct Lag {
+  double most_rad = 0.0;
+  double left_rad = 0.0;
+};
+
+Lag lag_of_a_turn(ForceRig& rig, const serial::LinkMass& payload) {
+  serial::Setpoint joints;
+  joints.kind = CommandKind::kJoint;
+  joints.payload_at_tip = payload;
+  joints.joint_rad = rig.out().joint_command_rad;
+  joints.joint_rad[0] -= 0.3;
+  rig.ask(joints);
+  Lag lag;
+  for (int i = 0; i < 6000; ++i) {
+    rig.tick();
+    lag.left_rad = std::fabs(rig.out().joint_command_rad[0] - rig.chain().rotor_rad(0));
+    lag.most_rad = std::max(lag.most_rad, lag.left_rad);
+  }
+  EXPECT_EQ(rig.out().faults.count, 0);
+  return lag;
+}
+
+TEST(Force, APayloadThatIsToldLetsAJointLagLessThanOneThatIsNot) {
+  const auto lag = [](bool told) {
+    ForceCase settings;
+    settings.before_m = 1.0;
+    ForceRig rig(settings);
+    rig.enable();
+    const double kg = settings.payload_kg;
+    return lag_of_a_turn(
+        rig, told ? serial::LinkMass{kg, {0, 0, 0.5}, {kg / 6, kg / 6, kg / 6, 0, 0, 0}} : serial::LinkMass{});
+  };
+  EXPECT_LT(lag(true).most_rad, 0.5 * lag(false).most_rad);
 }
 
 TEST(Force, TheSameSeedGivesTheSameBits) {

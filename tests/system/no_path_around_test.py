@@ -43,6 +43,7 @@ REQUESTS = {
     "servo_target": lambda state: {"target": "rod", "offset": kTip},
     "push": lambda state: {"force_N": 10},
     "follow": lambda state: {},
+    "payload": lambda state: {"mass_kg": 10, "inertia_kgm2": [1, 1, 1, 0, 0, 0]},
     "adapter": lambda state: {"command": "lock"},
     "hold_theta": lambda state: {"held": [{"theta": 9, "target_deg": 2.0}]},
     "shape": lambda state: {"nodes": [{"node": 2, "position_m": [1.5, 0.2, 0.0]}]},
