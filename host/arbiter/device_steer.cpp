@@ -10,6 +10,8 @@ void DeviceSteer::use(const DeviceUse& use) {
   if (rate_.count() > 0) ended_use_ = UseRecord{use_.name, rate_};
   use_ = use;
   rate_ = device::SampleRate{};
+  tip_age_.forget();
+  node_age_.forget();
   tip_ = HandTrack{};
   node_ = HandTrack{};
   tip_coast_.forget();
@@ -17,20 +19,28 @@ void DeviceSteer::use(const DeviceUse& use) {
   engaged_ = node_engaged_ = must_let_go_ = false;
   silent_s_ = 0.0;
   newest_us_ = made_of_us_ = oldest_us_ = made_from_us_ = -1;
+  came_ = 0;
   node_target_ = NodeTarget{};
   reason_ = "";
 }
 
 void DeviceSteer::add(const device::Sample& sample) {
-  if (sample.hand != 0) return node_.add_sample(sample);
-  tip_.add_sample(sample);
+  if (sample.hand != 0) return node_age_.add(sample);
+  tip_age_.add(sample);
   rate_.add(sample.t_us);
-  newest_us_ = std::max(newest_us_, sample.t_us);
-  if (!std::exchange(interval_has_samples_, true)) oldest_us_ = sample.t_us;
+  ++came_;
+}
+
+void DeviceSteer::take_in(const device::Sample& tip) {
+  tip_.add_sample(tip);
+  newest_us_ = std::max(newest_us_, tip.t_us);
+  if (!std::exchange(interval_has_samples_, true)) oldest_us_ = tip.t_us;
 }
 
 void DeviceSteer::lose_device() {
   disengage("device gone");
+  tip_age_.forget();
+  node_age_.forget();
   tip_ = HandTrack{};
   node_ = HandTrack{};
   node_engaged_ = false;
@@ -63,13 +73,16 @@ void DeviceSteer::steer_node(const HandReading& left, const cable::Outputs& now,
 }
 
 std::optional<SteerGoal> DeviceSteer::finish_interval(const cable::Outputs& now, double interval_s) {
+  for (const device::Sample& sample : tip_age_.finish_interval(interval_s)) take_in(sample);
+  for (const device::Sample& sample : node_age_.finish_interval(interval_s)) node_.add_sample(sample);
   const HandReading tip = tip_.finish_interval();
   const HandReading left = node_.finish_interval();
   interval_has_samples_ = false;
   if (use_.kind == device::Kind::kNone) return std::nullopt;
-  samples_ += tip.samples;
+  const std::uint64_t came = std::exchange(came_, 0);
+  samples_ += came;
   rate_.finish_interval(interval_s);
-  silent_s_ = tip.samples > 0 ? 0.0 : silent_s_ + interval_s;
+  silent_s_ = came > 0 ? 0.0 : silent_s_ + interval_s;
 
   if (tip.let_go) {
     tip_coast_.forget();

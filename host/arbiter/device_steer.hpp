@@ -9,6 +9,7 @@
 
 #include "firmware_like/cable_controller.hpp"
 #include "host/arbiter/clutch.hpp"
+#include "host/arbiter/even_age.hpp"
 #include "host/arbiter/hand_coast.hpp"
 #include "host/arbiter/hand_track.hpp"
 #include "host/device/capability.hpp"
@@ -62,7 +63,8 @@ class DeviceSteer {
   // The use that ended since the last call, if samples came in it.
   std::optional<UseRecord> take_ended_use() { return std::exchange(ended_use_, std::nullopt); }
 
-  // A sample of the device in use: hand 0 steers the tip, hand 1 the node.
+  // A sample of the device in use: hand 0 steers the tip, hand 1 the node. Behind a link that is late by now more and
+  // now less it waits until all are as late (even_age.hpp).
   void add(const device::Sample& sample);
   // Ends the interval; a goal while engaged. `now` gives the anchors on engaging, `interval_s` the time since the last
   // call.
@@ -78,16 +80,18 @@ class DeviceSteer {
 
  private:
   void disengage(const char* reason);
+  void take_in(const device::Sample& tip);
   void steer_node(const HandReading& left, const cable::Outputs& now, double interval_s);
 
   DeviceUse use_{};
+  EvenAge tip_age_, node_age_;
   HandTrack tip_{}, node_{};
   HandCoast tip_coast_{}, node_coast_{};
   bool engaged_ = false, node_engaged_ = false;
   bool must_let_go_ = false;  // after a loss: nothing before the deadman was open once
   const char* reason_ = "";
   double silent_s_ = 0.0;
-  std::uint64_t samples_ = 0;
+  std::uint64_t samples_ = 0, came_ = 0;  // since the start, in this interval
   device::SampleRate rate_{};
   std::optional<UseRecord> ended_use_;
   ClutchAnchor anchor_{};

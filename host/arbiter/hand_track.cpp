@@ -8,12 +8,15 @@ namespace {
 double seconds(std::int64_t us) { return static_cast<double>(us) * 1e-6; }
 }  // namespace
 
-bool HandTrack::is_jump(const device::Sample& sample) const {
-  if (!any_good_) return false;
-  const double dt_s = std::min(seconds(sample.t_us - last_good_t_us_), kJumpWindow_s);
-  const double way_m = norm(subtract(sample.pose.position_m, last_good_.position_m));
-  const double turn_rad = norm(rotation_vector(multiply(sample.pose.quaternion, conjugate(last_good_.quaternion))));
+bool is_jump(const Pose& from, std::int64_t from_us, const Pose& to, std::int64_t to_us) {
+  const double dt_s = std::min(seconds(to_us - from_us), kJumpWindow_s);
+  const double way_m = norm(subtract(to.position_m, from.position_m));
+  const double turn_rad = norm(rotation_vector(multiply(to.quaternion, conjugate(from.quaternion))));
   return way_m > kHandSpeed_m_s * dt_s || turn_rad > kHandTurn_rad_s * dt_s;
+}
+
+bool HandTrack::is_jump(const device::Sample& sample) const {
+  return any_good_ && arbiter::is_jump(last_good_, last_good_t_us_, sample.pose, sample.t_us);
 }
 
 // Positions are averaged as they are; rotations as small turns away from the first sample of the interval.

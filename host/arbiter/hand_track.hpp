@@ -24,6 +24,9 @@ constexpr double kHandTurn_rad_s = 30.0;
 constexpr double kJumpWindow_s = 0.05;  // longest time over which those speeds are believed
 constexpr double kTrackingLost_s = 0.25;
 
+// No hand comes from the pose that it had at `from_us` to the one at `to_us`, a later time.
+bool is_jump(const Pose& from, std::int64_t from_us, const Pose& to, std::int64_t to_us);
+
 class HandTrack {
  public:
   // Takes one sample; times must not go back (such samples are counted and ignored).

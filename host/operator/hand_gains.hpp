@@ -60,7 +60,8 @@ struct HandGains {
   double fine_dwell_s = 2.0;
   double relent_s = 40.0;  // after striving this long at a goal, a little more error will do: friction lets a soft arm
                            // creep for minutes
-  double relent_most = 1.15;  // times the tolerances above, at most
+  double relent_most = 1.15;        // times the tolerances above, at most
+  double align_relent_most = 1.15;  // the same before the mouth, where going in corrects it further
 };
 
 }  // namespace liana::operator_side

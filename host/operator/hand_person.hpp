@@ -46,6 +46,7 @@ class HandPerson {
     double tolerance_m = 0.0;
     double tolerance_rad = 0.0;
     double dwell_s = 0.0;
+    double relent_most = 1.0;
   };
   struct Picture {
     double due_s = 0.0;

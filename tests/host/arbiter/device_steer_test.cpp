@@ -139,6 +139,22 @@ TEST_F(Steering, ASilentDeviceDisengages) {
   EXPECT_STREQ(steer_.reason(), "device silent");
 }
 
+// Samples that wait for slower ones are no silence, and whoever opens the deadman is not waited for.
+// req:A12
+TEST_F(Steering, BehindAVaryingDelayTheDeadmanOpensAtOnce) {
+  const auto after = [&](int intervals) {
+    for (int i = 1; i < intervals; ++i) steer_.finish_interval(now_, kInterval_s);
+    t_us_ += 20000 * (intervals - 1);
+    return interval(0.3);
+  };
+  for (int i = 0; i < 60; ++i) EXPECT_TRUE(after(1 + i % 3)) << i;
+  interval(0.3);
+  interval(0.3);
+  EXPECT_LT(steer_.made_of_us(), t_us_) << "it waits";
+  EXPECT_FALSE(interval(0.3, false));
+  EXPECT_FALSE(steer_.engaged());
+}
+
 TEST_F(Steering, ADroppedAnchorStartsAgainFromTheTip) {
   interval(0.3);
   interval(0.4);

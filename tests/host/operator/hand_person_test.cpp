@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/operator/delayed_gains.hpp"
 #include "tests/host/operator/scene.hpp"
 #include "tests/host/operator/soft_tip.hpp"
 
@@ -138,6 +139,36 @@ TEST(HandPerson, CorrectsAnOffsetThatAppearsOnTheWayWithoutOvershoot) {
   EXPECT_TRUE(person.arrived());
   EXPECT_LT(norm(operator_side::step_between(drawing.rod_in_slit, tip.true_tip_in_slit()).shift_m), 0.0007);
   EXPECT_LT(widest_other_side_m, 0.0012);
+}
+
+// A tip that nothing brings nearer than 3.5 mm to where it is to be aligned before the mouth: whether the person goes
+// in all the same.
+bool goes_in_though_beside(const operator_side::HandGains& gains) {
+  const operator_side::SlitDrawing drawing = panel_slit();
+  const operator_side::HandMapping mapping{4.0, 1.0};
+  SoftTip tip(drawing, kPanelEdge, mapping, {});
+  operator_side::HandPerson person(gains, drawing, 3);
+  person.begin(operator_side::HandTask::kEnterSlit, mapping, 0.0);
+  Vec3 offset_m{};
+  for (std::int64_t k = 1; k < 120000; ++k) {
+    const double now_s = static_cast<double>(k) * kStep_s;
+    tip.step(person.sample(now_s), kStep_s);
+    const Vec3 at_m = tip.true_tip_in_slit().position_m;
+    if (at_m[0] > -0.3) return true;
+    if (at_m[0] > -0.45) {
+      offset_m = add(offset_m, rotate(drawing.slit_in_base.quaternion, {0.0, 0.0035 - at_m[1], 0.0}));
+      tip.set_offset(offset_m);
+    }
+    if (k % 20 == 0) person.feel(tip.engaged(), now_s);
+    if (k % 40 != 0) continue;
+    if (const auto picture = tip.picture(now_s)) person.look(*picture, now_s);
+  }
+  return false;
+}
+
+TEST(HandPerson, SettlesForLessBeforeTheMouthOnlyBehindADelay) {
+  EXPECT_TRUE(goes_in_though_beside(operator_side::under_delay(operator_side::HandGains{}, 1.0)));
+  EXPECT_FALSE(goes_in_though_beside(operator_side::under_delay(operator_side::HandGains{}, 0.0)));
 }
 
 TEST(HandPerson, ToleratesAnArmThatLagsMoreThanExpected) {
