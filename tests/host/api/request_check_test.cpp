@@ -37,7 +37,8 @@ TEST(RequestCheck, RefusesByFieldValueAllowedRangeAndWhatToDo) {
       {R"({"op":"hold","now":true})",
        "bad_request: unknown field now = true: allowed none: correct its spelling or remove it", "no fields at all"},
       {R"({"op":"move_cp","gaol":1,"goal":[1,0,0,1,0,0,0]})",
-       "bad_request: unknown field gaol = 1: allowed goal, hold, swing_s, quicker_swing_s, sequence, time_s, ttl_s: "
+       "bad_request: unknown field gaol = 1: allowed goal, hold, swing_s, quicker_swing_s, swing_off, sequence, "
+       "time_s, ttl_s: "
        "correct its spelling or "
        "remove it",
        "a misspelt field must not pass unseen"},
