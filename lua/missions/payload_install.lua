@@ -34,7 +34,7 @@ local kSlowest_s2_per_kg, kQuickest_s2_per_kg = 0.9, 0.1
 -- The end effector takes what is within 20 mm, a pin's funnel what is within 30 mm. With the payload in hand the arm is as heavy as what it
 -- stands on: there it keeps still against a swing instead of working against it.
 local kServoToPayload = { axis = "z", tolerance_m = 0.003, tolerance_deg = 0.8 } -- else as servo_target has it
-local kServoToAdapter = { axis = "z", tolerance_m = 0.0015, tolerance_deg = 0.4, calming = 0.7, gain_1_s = 0.4, timeout_s = 260 }
+local kServoToAdapter = { axis = "z", tolerance_m = 0.003, tolerance_deg = 0.4, calming = 0.7, gain_1_s = 0.4, timeout_s = 260 }
 
 -- ---- places -------------------------------------------------------------------------------------------------------
 
