@@ -85,7 +85,7 @@ PushEnd end_of(const RobotTable& table, const PushInputs& in, const WristState& 
   if (state.aside_m > state.order.aside_m || norm(rotation_vector(turn)) > state.order.turn_rad) return PushEnd::kAside;
   if (state.phase == PushPhase::kUnloading) return PushEnd::kNot;
   if (state.adapter_spoke != 0 && !is_heard(in.adapter)) return PushEnd::kAdapterSilent;
-  if (says_captured(in.adapter) && state.touched == 0) return PushEnd::kEarlyCapture;
+  if (says_captured(in.adapter) && !has_touched(state)) return PushEnd::kEarlyCapture;
   return PushEnd::kNot;
 }
 
@@ -114,11 +114,14 @@ void relieve(PushState& state) noexcept {
 
 void press(const RobotTable& table, const PushInputs& in, PushState& state) noexcept {
   const Push& order = state.order;
-  if (dot(order.axis_in_tip, state.given.force_N) > kContactShare * order.force_N) state.touched = 1;
+  const bool feels_contact = dot(order.axis_in_tip, state.given.force_N) > kContactShare * order.force_N;
+  if (!has_touched(state)) state.touch_ticks = feels_contact ? narrow<std::uint16_t>(state.touch_ticks + 1) : 0;
+  state.set_N = has_touched(state) ? order.force_N : kApproachShare * order.force_N;
   const double pull_m = order.depth_m + order.force_N / order.gains[kStiffness];
   state.approach_m = smaller(pull_m, state.approach_m + order.gains[kApproachSpeed] * table.tick_s);
   if (!says_captured(in.adapter)) return;
   state.end = PushEnd::kCaptured;
+  state.set_N = 0.0;
   enter(PushPhase::kUnloading, state);
 }
 
@@ -193,7 +196,6 @@ ForceMotion advance_force(const RobotTable& table, const PushInputs& in, WristSt
   if (state.phase == PushPhase::kTaring) tare(wrist, state);
   if (state.phase == PushPhase::kRelieving) relieve(state);
   if (state.phase == PushPhase::kPressing) press(table, in, state);
-  if (state.phase == PushPhase::kPressing) state.set_N = state.order.force_N;
   if (state.phase == PushPhase::kYielding) return yield(table, in);
   if (state.phase == PushPhase::kTaring) return {{}, {}, true};
   state.velocity = velocity_of(table, now, state);

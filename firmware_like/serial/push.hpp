@@ -19,7 +19,9 @@ constexpr std::uint32_t kRelievedTicks = 25;        // the five other axes are f
 constexpr std::uint32_t kMostRelievingTicks = 500;  // ... or have had their time, before anything is pushed
 constexpr double kRelieved_N = 2.0;
 constexpr double kRelieved_Nm = 1.0;
-constexpr double kContactShare = 0.1;  // of the set force, along the axis: the payload has met the adapter
+constexpr double kContactShare = 0.1;  // of the set force, along the axis: the payload has met the adapter ...
+constexpr std::uint16_t kTouchTicks = 150;  // ... when it is felt so long in a row; what speeding up a payload takes fades
+constexpr double kApproachShare = 0.5;      // of the set force until then: what moves freely goes half as fast
 constexpr std::uint16_t kOverloadTicks = 3;
 constexpr double kForwardFilter_s = 0.3;         // of F_e in the feed-forward
 constexpr double kFollowFrom_Nm = 20.0;          // a joint gives way above this torque (requirement B29)
@@ -58,7 +60,7 @@ struct PushState {
   Wrench tare_sum{};
   Wrench forward{};                // F_e as the torque feed-forward has it, base frame
   double approach_m = 0.0;         // impedance: of the point that it pulls to, from the start
-  std::uint8_t touched = 0;        // force of contact was felt
+  std::uint16_t touch_ticks = 0;   // force of contact was felt, in a row; from kTouchTicks on it stays there
   std::uint8_t adapter_spoke = 0;  // when it began
   std::uint16_t overload_ticks = 0;
   WristHealth lost = WristHealth::kGood;  // kSensorLost: what is wrong with it
@@ -86,6 +88,9 @@ struct PushInputs {
   const AdapterState& adapter;
   bool allowed;  // false: it ends
 };
+
+// The payload has met the adapter.
+inline bool has_touched(const PushState& state) noexcept { return state.touch_ticks >= kTouchTicks; }
 
 // Takes a usable setpoint of kind kPush or kFollow into force; one with the number of the push under way goes on with
 // it.

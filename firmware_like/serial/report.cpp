@@ -9,7 +9,7 @@ PushReport push_report(const PushState& push, const WristState& wrist, const Ada
   out.end = push.end;
   out.law = push.order.law;
   out.wrist = health(wrist);
-  out.touched = push.touched;
+  out.touched = has_touched(push) ? 1 : 0;
   out.set_N = push.set_N;
   out.travel_m = push.travel_m;
   out.aside_m = push.aside_m;

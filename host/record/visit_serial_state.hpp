@@ -99,7 +99,7 @@ void visit(A& a, T& s) {
   a("tare_sum", s.tare_sum);
   a("forward", s.forward);
   a("approach_m", s.approach_m);
-  a("touched", s.touched);
+  a("touch_ticks", s.touch_ticks);
   a("adapter_spoke", s.adapter_spoke);
   a("overload_ticks", s.overload_ticks);
   a("lost", s.lost);

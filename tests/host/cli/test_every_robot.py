@@ -15,7 +15,7 @@ SHIPPED = {
     "three_segment_lab": ("lab_tour", "lab_box", "-6,3,5,-5,8,4"),
     "tdcr_benchmark": ("tdcr_tour", "none", "2,5,-1,4"),
 }
-MADE_UP = 4
+MADE_UP = 2
 
 
 def joined(numbers):
@@ -125,7 +125,7 @@ class EveryRobot(unittest.TestCase):
         self.crosses(file, mission, "none")
 
     def test_a_new_arm_of_four_cables_a_segment_can_be_calibrated(self):
-        for segments in (1, 2, 5, 8):
+        for segments in (1, 5):
             file = self.new(f"four_{segments}", "--segments", segments, "--cables", 4)
             with self.subTest(segments=segments):
                 code, out, error = liana("calibrate", "--robot", file, "--poses", "zero,bent,back", "--json")
