@@ -53,6 +53,7 @@ void Drive::enter_power(PowerState state) {
   following_since_us_ = now_us_;
   switch (state) {
     case PowerState::kOperationEnabled:
+      objects_.set(0x6061, 0, objects_.get(0x6060));  // a torque stop has left it at position control
       if (objects_.get(0x6061) != kCyclicSynchronousTorque) return motor_.set_mode(MotorMode::kFollow);
       torque_loop_.reset();
       return motor_.set_mode(MotorMode::kTorque);

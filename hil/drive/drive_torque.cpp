@@ -52,13 +52,12 @@ void Drive::begin_torque_stop() {
   torque_stop_.emplace(torque_loop_.held_Nm(), kMilli * static_cast<double>(objects_.get(0x3001, 6)));
 }
 
-// Position control takes over where the joint is: whoever enables it again begins from there, and asks anew for torque.
+// Position control takes over where the joint is. What 6060 asks for stays: enabled again, the drive is in that mode.
 void Drive::end_torque() {
   torque_stop_.reset();
   torque_loop_.reset();
   sample();
   objects_.set(0x607A, 0, objects_.get(0x6064));
-  objects_.set(0x6060, 0, kCyclicSynchronousPosition);
   objects_.set(0x6061, 0, kCyclicSynchronousPosition);
 }
 

@@ -167,10 +167,11 @@ TEST_F(TorqueDrive, EveryWayToRestTakesTheForceOutBeforeTheBrakeCloses) {
                             {"quick stop", 0x02, false, PowerState::kSwitchOnDisabled},
                             {"a fault of the drive", 0x0F, true, PowerState::kFault}};
   joint_.wall_Nm_rad = 2000.0;
+  EXPECT_EQ(write(0x6060, 0, 1, 10), 0U);
   for (const Ending& ending : endings) {
     if (drive_.power_state() == PowerState::kFault) period(0x80);
-    EXPECT_EQ(write(0x6060, 0, 1, 10), 0U) << ending.name;
     enable_torque();
+    EXPECT_EQ(read(0x6061, 0), 10U) << ending.name << ": enabled again, it gives torque again";
     run(1500, 200);
     ASSERT_GT(joint_.gear_Nm(), 5.0) << ending.name;  // the drift integral holds the rest
     if (ending.faulty) drive_.raise_fault(0x8400);
@@ -179,7 +180,7 @@ TEST_F(TorqueDrive, EveryWayToRestTakesTheForceOutBeforeTheBrakeCloses) {
     EXPECT_LT(periods, 1400) << ending.name;
     EXPECT_LT(std::fabs(joint_.gear_Nm()), 2.0) << ending.name;
     EXPECT_EQ(drive_.power_state(), ending.after) << ending.name;
-    EXPECT_EQ(read(0x6061, 0), 8U) << ending.name << ": torque has to be asked for anew";
+    EXPECT_EQ(read(0x6061, 0), 8U) << ending.name;
     EXPECT_EQ(read(0x607A, 0), read(0x6064, 0)) << ending.name << ": position control begins where the joint is";
     period(0x00);
   }

@@ -7,7 +7,7 @@ import unittest
 from recordings_test import content
 from support import MISSIONS, SystemTest, start_run
 from liana.recordings import Mcap, Recording, Truth
-from liana.system import run
+from liana.system import System, run
 
 SHORT = MISSIONS / "short_micro.lua"
 FILES = ("ticks.mcap", "images.mcap", "state.mcap", "truth.bin", "can0.log", "can1.log")
@@ -99,6 +99,33 @@ class TheWholeMission(SerialRuns):
         self.assertLess(report["open_loop_tip_error_m"], 0.02)
         self.assertLess(report["max_joint_torque_Nm"], 150.0)
         self.assert_replays(folder, 10000)
+
+
+class TorqueDrivesAreEnabledAgain(SystemTest):
+    def moves(self, client):
+        """Joint 1 by 2 degrees, truly."""
+        start_deg = client.state["measured_js_deg"]
+        goal_deg = [start_deg[0] + 2.0, *start_deg[1:]]
+        client.call("move_jp", goal_deg=goal_deg)
+        client.go_on(1.0)
+        state = client.until(lambda s: s["at_rest"] and not s["is_busy"], limit_s=120.0)
+        self.assertEqual(state["faults"], [], state)
+        self.assertAlmostEqual(state["measured_js_deg"][0], goal_deg[0], delta=0.5)  # dry friction holds it so far off
+
+    def test_after_a_disable_and_after_an_emergency_stop_the_arm_moves_as_before(self):
+        with System(robot="macro_micro", scene="none", bus="embedded_macro_micro") as system:
+            client = self.enterContext(system.client())
+            client.enable()
+            self.moves(client)
+            client.call("state_command", command="disable")
+            client.until(lambda s: s["state"] == "DISABLED")
+            client.enable()
+            self.moves(client)
+            client.call("stop")
+            client.until(lambda s: s["state"] == "DISABLED", limit_s=20.0)
+            client.call("state_command", command="clear")
+            client.enable()
+            self.moves(client)
 
 
 class WhatASerialArmRefuses(SystemTest):
