@@ -143,6 +143,14 @@ class WhatASerialArmRefuses(SystemTest):
                 with self.subTest(option):
                     self.refused(SHORT, "--robot", "micro", option, value, says=[option, "micro", "serial"])
 
+    def test_options_that_would_change_nothing(self):
+        for option, value in (("--true-physics", "worn"), ("--operator", "human")):
+            with self.subTest(option):
+                self.refused(SHORT, "--robot", "micro", option, value, says=[option, "micro", "serial"])
+
+    def test_the_payload_mission_in_a_scene_without_a_payload(self):
+        self.refused("payload_install", "--scene", "none", says=["looks at a payload: scene none has none"])
+
     def test_a_plan_for_a_cable_arm(self):
         with tempfile.TemporaryDirectory() as folder:
             plan = pathlib.Path(folder) / "plan.json"
