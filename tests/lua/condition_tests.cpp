@@ -37,7 +37,8 @@ TEST(Conditions, OfAShapeSayThatAnArmHasNone) {
     asked("liana.shape_settled()", "{}");
     FAIL() << "an arm without a shape was asked";
   } catch (const std::exception& error) {
-    EXPECT_NE(std::string(error.what()).find("shape_settled: this arm has no shape"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("shape_settled: this arm has no shape"), std::string::npos)
+        << error.what();
   }
 }
 
