@@ -6,6 +6,7 @@ import unittest
 
 from recordings_test import content
 from support import MISSIONS, SystemTest, start_run
+from liana.client import RequestRefused
 from liana.recordings import Mcap, Recording, Truth
 from liana.system import System, run
 
@@ -129,6 +130,15 @@ class TorqueDrivesAreEnabledAgain(SystemTest):
 
 
 class WhatASerialArmRefuses(SystemTest):
+    def test_a_push_where_the_bus_table_has_no_wrist_sensor(self):
+        bus = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())) / "own.lua"
+        bus.write_text("local t = require 'buses.embedded_payload'\nt.buses[2].wrist_sensor = nil\nreturn t\n")
+        with System(robot="macro_micro", scene="none", bus=str(bus)) as system:
+            client = self.enterContext(system.client())
+            client.enable()
+            with self.assertRaisesRegex(RequestRefused, "the bus table has no wrist_sensor"):
+                client.call("push", force_N=20)
+
     def refused(self, *words, says):
         process = start_run(self, *words)
         out, error = process.communicate(timeout=PATIENCE_S)
