@@ -110,7 +110,8 @@ constexpr std::array<FaultInfo, 27> kFaultTable{{
      "Look at the drive's state (detail is its statusword), supply and STO line, then clear and enable again."},
     {kFollowingError, "following_error", kStop, true, false,
      "A motor does not follow its target within the allowed lag.",
-     "Check brake, drum and cable for blockage; compare the servo time constant with the robot table, then clear."},
+     "Check brake, and drum and cable or gear, for blockage; compare the servo time constant with the robot table, "
+     "then clear."},
     {kDriveNotOperational, "drive_not_operational", kStop, true, false, "A drive left the NMT state operational.",
      "The drive restarted, lost the master's heartbeat, or was stopped by another master; a restarted drive is booted "
      "by "

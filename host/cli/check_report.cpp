@@ -131,9 +131,11 @@ std::string margins_text(const Json& margins) {
   return text.empty() ? "without margins" : "leaves " + text;
 }
 
-// Null where the scene has no bodies, or the arm never ran.
-std::string clearance_text(const Json& least_m, double arm_s) {
-  if (least_m.is_null()) return arm_s > 0.0 ? "clearance: nothing in the scene\n" : "";
+// Null where the scene has no bodies, the arm is a serial one, or it never ran.
+std::string clearance_text(const Json& least_m, double arm_s, bool is_serial) {
+  if (least_m.is_null() && arm_s <= 0.0) return "";
+  if (is_serial) return "clearance: a serial arm is not checked against the scene\n";
+  if (least_m.is_null()) return "clearance: nothing in the scene\n";
   return line("least clearance %.1f mm\n", 1e3 * least_m.get<double>());
 }
 
@@ -176,7 +178,7 @@ Json check_report(const DryRun& run) {
           {"wall_time_s", run.wall_time_s}};
 }
 
-std::string check_text(const Json& report) {
+std::string check_text(const Json& report, bool is_serial) {
   const double arm_s = report["arm_time_s"].get<double>(), wall_s = report["wall_time_s"].get<double>();
   std::string text = "outcome " + report["outcome"].text() + line(", arm time %.1f s", arm_s) +
                      line(", checked in %.1f s", wall_s) + line(" (%.1f times as fast)\n", arm_s / wall_s);
@@ -187,7 +189,7 @@ std::string check_text(const Json& report) {
   }
   for (const Json& step : report["steps"]) text += step_text(step);
   for (const Json& refusal : report["refusals"]) text += refusal_text(refusal);
-  text += clearance_text(report["min_clearance_m"], arm_s);
+  text += clearance_text(report["min_clearance_m"], arm_s, is_serial);
   text +=
       line("%.0f commands", report["commands"].get<double>()) + line(", %.0f refused", report["refused"].get<double>());
   const Json& times = report["verify_us"];

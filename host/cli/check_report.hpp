@@ -23,7 +23,7 @@ struct DryRun {
 // The answer of `liana check` (docs/command-line.md).
 Json check_report(const DryRun& run);
 
-// The same for people.
-std::string check_text(const Json& report);
+// The same for people. is_serial: the robot has a serial arm.
+std::string check_text(const Json& report, bool is_serial);
 
 }  // namespace liana::cli

@@ -274,6 +274,10 @@ int tell_refusals(const DriveSession& session, desk::Place at, const canopen::Bo
 int drive_jog_command(const DriveOptions& options) {
   const Way way = way_of(options.jog);
   const config::DriveType type = drive_type_of(options);  // bad input before anything is asked
+  if (type.is_cst)
+    throw system::BadInput("--type: " + options.type +
+                           ": follows torques, and jog leads positions: allowed is a type that follows positions, such "
+                           "as cia402_csp; drives that follow torques are moved as such with a robot only");
   parse_whole("--torque", options.jog.torque, 10, 1000, " permille of rated torque");
   const std::uint8_t node = node_of(options);
   if (const std::string warning = nothing_stops(type); !warning.empty())

@@ -9,6 +9,7 @@
 #include "host/system/latency_session.hpp"
 #include "host/system/start_pose.hpp"
 #include "host/system/system_layout.hpp"
+#include "host/system/tables.hpp"
 
 namespace liana::cli {
 namespace {
@@ -40,6 +41,12 @@ void check_rate(const LatencyOptions& options, const config::BusesConfig& buses)
                          "; leave --rate out or take another table");
 }
 
+void check_arm(const LatencyOptions& options) {
+  if (options.arm != "full" && !options.robot.empty() && system::serial_robot_for_kinematics(options.robot))
+    throw system::BadInput("--arm: '" + options.arm + "': robot " + options.robot +
+                           " has a serial arm: its bench knows full only; leave it out");
+}
+
 report::LatencyMeasurement measured(const system::SystemLayout& plan, double seconds) {
   system::LatencySession session(plan);
   return session.measure(seconds);
@@ -48,6 +55,7 @@ report::LatencyMeasurement measured(const system::SystemLayout& plan, double sec
 }  // namespace
 
 int latency_command(const LatencyOptions& options) {
+  check_arm(options);
   system::RunOptions run;
   run.robot = options.robot;
   run.bus = table_of(options);

@@ -88,8 +88,10 @@ void print_summary(const verify::Verdict& verdict) {
 
 int verify_command(const VerifyOptions& options) {
   if (system::serial_robot_for_kinematics(options.robot))
-    throw system::BadInput("--robot: '" + options.robot +
-                           "': allowed: a cable arm; serial arms have no simulation with a scene yet");
+    throw system::BadInput(
+        "--robot: '" + options.robot +
+        "': allowed: a cable arm; serial arms have no simulation with a scene yet: look with liana check "
+        "of a mission");
   const config::RobotConfig robot = system::robot_for_kinematics(options.robot);
   const config::SceneConfig scene = system::scene_of(options.scene);
   const double interval_s = robot.table.interval_ticks * robot.table.tick_s;

@@ -39,6 +39,7 @@ struct SerialRobotConfig {
   std::int32_t calibration_days = 0;                           // how old a calibration may be
   std::map<std::string, std::vector<double>> named_poses_deg;  // joint_count angles each
   std::string start_pose;          // which of them a simulated arm begins with; empty: the table does not say
+  bool has_wrist_sensor = false;   // on one of its buses
   serial::PushGains push_gains{};  // that a push has which says nothing of them; torque drives only
   std::optional<LockedBase> base;  // the arm that this one stands on; none: it stands firm
   std::string canonical_json;

@@ -82,6 +82,11 @@ serial::Push push_of(const config::SerialRobotConfig& robot, const api::Argument
   if (push.law == serial::PushLaw::kForce) push.depth_m = 0.0;
   push.gains = gains_of(robot, fields);
   if (most.gives_torque == 0) return push;  // the arbiter says why there is none
+  if (!robot.has_wrist_sensor)
+    throw api::RequestError(
+        "refused",
+        "the bus table has no wrist_sensor, which a push needs: give its node at the bus that it is "
+        "on, as embedded_payload does");
   require("force_N", push.force_N, 0.0, most.most_force_N);
   require("travel_m", push.travel_m, 0.0, most.most_travel_m);
   require("aside_m", push.aside_m, 0.0, most.most_aside_m);

@@ -66,14 +66,16 @@ std::string why_never(const cable::RobotTable& table, const Pose& goal) {
   return "";
 }
 
-std::string not_found(const Found& found) {
+std::string not_found(const Found& found, const char* look_with) {
   return formatted("not found from where the step before leaves the arm: the nearest is %.1f mm and %.1f deg off: ",
                    1000.0 * found.position_error_m, found.attitude_error_rad / kDegree) +
-         "the step will fail if it cannot be reached; look with liana ik and liana reach, or choose another goal";
+         "the step will fail if it cannot be reached; look with " + look_with + ", or choose another goal";
 }
 
 // Goes through the goals in the order of the steps; search(number, step, from_deg) gives what it found.
-std::vector<std::string> look(const Json& mission, std::vector<double> from_deg, const auto& search) {
+// `look_with`: the commands that say more of a goal which is not found.
+std::vector<std::string> look(const Json& mission, std::vector<double> from_deg, const char* look_with,
+                              const auto& search) {
   std::vector<std::string> notes;
   for (std::size_t i = 0; i < mission.at("steps").size(); ++i) {
     const Json& step = mission.at("steps")[i];
@@ -81,7 +83,7 @@ std::vector<std::string> look(const Json& mission, std::vector<double> from_deg,
     if (!step.contains("goal_tip")) continue;
     const Found found = search(i, step, from_deg);
     if (found.converged) from_deg = found.angles_deg;
-    if (!found.converged) notes.push_back(named(mission, i) + not_found(found));
+    if (!found.converged) notes.push_back(named(mission, i) + not_found(found, look_with));
   }
   return notes;
 }
@@ -105,7 +107,7 @@ std::string step_where(const Json& mission, std::size_t i) {
 
 std::vector<std::string> look_at_tip_goals(const Json& mission, const config::RobotConfig& robot,
                                            const std::vector<double>& start_deg) {
-  return look(mission, start_deg, [&](std::size_t i, const Json& step, const std::vector<double>& from_deg) {
+  const auto search = [&](std::size_t i, const Json& step, const std::vector<double>& from_deg) {
     solve::GoalIkProblem problem;
     problem.from_rad = in_radians(from_deg, problem.from_rad);
     problem.tip_in_base = pose_of(step.at("goal_tip"));
@@ -116,17 +118,19 @@ std::vector<std::string> look_at_tip_goals(const Json& mission, const config::Ro
     const solve::GoalIkResult result = solve_goal(robot.table, problem);
     return Found{result.converged, in_degrees(result.theta_rad, start_deg.size()), result.position_error_m,
                  result.attitude_error_rad};
-  });
+  };
+  return look(mission, start_deg, "liana ik and liana reach", search);
 }
 
 std::vector<std::string> look_at_tip_goals(const Json& mission, const config::SerialRobotConfig& robot,
                                            const std::vector<double>& start_deg) {
-  return look(mission, start_deg, [&](std::size_t, const Json& step, const std::vector<double>& from_deg) {
+  const auto search = [&](std::size_t, const Json& step, const std::vector<double>& from_deg) {
     const solve::SerialGoal goal{pose_of(step.at("goal_tip")), in_radians(from_deg, serial::JointVector{})};
     const solve::SerialGoalResult result = solve_goal(robot.table, goal);
     return Found{result.converged, in_degrees(result.joint_rad, start_deg.size()), result.position_error_m,
                  result.attitude_error_rad};
-  });
+  };
+  return look(mission, start_deg, "liana ik", search);
 }
 
 }  // namespace liana::system

@@ -79,6 +79,11 @@ void check_start(const Json& mission, const StartPose& start) {
   }
 }
 
+bool has_part(const config::SceneConfig& scene, const std::string& name) {
+  if (name == "rod") return scene.rod.has_value();
+  return name == "payload" ? scene.payload.has_value() : scene.slit.has_value();
+}
+
 void check_fixtures(const Json& mission, std::size_t i, const config::SceneConfig& scene) {
   for (const Json& named : mission.at("steps")[i].value("fixtures", Json::array())) {
     const auto is_named = [&](const config::SceneFixture& one) { return one.name == named.text(); };
@@ -106,7 +111,7 @@ void check_scene_parts(const Json& mission, const config::SceneConfig& scene) {
   for (std::size_t i = 0; i < mission.at("steps").size(); ++i) {
     for (const Json& part : mission.at("steps")[i].at("parts")) {
       const std::string name = part.value("part", "");
-      if (name == "rod" ? scene.rod.has_value() : scene.slit.has_value()) continue;
+      if (has_part(scene, name)) continue;
       throw BadInput(step_where(mission, i) + ": " + part.value("field", "") + ": looks at a " + name + ": scene " +
                      scene.name + " has none: run in another --scene, or correct the condition");
     }

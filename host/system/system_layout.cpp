@@ -282,7 +282,10 @@ std::string check_options_of_serial_robot(const RunOptions& options, const std::
   refuse("--gravity", options.gravity_share != 0.0, "its bench has no weight; leave it out");
   refuse("--fixtures", !options.people.fixtures.empty(), "no hand steers it yet; leave it out");
   refuse("--linkage-error", options.linkage_error != 0.0, "it has no linkage; leave it out");
-  refuse("--physics", options.physics != "nominal", "its bench knows nominal only; leave it out");
+  const auto is_unknown = [](const std::string& physics) { return !physics.empty() && physics != "nominal"; };
+  refuse("--physics", is_unknown(options.physics), "its bench knows nominal only; leave it out");
+  refuse("--true-physics", is_unknown(options.true_physics), "its bench knows nominal only; leave it out");
+  refuse("--operator", options.people.who == "human", "no hand steers it yet; leave it out");
   refuse("mission", is_plan(options), "plans are for cable arms; give a mission");
   return start_pose_of(robot, options.start_pose).text;
 }

@@ -85,7 +85,10 @@ TableText buses_of(const std::string& robot, const std::string& robot_json, cons
 config::RobotConfig robot_for_kinematics(const std::string& name) {
   const std::string robot = evaluate_table("robot", name);
   if (checked([&] { return config::robot_kind(robot, name); }) == "serial")
-    throw BadInput("--robot: '" + name + "': has a serial arm: allowed a cable arm; give another robot");
+    throw BadInput(
+        "--robot: '" + name +
+        "': has a serial arm: allowed a cable arm; for a serial arm take liana ik, liana sweep, or a mission "
+        "with move_jp and move_cp");
   return checked([&] {
     const TableText buses = buses_of(name, robot, "");
     return config::parse_robot(robot, name, "nominal", config::parse_buses(buses.json, buses.name));

@@ -97,7 +97,9 @@ constexpr std::array<RefusalRow, 24> kRows{{
     {kNotFinite, "not_finite", "A predicted number is not finite.", "", kHold,
      "Retract, and ask for another way: this one leads where the arm cannot be computed."},
     {kUnreachable, "unreachable", "The arm cannot take the tip there.", "m, rad", kHold,
-     "Ask for a tip pose within reach, or release held angles (hold_theta with an empty list) first."},
+     "Ask for a tip pose within reach; where angles are held (cable arms), release them first: hold_theta with an "
+     "empty "
+     "list."},
     {kPath, "path", "The whole of a path was looked at, and it is not begun.", "", kHold,
      "Ask for a way that keeps clear, such as liana plan finds, from where the arm stands."},
     {kSceneContact, "scene_contact", "The arm could touch the scene, on the way or while it stops.", "m", kHold,

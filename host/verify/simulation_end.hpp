@@ -64,6 +64,7 @@ class SimulationEnd<serial::SerialArm> {
   void watch(const TwinImage<Arm>&) {}
   void begin(const TwinImage<Arm>&, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction) {
     verdict_ = judge_motion<Arm>(table_, candidate, prediction);
+    verdict_.margins = margins_unknown();
   }
   SimulationVerdict verdict(double) { return verdict_; }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 
 namespace liana::verify {
@@ -43,6 +44,12 @@ struct Margins {
   double tension_N = 0.0;
   double time_us = 0.0;  // of the time that the machine has for a tick
 };
+
+// Where nobody looked at what is left.
+constexpr Margins margins_unknown() {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  return {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
+}
 
 // What comes first: of a refusal what made it, else where the arm comes nearest to the scene.
 struct First {

@@ -31,7 +31,7 @@ local function condition_on(name, at, text, met)
   return made
 end
 
--- The same, remembering which part of the scene it looks at ("rod", "slit").
+-- The same, remembering which part of the scene it looks at ("rod", "slit", "payload").
 local function condition_in(part, at, text, met)
   local made = condition(text, met)
   made.parts = { { name = part, at = at } }
@@ -201,6 +201,7 @@ function conditions.shape_settled(missing_m)
   local text = missing_m and ("shape settled with at most %g m missing"):format(missing_m) or "shape settled"
   return condition(text, function(arm)
     local shape = arm.state.shape
+    if not shape then error("shape_settled: this arm has no shape to steer: use it with a cable arm", 0) end
     return shape.settled and (missing_m == nil or shape.missing_m <= missing_m)
   end)
 end

@@ -134,6 +134,7 @@ end
 -- ---- what the states say --------------------------------------------------------------------------------------------
 
 local begins_on_arm = condition("payload on the arm already", function(arm) return arm.part_of_scene("payload").start == "arm" end)
+begins_on_arm.parts = { { name = "payload" } } -- a scene without one is refused before the start
 
 local function push_ended(how)
   return condition("push ended: " .. how, function(arm) return arm.state.push["end"] == how end)

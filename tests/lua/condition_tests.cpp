@@ -31,5 +31,16 @@ TEST(Conditions, OfTheServoTellArrivalFromEveryOtherPhaseAndSayWhyItFailed) {
   EXPECT_EQ(asked("liana.servo_failed()", servo("timed_out"))[1].text(), "servo timed out: not seen");
 }
 
+TEST(Conditions, OfAShapeSayThatAnArmHasNone) {
+  EXPECT_TRUE(asked("liana.shape_settled()", "{ shape = { settled = true, missing_m = 0 } }")[0].get<bool>());
+  try {
+    asked("liana.shape_settled()", "{}");
+    FAIL() << "an arm without a shape was asked";
+  } catch (const std::exception& error) {
+    EXPECT_NE(std::string(error.what()).find("shape_settled: this arm has no shape"), std::string::npos)
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace liana::script

@@ -268,6 +268,12 @@ class DriveCommand(SystemTest):
             done = run("liana", "drive", "jog", "--node", "1", "--yes", "--bus", "embedded", *words)
             self.assertEqual((done.returncode, "raise --most" in done.stderr), (2, raises), done.stderr)
 
+    def test_a_type_that_follows_torques_is_not_jogged(self):
+        words = ("--node", "1", "--by", "0.1", "--yes", "--type", "liana_cst", "--bus", "embedded")
+        done = run("liana", "drive", "jog", *words)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("--type: liana_cst: follows torques", done.stderr)
+
     def test_a_bus_that_is_not_there_is_bad_input(self):
         nobody = "/nonexistent/bus.sock"
         for words, said in (

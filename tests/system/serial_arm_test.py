@@ -6,6 +6,7 @@ import unittest
 
 from recordings_test import content
 from support import MISSIONS, SystemTest, start_run
+from liana.client import RequestRefused
 from liana.recordings import Mcap, Recording, Truth
 from liana.system import System, run
 
@@ -129,6 +130,15 @@ class TorqueDrivesAreEnabledAgain(SystemTest):
 
 
 class WhatASerialArmRefuses(SystemTest):
+    def test_a_push_where_the_bus_table_has_no_wrist_sensor(self):
+        bus = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())) / "own.lua"
+        bus.write_text("local t = require 'buses.embedded_payload'\nt.buses[2].wrist_sensor = nil\nreturn t\n")
+        with System(robot="macro_micro", scene="none", bus=str(bus)) as system:
+            client = self.enterContext(system.client())
+            client.enable()
+            with self.assertRaisesRegex(RequestRefused, "the bus table has no wrist_sensor"):
+                client.call("push", force_N=20)
+
     def refused(self, *words, says):
         process = start_run(self, *words)
         out, error = process.communicate(timeout=PATIENCE_S)
@@ -142,6 +152,14 @@ class WhatASerialArmRefuses(SystemTest):
             for option, value in (("--calibration", file.name), ("--in-pose", "prepare"), ("--cross-wired", "1,2")):
                 with self.subTest(option):
                     self.refused(SHORT, "--robot", "micro", option, value, says=[option, "micro", "serial"])
+
+    def test_options_that_would_change_nothing(self):
+        for option, value in (("--true-physics", "worn"), ("--operator", "human")):
+            with self.subTest(option):
+                self.refused(SHORT, "--robot", "micro", option, value, says=[option, "micro", "serial"])
+
+    def test_the_payload_mission_in_a_scene_without_a_payload(self):
+        self.refused("payload_install", "--scene", "none", says=["looks at a payload: scene none has none"])
 
     def test_a_plan_for_a_cable_arm(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -129,6 +129,8 @@ TEST(SerialRobot, TorqueDrivesHaveMassesGainsAndBounds) {
   const serial::TorqueTable& torque = robot.table.torque;
   EXPECT_TRUE(gives_torque(robot));
   EXPECT_FALSE(gives_torque(micro()));
+  EXPECT_TRUE(robot.has_wrist_sensor);
+  EXPECT_FALSE(micro().has_wrist_sensor);
   EXPECT_EQ(torque.masses.link[6].mass_kg, robot.masses.link[6].mass_kg);
   EXPECT_EQ(torque.most_force_N, 60.0);
   EXPECT_EQ(torque.most_joint_Nm, 100.0);

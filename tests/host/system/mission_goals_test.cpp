@@ -134,6 +134,10 @@ TEST(MissionGoals, OfASerialArmAreLookedForToo) {
   EXPECT_TRUE(look_at_tip_goals(mission_to({there}), *robot, pose_deg).empty());
   const Json inside_its_base(std::vector<double>{0.0, 0.0, 0.01, 1, 0, 0, 0});
   EXPECT_LE(look_at_tip_goals(mission_to({inside_its_base}), *robot, pose_deg).size(), 1u);
+  const Json far_away(std::vector<double>{30.0, 0.0, 0.0, 1, 0, 0, 0});
+  const std::vector<std::string> notes = look_at_tip_goals(mission_to({far_away}), *robot, pose_deg);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("look with liana ik, or"), std::string::npos) << notes[0];
 }
 
 }  // namespace
