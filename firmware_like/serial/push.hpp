@@ -19,11 +19,9 @@ constexpr std::uint32_t kRelievedTicks = 25;        // the five other axes are f
 constexpr std::uint32_t kMostRelievingTicks = 500;  // ... or have had their time, before anything is pushed
 constexpr double kRelieved_N = 2.0;
 constexpr double kRelieved_Nm = 1.0;
-// The payload has met the adapter when this share of the set force is felt along the axis for so long in a row; what
-// speeding up a payload takes fades sooner. Until then a part of the force is set: what moves freely goes half as fast.
-constexpr double kContactShare = 0.1;
-constexpr std::uint16_t kTouchTicks = 150;
-constexpr double kApproachShare = 0.5;
+constexpr double kContactShare = 0.1;       // of the set force, along the axis: the payload has met the adapter ...
+constexpr std::uint16_t kTouchTicks = 150;  // ... when felt so long in a row; what speeding up takes fades sooner
+constexpr double kApproachShare = 0.5;      // of the set force until then: what moves freely goes half as fast
 constexpr std::uint16_t kOverloadTicks = 3;
 constexpr double kForwardFilter_s = 0.3;         // of F_e in the feed-forward
 constexpr double kFollowFrom_Nm = 20.0;          // a joint gives way above this torque (requirement B29)
