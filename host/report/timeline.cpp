@@ -45,7 +45,7 @@ void add_pushes(Events& events, const std::vector<Stage>& stages) {
   }
   double set_N = 0.0;
   for (const Stage& stage : stages) {
-    if ((stage.set_N > 0.0) != (set_N > 0.0))
+    if (stage.set_N != set_N)
       events.push_back({stage.tick, stage.set_N > 0.0 ? "set force " + Json(stage.set_N).dump() : "set force 0"});
     set_N = stage.set_N;
   }

@@ -42,8 +42,9 @@ class Payload(SystemTest):
         self.assertLess(report["unload_s"], 5)
         order = [
             "force control begins",
-            "set force 30.0",
+            "set force 15.0",
             "contact",
+            "set force 30.0",
             "captured",
             "set force 0",
             "latch closed",
