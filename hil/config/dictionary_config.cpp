@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "hil/config/fields.hpp"
 #include "hil/config/json_file.hpp"
 
 namespace liana::bench {
@@ -10,8 +11,6 @@ namespace {
 
 constexpr double kMaxU32 = 4294967295.0;
 constexpr double kMinI32 = -2147483648.0;
-
-std::string at(const std::string& list, std::size_t i) { return list + "/" + std::to_string(i); }
 
 // "6065", "0x6065", "1400:5": hexadecimal index, decimal sub-index.
 ObjectPlace place_of(const JsonFile& file, const std::string& field, const std::string& given) {

@@ -4,13 +4,13 @@
 #include <stdexcept>
 
 #include "hil/config/fault_kinds.hpp"
+#include "hil/config/fields.hpp"
 #include "hil/config/json_file.hpp"
 
 namespace liana::bench {
 
 namespace {
 
-constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
 constexpr int kMostSlots = 2000000000;
 
 std::string listed(const std::vector<std::string>& names) {

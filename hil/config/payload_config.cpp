@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "hil/config/fields.hpp"
+
 namespace liana::bench {
 
 namespace {
-
-constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
 
 double number_or_none(const JsonFile& file, const std::string& field, double high) {
   return file.has(field) ? file.number(field, 0.0, high) : 0.0;

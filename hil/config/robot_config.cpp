@@ -1,17 +1,14 @@
 #include "hil/config/robot_config.hpp"
 
+#include <numbers>
+
+#include "hil/config/fields.hpp"
 #include "hil/config/json_file.hpp"
 #include "hil/math/reduced.hpp"
 
 namespace liana::bench {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRadPerDeg = kPi / 180.0;
-constexpr std::size_t kFirstSerial = 1001;  // of simulated drives, where the table has none: 1000 + node id
-
-std::string at(const std::string& list, std::size_t i) { return list + "/" + std::to_string(i); }
 
 void read_segments(const JsonFile& file, RobotConfig& robot) {
   const std::size_t count = file.size("/segments");
@@ -69,7 +66,9 @@ void read_drives(const JsonFile& file, RobotConfig& robot) {
 
 }  // namespace
 
-double RobotConfig::metres_per_count() const { return 2.0 * kPi * drum_radius_m / (counts_per_turn * gear); }
+double RobotConfig::metres_per_count() const {
+  return 2.0 * std::numbers::pi * drum_radius_m / (counts_per_turn * gear);
+}
 
 double RobotConfig::path_at_zero_m(std::size_t segment) const {
   double path = 0.0;

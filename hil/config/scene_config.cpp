@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "hil/config/fields.hpp"
 #include "hil/config/json_file.hpp"
 #include "hil/math/random.hpp"
 
@@ -10,11 +11,7 @@ namespace liana::bench {
 
 namespace {
 
-constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
-
 const RodConfig kNoRod{{{-1000.0, 0.0, 0.0}, {}}, 1e-4, 0.0};  // nothing reaches it, and no camera sees it
-
-std::string at(const std::string& list, std::size_t i) { return list + "/" + std::to_string(i); }
 
 BoxConfig read_box(const JsonFile& file, const std::string& field) {
   BoxConfig box;

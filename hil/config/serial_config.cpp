@@ -1,18 +1,14 @@
 #include "hil/config/serial_config.hpp"
 
 #include <algorithm>
+#include <numbers>
 
+#include "hil/config/fields.hpp"
 #include "hil/config/json_file.hpp"
 
 namespace liana::bench {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRadPerDeg = kPi / 180.0;
-constexpr std::size_t kFirstSerial = 1001;  // of simulated drives, where the table has none: 1000 + node id
-
-std::string at(const std::string& list, std::size_t i) { return list + "/" + std::to_string(i); }
 
 JointConfig read_joint(const JsonFile& file, const std::string& field) {
   JointConfig joint;
@@ -126,7 +122,7 @@ void read_drives(const JsonFile& file, SerialRobotConfig& robot) {
 
 }  // namespace
 
-double SerialRobotConfig::rad_per_count() const { return 2.0 * kPi / (counts_per_turn * gear); }
+double SerialRobotConfig::rad_per_count() const { return 2.0 * std::numbers::pi / (counts_per_turn * gear); }
 
 bool is_serial_robot(const std::string& path) {
   const JsonFile file(path, "");

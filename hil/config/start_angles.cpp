@@ -3,12 +3,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "hil/config/fields.hpp"
+
 namespace liana::bench {
-namespace {
-
-constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
-
-}  // namespace
 
 std::vector<double> start_angles_rad(const std::map<std::string, std::vector<double>>& named_poses_rad,
                                      std::size_t count, const std::string& text) {

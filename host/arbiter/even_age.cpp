@@ -14,7 +14,7 @@ constexpr std::int64_t kGap_us = 15'000;    // longer without a sample: some are
 constexpr std::int64_t kBridge_us = 5'000;  // apart: what is put in between
 constexpr double kHurry = 1.05;             // a wait that has become shorter is made up for by so much
 
-device::Sample between(const device::Sample& from, const device::Sample& to, std::int64_t t_us) {
+device::Sample sample_between(const device::Sample& from, const device::Sample& to, std::int64_t t_us) {
   device::Sample out = to;
   const double share = static_cast<double>(t_us - from.t_us) / static_cast<double>(to.t_us - from.t_us);
   const Vec3 turn_rad = rotation_vector(multiply(to.pose.quaternion, conjugate(from.pose.quaternion)));
@@ -45,7 +45,7 @@ void EvenAge::add(const device::Sample& sample) {
 void EvenAge::bridge(const device::Sample& to) {
   if (!is_one_way(*newest_, to)) return;
   for (std::int64_t t_us = newest_->t_us + kBridge_us; t_us < to.t_us; t_us += kBridge_us) {
-    if (t_us > play_us_) queue_.push_back(between(*newest_, to, t_us));
+    if (t_us > play_us_) queue_.push_back(sample_between(*newest_, to, t_us));
   }
 }
 

@@ -5,14 +5,14 @@
 
 namespace liana::archive {
 namespace {
-constexpr std::size_t kWord = 4;
+constexpr std::size_t kFieldWord = 4;
 }  // namespace
 
 FieldWords::FieldWords(std::string_view widths) {
   std::size_t together = 0;
   for (const char digit : widths) {
     const auto width = static_cast<std::size_t>(digit - '0');
-    const std::size_t padding = width < kWord ? kWord - width : 0;
+    const std::size_t padding = width < kFieldWord ? kFieldWord - width : 0;
     fields_bytes_ += width;
     words_bytes_ += width + padding;
     together += width;

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -11,6 +10,7 @@
 #include "firmware_like/drive/pdo.hpp"
 #include "firmware_like/math/convert.hpp"
 #include "host/calibration/fixture.hpp"
+#include "host/calibration/text.hpp"
 #include "host/config/sha256.hpp"
 
 namespace liana::calibration {
@@ -25,12 +25,6 @@ using Changes = Eigen::Ref<const Eigen::VectorXd>;  // of one length, pose by po
 constexpr double kApart_m = 1e-3;     // between two cables, to tell them apart
 constexpr double kMisfit_m = 0.5e-3;  // of a fitted drum; elongation and hole radius bring a tenth of it
 constexpr double kDrumShare = 0.02;
-
-std::string text(const char* format, auto... values) {
-  char line[400];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
 
 // Largest |a scale - b| over the poses.
 double misfit_m(const Changes& a, double scale, const Changes& b) { return (scale * a - b).lpNorm<Eigen::Infinity>(); }

@@ -15,8 +15,8 @@ namespace {
 using std::chrono::sys_days;
 
 constexpr double kTwoPi = 6.28318530717958647692;
-constexpr double kDrumShare = 0.05;    // a drum further from the table's radius is another drum
-constexpr double kMostFriction = 0.5;  // as in robot tables
+constexpr double kOtherDrumShare = 0.05;  // a drum further from the table's radius is another drum
+constexpr double kMostFriction = 0.5;     // as in robot tables
 constexpr const char* kAgain = "run liana calibrate again";
 
 std::string checksum(Json content) {
@@ -83,7 +83,7 @@ CableCalibration read_cable(const config::Field& field, const config::RobotConfi
   cable.zero_counts = static_cast<std::int32_t>(field.at("zero_counts").integer(-1000000000, 1000000000));
   cable.drum_radius_m =
       field.at("drum_radius_m")
-          .number({(1.0 - kDrumShare) * robot.drum_radius_m, (1.0 + kDrumShare) * robot.drum_radius_m});
+          .number({(1.0 - kOtherDrumShare) * robot.drum_radius_m, (1.0 + kOtherDrumShare) * robot.drum_radius_m});
   cable.pretension_N = field.at("pretension_N").number({0, robot.table.tension.hard_limit_N});
   cable.offset_m = field.at("offset_m").number({-10, 10});
   return cable;

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <stdexcept>
 
 #include "firmware_like/cable/arm/tension.hpp"
 #include "firmware_like/drive/pdo.hpp"
 #include "firmware_like/math/trig.hpp"
+#include "host/calibration/text.hpp"
 
 namespace liana::calibration {
 
@@ -19,12 +19,6 @@ using Index = std::size_t;
 
 constexpr double kApart = 3.0;  // times the tolerance: then a pose off by all of it still shows an exchange
 constexpr Index kNamed = 3;
-
-std::string text(const char* format, auto... values) {
-  char line[200];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
 
 bool is_off(double reported_m, double expected_m) {
   return !(std::fabs(reported_m - expected_m) <= kFixtureTolerance_m);

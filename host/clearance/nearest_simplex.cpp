@@ -5,8 +5,8 @@ namespace {
 
 constexpr double kFlat = 1e-12;
 
-// Part of a simplex: its corners by number.
-struct Part {
+// Face of a simplex: its corners by number.
+struct Face {
   std::array<int, 3> corner{};
   std::array<double, 3> weight{};
   int count = 0;
@@ -14,7 +14,7 @@ struct Part {
 
 const Vec3& point(const Simplex& simplex, int i) { return simplex.corner[static_cast<std::size_t>(i)].between_m; }
 
-Vec3 place_of(const Simplex& simplex, const Part& part) {
+Vec3 place_of(const Simplex& simplex, const Face& part) {
   Vec3 sum{};
   for (std::size_t k = 0; k < static_cast<std::size_t>(part.count); ++k)
     sum = add(sum, scale(point(simplex, part.corner[k]), part.weight[k]));
@@ -22,7 +22,7 @@ Vec3 place_of(const Simplex& simplex, const Part& part) {
 }
 
 // The foot of the perpendicular from the origin, where it is within the edge.
-bool edge(const Simplex& simplex, int i, int j, Part& out) {
+bool edge(const Simplex& simplex, int i, int j, Face& out) {
   const Vec3 &p = point(simplex, i), along = subtract(point(simplex, j), p);
   const double length2 = dot(along, along), t = -dot(p, along);
   if (!(t > 0.0 && t < length2)) return false;
@@ -31,7 +31,7 @@ bool edge(const Simplex& simplex, int i, int j, Part& out) {
 }
 
 // The same for a triangle.
-bool face(const Simplex& simplex, int i, int j, int k, Part& out) {
+bool face(const Simplex& simplex, int i, int j, int k, Face& out) {
   const Vec3 &p = point(simplex, i), a = subtract(point(simplex, j), p), b = subtract(point(simplex, k), p);
   const double aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), pa = -dot(p, a), pb = -dot(p, b);
   const double area2 = aa * bb - ab * ab, s = pa * bb - pb * ab, t = pb * aa - pa * ab;
@@ -49,7 +49,7 @@ bool has_origin_inside(const Simplex& simplex) {
   return volume > flat && s >= 0.0 && t >= 0.0 && u >= 0.0 && s + t + u <= volume;
 }
 
-void keep(const Part& part, const Vec3& nearest_m, Simplex& simplex) {
+void keep(const Face& part, const Vec3& nearest_m, Simplex& simplex) {
   const Simplex old = simplex;
   simplex.count = part.count;
   for (std::size_t k = 0; k < static_cast<std::size_t>(part.count); ++k) {
@@ -69,15 +69,15 @@ double Simplex::share() const {
 
 bool reduce(Simplex& simplex) noexcept {
   if (simplex.count == 4 && has_origin_inside(simplex)) return false;
-  Part best;
+  Face best;
   Vec3 nearest_m{};
   double least2 = 1e300;
-  const auto consider = [&](const Part& part) {
+  const auto consider = [&](const Face& part) {
     const Vec3 place_m = place_of(simplex, part);
     const double here2 = dot(place_m, place_m);
     if (here2 < least2) least2 = here2, best = part, nearest_m = place_m;
   };
-  Part part;
+  Face part;
   for (int i = 0; i < simplex.count; ++i) {
     consider({{i, 0, 0}, {1.0, 0.0, 0.0}, 1});
     for (int j = i + 1; j < simplex.count; ++j) {

@@ -15,8 +15,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kConnectTimeout_s = 1.0;
-constexpr double kAnswerTimeout_s = 5.0;
 constexpr double kVerdictTimeout_s = 15.0;  // the drives get their reset first
 
 // What a clear is for, as it was before and as lianad judged it.

@@ -11,9 +11,6 @@
 namespace liana::cli {
 namespace {
 
-constexpr double kConnectTimeout_s = 1.0;
-constexpr double kAnswerTimeout_s = 5.0;
-
 // One running system while a command deals with it.
 struct Talk {
   std::string api;

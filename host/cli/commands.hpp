@@ -11,6 +11,10 @@
 
 namespace liana::cli {
 
+// Of a lianad that a command asks.
+inline constexpr double kConnectTimeout_s = 1.0;
+inline constexpr double kAnswerTimeout_s = 5.0;
+
 struct PoseOptions {
   std::string robot = "zhu2022";
   std::string theta_deg;

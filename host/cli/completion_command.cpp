@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 4> kTables{"robots", "scenes", "buses", "missions"};
+constexpr std::array<const char*, 4> kKinds{"robots", "scenes", "buses", "missions"};
 
 // What may follow an option, or stand in a command: names of a table, words, files.
 struct Values {
@@ -181,7 +181,7 @@ int completion_command(const std::string& what, const std::vector<CommandHelp>& 
     print_bash(commands);
   } else if (what == "zsh") {
     print_zsh(commands);
-  } else if (std::find(kTables.begin(), kTables.end(), what) != kTables.end()) {
+  } else if (std::find(kKinds.begin(), kKinds.end(), what) != kKinds.end()) {
     print_names(what);
   } else {
     throw system::BadInput("completion: '" + what + "': allowed: bash, zsh, robots, scenes, buses, missions");

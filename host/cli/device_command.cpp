@@ -15,9 +15,6 @@
 namespace liana::cli {
 namespace {
 
-constexpr double kConnectTimeout_s = 1.0;
-constexpr double kAnswerTimeout_s = 5.0;
-
 // One lianad, asked again and again.
 class Asked {
  public:

@@ -51,7 +51,7 @@ Json to_json(const solve::GoalIkResult& result, std::size_t theta_count, std::si
           {"node_reach_m", reaches}};
 }
 
-void print_text(const Json& answer) {
+void print_goal(const Json& answer) {
   std::printf("%s after %d iterations, error %.2e m, %.2e rad\ntheta (deg):",
               answer["converged"].get<bool>() ? "converged" : "not converged", answer["iterations"].get<int>(),
               answer["position_error_m"].get<double>(), answer["attitude_error_rad"].get<double>());
@@ -75,7 +75,7 @@ int ik_command(const IkOptions& options) {
   if (options.json) {
     std::puts(answer.dump().c_str());
   } else {
-    print_text(answer);
+    print_goal(answer);
   }
   return result.converged ? system::kExitOk : system::kExitNotConverged;
 }

@@ -10,9 +10,6 @@
 namespace liana::cli {
 namespace {
 
-constexpr double kConnectTimeout_s = 1.0;
-constexpr double kAnswerTimeout_s = 5.0;
-
 // What is confirmed is what the step asks for: where none does, nobody may believe that something was.
 void check_waits(api::ApiClient& client) {
   const auto state = system::wait_for(client, "state", kAnswerTimeout_s);

@@ -215,7 +215,7 @@ Json inputs(const PlanOptions& options, const plan::PlanRequest& request) {
           {"max_step_deg", request.max_step_rad / kDegree}};
 }
 
-void print_text(const Json& answer) {
+void print_plan(const Json& answer) {
   std::printf("%s after %d iterations in %.2f s", answer["outcome"].get<std::string>().c_str(),
               answer["iterations"].get<int>(), answer["time_s"].get<double>());
   if (answer.contains("reason")) std::printf(": %s", answer["reason"].get<std::string>().c_str());
@@ -286,7 +286,7 @@ int plan_command(const PlanOptions& options) {
   if (options.json) {
     std::puts(answer.dump().c_str());
   } else {
-    print_text(answer);
+    print_plan(answer);
   }
   warn_of_refusal(request, result);
   if (!options.out_file.empty() &&

@@ -230,7 +230,7 @@ void print_cable_robot(const Json& checked) {
                 planned["most_N"].get<double>());
 }
 
-void print_text(const Json& checked) {
+void print_parts(const Json& checked) {
   std::printf("%s, a %s arm\n", checked["robot"].get<std::string>().c_str(),
               checked["kind"].get<std::string>().c_str());
   if (checked["kind"] == "cable") print_cable_robot(checked);
@@ -277,7 +277,7 @@ int robot_check_command(const RobotCheckOptions& options) {
   if (options.json) {
     std::puts(checked.dump().c_str());
   } else {
-    print_text(checked);
+    print_parts(checked);
   }
   return checked["problems"].empty() ? system::kExitOk : system::kExitFailure;
 }

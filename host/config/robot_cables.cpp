@@ -1,6 +1,7 @@
 // Cables and drives of a robot table.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "host/config/canonical.hpp"
 #include "host/config/robot_parts.hpp"
@@ -8,7 +9,6 @@
 namespace liana::config {
 namespace {
 
-constexpr double kTwoPi = 6.28318530717958647692;
 constexpr double kMaxTension_N = 1e5;
 
 double read_friction(const Field& field, const std::string& physics) {
@@ -51,7 +51,7 @@ void read_drive_lists(const Field& drives, RobotConfig& out) {
     if (sign == 0) direction.element(i).refuse("1 or -1", "1 when counts grow while cable is paid out");
     out.table.drive[i].direction = static_cast<std::int32_t>(sign);
     out.table.drive[i].zero_counts = static_cast<std::int32_t>(zero.element(i).integer(-1000000000, 1000000000));
-    out.table.drive[i].metres_per_count = kTwoPi * out.drum_radius_m / (out.counts_per_turn * out.gear);
+    out.table.drive[i].metres_per_count = 2.0 * std::numbers::pi * out.drum_radius_m / (out.counts_per_turn * out.gear);
     out.table.drive[i].newtons_per_permille = out.rated_torque_Nm / out.drum_radius_m / 1000.0;
   }
 }

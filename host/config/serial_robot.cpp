@@ -2,6 +2,7 @@
 #include "host/config/serial_robot.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "firmware_like/serial/kinematics.hpp"
 #include "host/config/canonical.hpp"
@@ -14,7 +15,6 @@ namespace {
 
 using serial::JointTable;
 
-constexpr double kTwoPi = 6.28318530717958647692;
 constexpr double kMostAngle_deg = 720.0;
 constexpr double kMostCounts = 2e9;  // what fits into the 32 bits of a drive's position, with room for a target beyond
 
@@ -85,7 +85,7 @@ void read_drive_lists(const Field& drives, SerialRobotConfig& out) {
     if (sign == 0) direction.element(i).refuse("1 or -1", "1 when counts grow with the joint angle");
     out.table.drive[i].direction = static_cast<std::int32_t>(sign);
     out.table.drive[i].zero_counts = static_cast<std::int32_t>(zero.element(i).integer(-1000000000, 1000000000));
-    out.table.drive[i].rad_per_count = kTwoPi / (out.counts_per_turn * out.gear);
+    out.table.drive[i].rad_per_count = 2.0 * std::numbers::pi / (out.counts_per_turn * out.gear);
     out.table.drive[i].torque_per_permille_Nm = out.rated_torque_Nm / 1000.0;
     check_counts(zero, out, i);
   }

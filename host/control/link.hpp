@@ -34,8 +34,9 @@ struct ArmReport : CycleReport {
 
 constexpr std::size_t kMostRequests = 16;  // room for requests between the threads, one more than can wait
 
-// What the adapter was asked for last; sequence 0: nothing yet.
-struct AdapterOrder {
+// What the adapter was asked for last; sequence 0: nothing yet. Aligned as a whole: else clang calls a library for its
+// atomic.
+struct alignas(2) AdapterOrder {
   serial::AdapterCommand command = serial::AdapterCommand::kNone;
   std::uint8_t sequence = 0;
 };

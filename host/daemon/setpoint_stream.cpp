@@ -10,8 +10,8 @@ namespace liana::daemon {
 
 namespace {
 
-constexpr double kDrift = 1e-3;       // clocks of two machines run apart less than this
-constexpr double kRounding_s = 1e-6;  // of sums of times
+constexpr double kDrift = 1e-3;          // clocks of two machines run apart less than this
+constexpr double kSumRounding_s = 1e-6;  // of sums of times
 constexpr double kReached_m = 1e-5, kReached_deg = 1e-3;
 
 double distance_m(const Pose& a, const Pose& b) { return norm(subtract(a.position_m, b.position_m)); }
@@ -58,7 +58,7 @@ void SetpointStream::check_stamp(const api::Arguments& setpoint, double now_s) c
                                 "goes back");
   }
   const double late_s = now_s - clock_s - (lag_s_ + kDrift * (now_s - noted_s_));
-  if (setpoint.has("ttl_s") && late_s > setpoint.number("ttl_s") + kRounding_s) {
+  if (setpoint.has("ttl_s") && late_s > setpoint.number("ttl_s") + kSumRounding_s) {
     throw api::RequestError("refused", "time_s = " + api::text_of(clock_s) + ": this setpoint comes " +
                                            api::roughly(late_s) + " s later than the quickest: allowed 0 to " +
                                            api::text_of(setpoint.number("ttl_s")) + " s, its ttl_s: send newer ones");
@@ -97,7 +97,7 @@ void SetpointStream::end() {
 }
 
 std::optional<double> SetpointStream::overdue(double next_s, const Pose& tip) {
-  if (!ttl_s_ || next_s <= goal_s_ + *ttl_s_ + kRounding_s) return std::nullopt;
+  if (!ttl_s_ || next_s <= goal_s_ + *ttl_s_ + kSumRounding_s) return std::nullopt;
   const std::optional<double> ttl_s = is_near(*goal_, tip, kReached_m, kReached_deg) ? std::nullopt : ttl_s_;
   end();
   return ttl_s;

@@ -10,7 +10,6 @@
 namespace liana::desk {
 namespace {
 
-constexpr double kAnswer_s = 1.0;
 constexpr double kScanAnswer_s = 0.3;
 constexpr double kMasterHeartbeat_s = 0.35;
 

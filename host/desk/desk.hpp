@@ -23,6 +23,8 @@ struct Place {
   std::uint8_t node = 1;
 };
 
+constexpr double kAnswer_s = 1.0;  // a drive has for each SDO transfer
+
 // What came of one SDO transfer.
 struct Answer {
   canopen::SdoStatus status = canopen::SdoStatus::kIdle;  // kDone, kAborted or kTimeout

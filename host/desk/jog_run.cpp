@@ -11,7 +11,6 @@ namespace liana::desk {
 namespace {
 
 constexpr double kTell_s = 0.1;
-constexpr double kAnswer_s = 1.0;
 constexpr std::uint16_t kNeverHeard = 0xFFFF;  // ticks
 
 }  // namespace

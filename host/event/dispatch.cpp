@@ -7,19 +7,15 @@
 #include <limits>
 #include <vector>
 
+#include "host/event/one_line.hpp"
+
 namespace liana::event {
 namespace {
 
-constexpr std::array<const char*, kStages> kNames{"setpoint", "execution", "simulation", "release",
-                                                  "start",    "complete",  "refusal",    "request"};
+constexpr std::array<const char*, kStages> kStageNames{"setpoint", "execution", "simulation", "release",
+                                                       "start",    "complete",  "refusal",    "request"};
 static_assert(static_cast<std::size_t>(Stage::kRequest) + 1 == kStages);
 constexpr std::size_t kColumns = 8;
-
-std::string on_one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return (c >= 0 && c < 0x20) || c == 0x7F; }, ' ');
-  return text;
-}
 
 std::string figure(double value) {
   if (!std::isfinite(value)) return "-";
@@ -68,7 +64,7 @@ bool read_margins(std::string_view text, Dispatch& out) {
 
 }  // namespace
 
-const char* stage_name(Stage stage) { return kNames[static_cast<std::size_t>(stage)]; }
+const char* stage_name(Stage stage) { return kStageNames[static_cast<std::size_t>(stage)]; }
 
 const char* const kDispatchHeading =
     "tick\tstage\tcommand\tnumber\tsubject\tshare\tclearance_m joint_deg rate_deg_s tension_N time_us\ttext";
@@ -85,9 +81,9 @@ std::optional<Dispatch> dispatch_from_line(std::string_view line) {
   const std::vector<std::string_view> column = split(line, '\t');
   if (column.size() != kColumns || column[0].empty()) return std::nullopt;
   Dispatch d;
-  const auto stage = std::find(kNames.begin(), kNames.end(), column[1]);
-  if (stage == kNames.end()) return std::nullopt;
-  d.stage = static_cast<Stage>(stage - kNames.begin());
+  const auto stage = std::find(kStageNames.begin(), kStageNames.end(), column[1]);
+  if (stage == kStageNames.end()) return std::nullopt;
+  d.stage = static_cast<Stage>(stage - kStageNames.begin());
   const bool good = read(column[0], d.tick) && read(column[2], d.command) && read(column[3], d.number) &&
                     read(column[5], d.share) && read_margins(column[6], d);
   if (!good) return std::nullopt;

@@ -5,10 +5,12 @@
 #include <charconv>
 #include <cstdio>
 
+#include "host/event/one_line.hpp"
+
 namespace liana::event {
 namespace {
 
-constexpr std::array<const char*, kEventKinds> kNames{
+constexpr std::array<const char*, kEventKinds> kKindNames{
     "boot",    "boot_problem", "homing",   "fault",    "emergency", "clear",    "host_trouble",
     "client",  "owner",        "step",     "operator", "device",    "tool",     "refusal",
     "verdict", "path",         "way_back", "friction", "stop",      "shutdown", "left_out"};
@@ -16,13 +18,6 @@ static_assert(static_cast<std::size_t>(EventKind::kLeftOut) + 1 == kEventKinds);
 
 constexpr std::array<std::string_view, 9> kCodes{"",     "bad_request",  "not_owner", "not_enabled", "fault",
                                                  "busy", "out_of_range", "refused",   "no_device"};
-
-// Bytes beyond ASCII are parts of UTF-8 characters.
-std::string on_one_line(std::string text) {
-  const auto is_control = [](char c) { return (c >= 0 && c < 0x20) || c == 0x7F; };
-  std::replace_if(text.begin(), text.end(), is_control, ' ');
-  return text;
-}
 
 // The shortest text that reads back as the same number.
 std::string number_text(double value) {
@@ -38,12 +33,12 @@ std::string values_text(const std::vector<EventValue>& values) {
 
 }  // namespace
 
-const char* event_kind_name(EventKind kind) { return kNames[static_cast<std::size_t>(kind)]; }
+const char* event_kind_name(EventKind kind) { return kKindNames[static_cast<std::size_t>(kind)]; }
 
 std::optional<EventKind> event_kind_from(std::string_view name) {
-  const auto found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end()) return std::nullopt;
-  return static_cast<EventKind>(found - kNames.begin());
+  const auto found = std::find(kKindNames.begin(), kKindNames.end(), name);
+  if (found == kKindNames.end()) return std::nullopt;
+  return static_cast<EventKind>(found - kKindNames.begin());
 }
 
 RefusalEvent refusal_event(std::string_view code) {

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_name(const std::string& text) {
+bool is_run_name(const std::string& text) {
   const auto allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
            c == '.';
@@ -30,7 +30,7 @@ Json run_list(const std::string& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
     struct stat status {};
     const std::string name = entry.path().filename();
-    if (is_name(name) && stat(entry.path().c_str(), &status) == 0 && S_ISDIR(status.st_mode))
+    if (is_run_name(name) && stat(entry.path().c_str(), &status) == 0 && S_ISDIR(status.st_mode))
       runs.emplace_back(status.st_mtim.tv_sec, name);
   }
   std::sort(runs.rbegin(), runs.rend());
@@ -43,7 +43,7 @@ Json run_list(const std::string& folder) {
 std::optional<std::string> run_page(const std::string& folder, const std::string& name) {
   const std::string file = folder + "/" + name + "/page.html";
   std::error_code none;
-  if (!is_name(name) || !fs::is_regular_file(file, none)) return std::nullopt;
+  if (!is_run_name(name) || !fs::is_regular_file(file, none)) return std::nullopt;
   return file;
 }
 

@@ -8,8 +8,8 @@
 namespace liana::hand_side {
 namespace {
 
-constexpr std::uint64_t kForwardPurpose = 71;  // and 72
-constexpr std::uint64_t kBackPurpose = 73;     // and 74
+constexpr std::uint64_t kRelayForwardPurpose = 71;  // and 72
+constexpr std::uint64_t kRelayBackPurpose = 73;     // and 74
 
 haptic::LinkTable without_luck(const haptic::LinkTable& table) { return {table.delay_s, 0.0, 0.0}; }
 
@@ -66,8 +66,8 @@ Relay::Relay(api::UniqueFd device, api::UniqueFd arm, const haptic::LinkTable& f
              std::uint64_t seed)
     : device_(std::move(device)),
       arm_(std::move(arm)),
-      forward_(forward, seed, kForwardPurpose),
-      back_(back, seed, kBackPurpose) {}
+      forward_(forward, seed, kRelayForwardPurpose),
+      back_(back, seed, kRelayBackPurpose) {}
 
 bool Relay::carry(std::int64_t now_us) {
   forward_.read(device_.get(), now_us);

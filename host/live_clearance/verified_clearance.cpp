@@ -6,8 +6,6 @@
 namespace liana::live_clearance {
 namespace {
 
-using Index = std::size_t;
-
 constexpr double kStep_rad = 1e-6;       // of the differences that stand for the derivatives of joint centres
 constexpr double kLargestBound_m = 0.1;  // a pair that is this much farther apart than the least claim is not it
 
@@ -25,25 +23,26 @@ void ClearanceFinder::move(const MeasuredArm& arm, const KnownScene& known) {
   const ThetaVector& theta_rad = believed_rad_ =
       changed(angles, arm.theta_rad, known.registration.length_error_m(), table_.cable_count());
   motion_.points = link_points(table_, theta_rad);
-  const Index points = static_cast<Index>(motion_.points.count), cables = static_cast<Index>(table_.cable_count());
-  for (Index p = 0; p < points; ++p) {
+  const std::size_t points = static_cast<std::size_t>(motion_.points.count),
+                    cables = static_cast<std::size_t>(table_.cable_count());
+  for (std::size_t p = 0; p < points; ++p) {
     std::fill_n(motion_.by_length[p].begin(), cables, Vec3{});
     motion_.velocity_m_s[p] = {};
   }
-  for (Index i = 0; i < static_cast<Index>(table_.theta_count()); ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(table_.theta_count()); ++i) {
     ThetaVector moved_rad = theta_rad;
     moved_rad[i] += kStep_rad;
     const LinkPoints moved = link_points(table_, moved_rad);
-    for (Index p = 0; p < points; ++p) {
+    for (std::size_t p = 0; p < points; ++p) {
       const Vec3 change_m = subtract(moved.point_in_base[p], motion_.points.point_in_base[p]);
       const Vec3 slope = scale(change_m, 1.0 / kStep_rad);
       motion_.velocity_m_s[p] = add(motion_.velocity_m_s[p], scale(slope, arm.rate_rad_s[i]));
-      for (Index c = 0; c < cables; ++c)
+      for (std::size_t c = 0; c < cables; ++c)
         motion_.by_length[p][c] = add(motion_.by_length[p][c], scale(slope, angles[c][i]));
     }
   }
   motion_.in_drawing = motion_.points;
-  for (Index p = 0; known.has_seen && p < points; ++p)
+  for (std::size_t p = 0; known.has_seen && p < points; ++p)
     motion_.in_drawing.point_in_base[p] = known.registration.drawn(motion_.points.point_in_base[p]);
 }
 
@@ -51,13 +50,13 @@ void ClearanceFinder::move(const MeasuredArm& arm, const KnownScene& known) {
 VerifiedClearance ClearanceFinder::judged(const clearance::Clearance& found, std::int32_t link, std::int32_t obstacle,
                                           const KnownScene& known) const {
   const Registration& registration = known.registration;
-  const Index from = static_cast<Index>(link);
+  const std::size_t from = static_cast<std::size_t>(link);
   const Vec3 where_m = known.has_seen ? registration.registered(found.on_axis_m) : found.on_axis_m;
   const Vec3 way_out = known.has_seen ? rotate(quaternion_of(registration.turn_rad()), found.normal) : found.normal;
   const Vec3 from_origin = subtract(where_m, registration.pivot_m());
   const double body = known.has_seen ? -1.0 : 0.0;  // a body that is where it is drawn has its allowance instead
   CableVector by_length{};
-  for (Index c = 0; c < static_cast<Index>(table_.cable_count()); ++c)
+  for (std::size_t c = 0; c < static_cast<std::size_t>(table_.cable_count()); ++c)
     by_length[c] = dot(way_out, between(motion_.by_length[from][c], motion_.by_length[from + 1][c], found.share));
   const double variance_m2 =
       registration.variance(scale(way_out, body), scale(cross(from_origin, way_out), body), by_length);
@@ -79,7 +78,7 @@ VerifiedClearance ClearanceFinder::find(const MeasuredArm& arm, const KnownScene
       if (found.distance_m - kLargestBound_m >= least.distance_m) continue;
       const VerifiedClearance here = judged(found, link, obstacle, known);
       if (here.distance_m < least.distance_m) least = here;
-      VerifiedClearance& least_of_link = of_link[static_cast<Index>(link)];
+      VerifiedClearance& least_of_link = of_link[static_cast<std::size_t>(link)];
       if (here.distance_m < least_of_link.distance_m) least_of_link = here;
     }
   }

@@ -9,8 +9,8 @@
 namespace liana::operator_side {
 
 namespace {
-constexpr std::uint64_t kRightPurpose = 11;
-constexpr std::uint64_t kLeftPurpose = 12;
+constexpr std::uint64_t kRightTremorPurpose = 11;
+constexpr std::uint64_t kLeftTremorPurpose = 12;
 constexpr std::uint64_t kGlitchPurpose = 13;
 constexpr double kStillStep_s = 1.0 / 90.0;
 
@@ -20,8 +20,8 @@ std::int64_t microseconds(double time_s) { return std::llround(time_s * 1e6); }
 RecordedVr::RecordedVr(VrRecording recording, const VrDisturbance& disturbance, std::uint64_t seed)
     : recording_(std::move(recording)),
       disturbance_(disturbance),
-      right_tremor_(disturbance.tremor_m, disturbance.tremor_rad, seed, kRightPurpose),
-      left_tremor_(disturbance.tremor_m, disturbance.tremor_rad, seed, kLeftPurpose) {
+      right_tremor_(disturbance.tremor_m, disturbance.tremor_rad, seed, kRightTremorPurpose),
+      left_tremor_(disturbance.tremor_m, disturbance.tremor_rad, seed, kLeftTremorPurpose) {
   if (recording_.empty())
     throw std::runtime_error("VR recording: no samples: allowed at least one; give another recording");
   RandomStream random(seed, kGlitchPurpose);

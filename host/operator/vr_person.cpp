@@ -9,10 +9,10 @@
 namespace liana::operator_side {
 namespace {
 
-constexpr std::uint64_t kRightPurpose = 51;  // and 52
-constexpr std::uint64_t kLeftPurpose = 53;   // and 54
-constexpr double kStrive_s = 2.5;            // stands at the end of the way for so long before a stroke more
-constexpr double kDecided_m = 0.05;          // a way is followed for so long before it is doubted
+constexpr std::uint64_t kRightTrackerPurpose = 51;  // and 52
+constexpr std::uint64_t kLeftTrackerPurpose = 53;   // and 54
+constexpr double kStrive_s = 2.5;                   // stands at the end of the way for so long before a stroke more
+constexpr double kDecided_m = 0.05;                 // a way is followed for so long before it is doubted
 
 HandGains hand_of(const VrGains& gains) {
   HandGains hand;
@@ -46,8 +46,8 @@ VrPerson::VrPerson(const VrGains& gains, const config::SceneConfig& drawing, std
       drawing_(drawing),
       right_(hand_of(gains), kParallel),
       left_(hand_of(gains), kParallel),
-      right_tracker_(tracking_of(gains), seed, kRightPurpose),
-      left_tracker_(tracking_of(gains), seed, kLeftPurpose) {}
+      right_tracker_(tracking_of(gains), seed, kRightTrackerPurpose),
+      left_tracker_(tracking_of(gains), seed, kLeftTrackerPurpose) {}
 
 void VrPerson::begin(const HandMapping& mapping, double now_s) {
   right_.set_mapping(mapping);

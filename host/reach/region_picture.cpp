@@ -8,10 +8,10 @@
 namespace liana::reach {
 namespace {
 
-constexpr double kPerDegree = 180.0 / std::numbers::pi;
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr double kBorder_m = 0.25;      // around everything that is drawn
 constexpr double kDrawing_px = 1000.0;  // widths of top and front view together
-constexpr double kLeft_px = 70.0, kTop_px = 80.0, kGap_px = 80.0, kBottom_px = 60.0, kRight_px = 30.0;
+constexpr double kPlaneLeft_px = 70.0, kPlaneTop_px = 80.0, kGap_px = 80.0, kBottom_px = 60.0, kRight_px = 30.0;
 constexpr double kLegendWidth_px = 480.0, kLegendHeight_px = 470.0;
 constexpr double kRow_px = 21.0;
 
@@ -61,13 +61,13 @@ struct Layout {
 Layout lay_out(const Space& space) {
   const double scale = kDrawing_px / (length(space[0]) + length(space[1]));  // px per metre
   const double x = scale * length(space[0]), y = scale * length(space[1]), z = scale * length(space[2]);
-  const double right_column = kLeft_px + x + kGap_px;
-  const double lower_row = kTop_px + std::max(y, kLegendHeight_px) + kGap_px;
+  const double right_column = kPlaneLeft_px + x + kGap_px;
+  const double lower_row = kPlaneTop_px + std::max(y, kLegendHeight_px) + kGap_px;
   Layout layout;
-  layout.top = {{{kLeft_px, lower_row - kGap_px - y}, x, y, space[0], space[1]}, 0, 1};
-  layout.side = {{{kLeft_px, lower_row}, x, z, space[0], space[2]}, 0, 2};
+  layout.top = {{{kPlaneLeft_px, lower_row - kGap_px - y}, x, y, space[0], space[1]}, 0, 1};
+  layout.side = {{{kPlaneLeft_px, lower_row}, x, z, space[0], space[2]}, 0, 2};
   layout.front = {{{right_column, lower_row}, y, z, space[1], space[2]}, 1, 2};
-  layout.legend = {right_column - 10.0, kTop_px};
+  layout.legend = {right_column - 10.0, kPlaneTop_px};
   layout.width_px = right_column + std::max(y, kLegendWidth_px) + kRight_px;
   layout.height_px = lower_row + z + kBottom_px;
   return layout;
@@ -203,7 +203,7 @@ std::string held_text(const RobotTable& table, std::uint32_t held_mask, const Th
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
     if ((held_mask >> i & 1u) == 0) continue;
     text += (text.empty() ? "" : ", ") + ("theta " + std::to_string(i + 1)) + " = " +
-            draw::short_number(held_rad[i] * kPerDegree, 3);
+            draw::short_number(held_rad[i] * kDegPerRad, 3);
   }
   return text.empty() ? "none" : text + " deg";
 }
@@ -215,8 +215,8 @@ std::string region_picture(const config::RobotConfig& robot, const config::Scene
   const std::string point = point_name(robot.table, request.point);
   const std::string title = "Where " + point + " of " + robot.name + " can go";
   draw::Svg svg(layout.width_px, layout.height_px, title);
-  svg.text({kLeft_px - 40.0, 34.0}, title, {.size = 20.0, .bold = true});
-  svg.text({kLeft_px - 40.0, 56.0}, "held: " + held_text(robot.table, request.point.held_mask, request.held_rad),
+  svg.text({kPlaneLeft_px - 40.0, 34.0}, title, {.size = 20.0, .bold = true});
+  svg.text({kPlaneLeft_px - 40.0, 56.0}, "held: " + held_text(robot.table, request.point.held_mask, request.held_rad),
            {.size = 13.0});
 
   constexpr std::array kAxisTitles{"x (m)", "y (m)", "z (m)"};

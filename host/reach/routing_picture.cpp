@@ -7,11 +7,11 @@
 namespace liana::reach {
 namespace {
 
-constexpr double kWidth_px = 1080.0, kHeight_px = 420.0;
+constexpr double kRoutingWidth_px = 1080.0, kRoutingHeight_px = 420.0;
 constexpr draw::Pixel kDiscCentre_px{190.0, 225.0};
 constexpr double kDiscRadius_px = 140.0, kHole_px = 6.0;
-constexpr double kLeft_px = 430.0, kAlong_px = 600.0;  // of the arm, unrolled
-constexpr double kTop_px = 85.0, kAcross_px = 280.0;
+constexpr double kRoutingLeft_px = 430.0, kAlong_px = 600.0;  // of the arm, unrolled
+constexpr double kRoutingTop_px = 85.0, kAcross_px = 280.0;
 constexpr std::string_view kColours[kMaxSegments] = {"#1f65a3", "#d6771e", "#2a8a4a", "#b0304a",
                                                      "#6b4fa0", "#8a6a3a", "#c060a0", "#4a4a4a"};
 
@@ -42,30 +42,30 @@ void draw_disc(draw::Svg& svg, const config::RobotConfig& robot, const CableLayo
 // The straight arm with its discs' surface unrolled: every cable from the root to the disc that it ends at.
 void draw_routing(draw::Svg& svg, const RobotTable& table, const CableLayout& layout) {
   const double whole_m = arm_length_m(table, table.segment_count);
-  const auto x_px = [&](double along_m) { return kLeft_px + kAlong_px * along_m / whole_m; };
+  const auto x_px = [&](double along_m) { return kRoutingLeft_px + kAlong_px * along_m / whole_m; };
   const double row_px = kAcross_px / layout.cable_count;
-  svg.text({kLeft_px + kAlong_px / 2.0, 40.0}, "cables from root to anchor, numbered as their drives",
+  svg.text({kRoutingLeft_px + kAlong_px / 2.0, 40.0}, "cables from root to anchor, numbered as their drives",
            {.anchor = "middle", .bold = true});
   double along_m = 0.0;
   for (std::int32_t j = 0; j <= table.segment_count; ++j) {
-    svg.line({x_px(along_m), kTop_px - 15.0}, {x_px(along_m), kTop_px + kAcross_px},
+    svg.line({x_px(along_m), kRoutingTop_px - 15.0}, {x_px(along_m), kRoutingTop_px + kAcross_px},
              {.stroke = "#999999", .dashed = j > 0});
     if (j == table.segment_count) break;
     const double next_m = arm_length_m(table, j + 1);
-    svg.text({x_px(0.5 * (along_m + next_m)), kTop_px - 20.0}, "segment " + std::to_string(j + 1),
+    svg.text({x_px(0.5 * (along_m + next_m)), kRoutingTop_px - 20.0}, "segment " + std::to_string(j + 1),
              {.size = 12.0, .anchor = "middle", .colour = kColours[static_cast<Index>(j)]});
     along_m = next_m;
   }
   for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
-    const double y_px = kTop_px + row_px * (static_cast<double>(c) + 0.5);
+    const double y_px = kRoutingTop_px + row_px * (static_cast<double>(c) + 0.5);
     const std::string_view colour = kColours[static_cast<Index>(layout.segment[c])];
     const double end_px = x_px(arm_length_m(table, layout.segment[c] + 1));
-    svg.line({kLeft_px, y_px}, {end_px, y_px}, {.stroke = colour, .width = 2.0});
+    svg.line({kRoutingLeft_px, y_px}, {end_px, y_px}, {.stroke = colour, .width = 2.0});
     svg.circle({end_px, y_px}, 3.0, {.fill = colour});
-    svg.text({kLeft_px - 8.0, y_px + 3.0}, std::to_string(c + 1), {.size = 10.0, .anchor = "end"});
+    svg.text({kRoutingLeft_px - 8.0, y_px + 3.0}, std::to_string(c + 1), {.size = 10.0, .anchor = "end"});
   }
-  svg.text({kLeft_px, kTop_px + kAcross_px + 22.0}, "0 m", {.size = 11.0});
-  svg.text({kLeft_px + kAlong_px, kTop_px + kAcross_px + 22.0}, draw::short_number(whole_m, 3) + " m",
+  svg.text({kRoutingLeft_px, kRoutingTop_px + kAcross_px + 22.0}, "0 m", {.size = 11.0});
+  svg.text({kRoutingLeft_px + kAlong_px, kRoutingTop_px + kAcross_px + 22.0}, draw::short_number(whole_m, 3) + " m",
            {.size = 11.0, .anchor = "end"});
 }
 
@@ -73,7 +73,7 @@ void draw_routing(draw::Svg& svg, const RobotTable& table, const CableLayout& la
 
 std::string routing_picture(const config::RobotConfig& robot) {
   const CableLayout layout = cable_layout(robot.table);
-  draw::Svg svg(kWidth_px, kHeight_px, "Cable routing of " + robot.name);
+  draw::Svg svg(kRoutingWidth_px, kRoutingHeight_px, "Cable routing of " + robot.name);
   draw_disc(svg, robot, layout);
   draw_routing(svg, robot.table, layout);
   return svg.document();

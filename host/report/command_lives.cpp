@@ -6,24 +6,23 @@ namespace liana::report {
 namespace {
 
 using event::Dispatch;
-using event::Stage;
 
-std::optional<Dispatch>* place_of(Stage stage, CommandLife& life) {
+std::optional<Dispatch>* place_of(event::Stage stage, CommandLife& life) {
   switch (stage) {
-    case Stage::kExecution:
+    case event::Stage::kExecution:
       return &life.execution;
-    case Stage::kSimulation:
+    case event::Stage::kSimulation:
       return &life.simulation;
-    case Stage::kRelease:
+    case event::Stage::kRelease:
       return &life.release;
-    case Stage::kStart:
+    case event::Stage::kStart:
       return &life.start;
-    case Stage::kComplete:
+    case event::Stage::kComplete:
       return &life.complete;
-    case Stage::kRefusal:
-    case Stage::kRequest:
+    case event::Stage::kRefusal:
+    case event::Stage::kRequest:
       return &life.refusal;
-    case Stage::kSetpoint:
+    case event::Stage::kSetpoint:
       break;
   }
   return nullptr;
@@ -38,7 +37,7 @@ CommandLife* find(std::vector<CommandLife>& lives, std::uint64_t command) {
 }
 
 void take(const Dispatch& d, std::vector<CommandLife>& lives) {
-  const bool begins = d.stage == Stage::kSetpoint || d.stage == Stage::kRequest;
+  const bool begins = d.stage == event::Stage::kSetpoint || d.stage == event::Stage::kRequest;
   if (begins) lives.push_back({d.command, d.tick, d.subject, d.number, {}, {}, {}, {}, {}, {}});
   CommandLife* life = begins ? &lives.back() : find(lives, d.command);
   if (life == nullptr) return;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
+
+#include "host/report/line.hpp"
 
 namespace liana::report {
 namespace {
@@ -131,15 +131,6 @@ Json body_row(const ForceReadings& all) {
     right += body.named == body.segment ? 1 : 0;
   }
   return {{"count", all.body.size()}, {"felt", felt}, {"named", named}, {"right", right}};
-}
-
-__attribute__((format(printf, 1, 2))) std::string line(const char* format, ...) {
-  char text[200];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
 }
 
 std::string figure(const Json& value, const char* format) {

@@ -3,26 +3,16 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <map>
 
 #include "host/json/json.hpp"
+#include "host/report/line.hpp"
 
 namespace liana::report {
 namespace {
 
 constexpr std::size_t kBins = 13;  // the last one: 2048 us or more, which lianad counts together
 constexpr double kBarLength = 50.0;
-
-__attribute__((format(printf, 1, 2))) std::string line(const char* format, ...) {
-  std::array<char, 300> text{};
-  va_list values;
-  va_start(values, format);
-  std::vsnprintf(text.data(), text.size(), format, values);
-  va_end(values);
-  return text.data();
-}
 
 std::string range_of(std::size_t bin) {
   if (bin < 2) return std::to_string(bin);

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "host/json/json.hpp"
+#include "host/report/line.hpp"
 #include "host/report/payload_text.hpp"
 #include "host/report/timeline.hpp"
 #include "host/report/truth.hpp"
@@ -80,12 +81,6 @@ void add_claims(Json& report, const TruthLog& truth, const Rows& rows, const std
                                     {"truth_min", claimed->truth_min_m},
                                     {"ticks_above_truth", claimed->ticks_above_truth},
                                     {"most_above_truth_m", claimed->most_above_m}};
-}
-
-std::string line(const char* format, double value) {
-  char text[128];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
 }
 
 // The fault that was asked for, and when it began, as the bench says; null where it did not.

@@ -7,8 +7,6 @@ namespace liana::servo {
 
 namespace {
 
-Vec3 turn_between(const Quat& from, const Quat& to) { return rotation_vector(multiply(to, conjugate(from))); }
-
 Vec3 towards(const Vec3& error, double gain_1_s, double accel, double speed) {
   const double away = norm(error);
   return away > 0.0 ? scale(error, approach_speed(away, gain_1_s, accel, speed) / away) : Vec3{};

@@ -27,6 +27,9 @@ struct PoseError {
   Vec3 rad{};
 };
 
+// The rotation vector that turns `from` into `to`, in the frame both are given in [rad].
+inline Vec3 turn_between(const Quat& from, const Quat& to) { return rotation_vector(multiply(to, conjugate(from))); }
+
 // From `tip` to `goal`, both in the base; turned into the axes of `target_in_base`.
 PoseError error_between(const Pose& target_in_base, const Pose& goal, const Pose& tip);
 

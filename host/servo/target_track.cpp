@@ -2,13 +2,11 @@
 
 #include <algorithm>
 
+#include "host/servo/approach.hpp"
+
 namespace liana::servo {
 
-namespace {
-
-Vec3 turn_between(const Quat& from, const Quat& to) { return rotation_vector(multiply(to, conjugate(from))); }
-
-}  // namespace
+namespace {}  // namespace
 
 TargetTrack::TargetTrack(double tau_s, const motion::Swings& swings) : tau_s_(tau_s) {
   if (swings.slow_s <= 0.0) return;

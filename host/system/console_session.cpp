@@ -8,14 +8,7 @@
 #include "host/system/observer.hpp"
 
 namespace liana::system {
-namespace {
-
-constexpr const char* kRecorder = "liana-archive";
-constexpr int kMostRecorders = 5;
-constexpr double kEndGrace_s = 10.0;  // for lianad to stop the arm, then for the others to end
-constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
-
-}  // namespace
+namespace {}  // namespace
 
 ConsoleSession::~ConsoleSession() {
   system_.end(interrupts_.count() < 2 ? kEndGrace_s : 0.0, [](const Json&) {});

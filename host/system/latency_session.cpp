@@ -18,11 +18,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kReadyTimeout_s = 20.0;  // boot and enabling, each; they take about 2 s
 constexpr double kAnswerTimeout_s = 10.0;
-constexpr double kEndGrace_s = 10.0;  // for lianad to stop the arm, then for the others to end
-constexpr double kLook_s = 0.05;
+constexpr double kStateLook_s = 0.05;
 constexpr double kWay_m = 0.1;        // the tip's, to and fro along the base's z, at most
 constexpr double kWayOfReach = 0.16;  // of how far the tip is from the base
-constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
 // Bus and bench stand for hardware, which is never late for want of a processor; under lianad's real-time thread (80).
 constexpr int kHardwarePriority = 70;
 
@@ -58,7 +56,7 @@ report::LatencyMeasurement LatencySession::measure(double seconds) {
   int states = 0, moving = 0;
   for (double passed_s = 0.0; passed_s < seconds; passed_s = now_s() - begin_s) {
     show_progress(passed_s, seconds);
-    look(std::min(kLook_s, seconds - passed_s));
+    look(std::min(kStateLook_s, seconds - passed_s));
     measured.enabled = measured.enabled && state_.value("state", "") == "ENABLED";
     ++states;
     moving += state_.value("at_rest", true) ? 0 : 1;
@@ -97,13 +95,13 @@ void LatencySession::keep_moving() {
   if (ask({{"op", "move_cp"}, {"goal", ends_[0]}}).value("op", "") != "ok") return;
   std::swap(ends_[0], ends_[1]);
   const double deadline_s = now_s() + kAnswerTimeout_s;  // until a state tells of it
-  while (!state_.value("is_busy", false) && now_s() < deadline_s) look(kLook_s);
+  while (!state_.value("is_busy", false) && now_s() < deadline_s) look(kStateLook_s);
 }
 
 bool LatencySession::reaches(const std::string& state) {
   const double deadline_s = now_s() + kReadyTimeout_s;
   while (now_s() < deadline_s && state_.value("state", "") != "FAULT") {
-    look(kLook_s);
+    look(kStateLook_s);
     if (state_.value("state", "") == state && state_.value("is_homed", false) && state_.value("at_rest", false))
       return true;
   }
@@ -132,7 +130,7 @@ Json LatencySession::ask(Json request) {
   while (answer_.value("id", 0) != last_id_) {
     if (now_s() > deadline_s)
       throw std::runtime_error("lianad did not answer " + request.value("op", "") + " within 10 s");
-    look(kLook_s);
+    look(kStateLook_s);
   }
   return answer_;
 }

@@ -11,9 +11,8 @@ namespace liana::system {
 namespace {
 
 constexpr int kSilence_s = 30;
-constexpr double kEndGrace_s = 5.0;
-constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
-constexpr double kPatience_s = 60.0;  // of arm time, for one request
+constexpr double kLockstepEndGrace_s = 5.0;
+constexpr double kRequestPatience_s = 60.0;  // of arm time, for one request
 
 bool is_in(const Json& state, const char* wanted) { return state.value("state", "") == wanted; }
 
@@ -23,7 +22,7 @@ LockstepSession::LockstepSession(const SystemLayout& plan, const InterruptGuard&
                                  std::string undone)
     : interrupts_(interrupts), name_(std::move(name)), undone_(std::move(undone)), system_(plan) {}
 
-LockstepSession::~LockstepSession() { system_.end(kEndGrace_s); }
+LockstepSession::~LockstepSession() { system_.end(kLockstepEndGrace_s); }
 
 void LockstepSession::start() {
   const Json hello{{"op", "hello"}, {"name", name_}, {"role", "client"}, {"lockstep", true}, {"subscribe", {"state"}}};
@@ -62,7 +61,7 @@ Json LockstepSession::ask_and_wait(const Json& request, const std::function<bool
     if (since_s < 0.0) since_s = state.value("time_s", 0.0);
     const Json faults = state.value("faults", Json::array());
     if (!faults.empty()) give_up("fault " + faults[0].value("name", "") + ": " + faults[0].value("text", ""));
-    if (state.value("time_s", 0.0) - since_s > kPatience_s) give_up("the arm did not answer " + request.dump());
+    if (state.value("time_s", 0.0) - since_s > kRequestPatience_s) give_up("the arm did not answer " + request.dump());
     if (look) look(state);
     // A state that was on its way when the request was sent says nothing of it.
     const bool is_over = asked && state.value("time_s", 0.0) - since_s > 0.1 && is_done(state);

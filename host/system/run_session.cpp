@@ -16,18 +16,14 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* kRecorder = "liana-archive";
-constexpr int kMostRecorders = 5;           // of one run
 constexpr const char* kName = "liana run";  // as the reason of a stop names it
 constexpr double kStopTimeout_s = 15.0;
-constexpr double kEndGrace_s = 10.0;    // for lianad to stop the arm
 constexpr double kFinishGrace_s = 3.0;  // for the mission runner, when another program has ended
 constexpr double kLook_s = 0.02;
 constexpr double kSilentStop_s = 2.0;  // without a state after a stop: nothing more will come
 constexpr double kSilent_s = 10.0;     // without a state: lianad does not go on
 constexpr double kRested_s = 5.0;      // at rest after a failure: it is over
 constexpr double kMostAfter_s = 60.0;  // after a failure, at rest or not
-constexpr double kAftermath_s = 0.5;   // between the end of one program and the ends of those that need it
 
 Clock::duration seconds(double count) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(count));

@@ -14,10 +14,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kFinishGrace_s = 3.0;  // for the others to write their summaries after lianad has left
-constexpr double kRestGrace_s = 20.0;   // for a bench, which goes on until its arm is at rest
-constexpr double kLastGrace_s = 1.0;    // from SIGTERM to SIGKILL, for all together
-constexpr double kLook_s = 0.02;
+constexpr double kSummaryGrace_s = 3.0;  // for the others to write their summaries after lianad has left
+constexpr double kRestGrace_s = 20.0;    // for a bench, which goes on until its arm is at rest
+constexpr double kLastGrace_s = 1.0;     // from SIGTERM to SIGKILL, for all together
+constexpr double kProcessLook_s = 0.02;
 
 Clock::time_point after(double seconds) {
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -55,7 +55,7 @@ void System::start_again(std::string_view name) {
 
 std::optional<Json> System::receive(double timeout_s) {
   if (!api_) {
-    sleep(std::min(timeout_s, kLook_s));
+    sleep(std::min(timeout_s, kProcessLook_s));
     return std::nullopt;
   }
   try {
@@ -76,7 +76,7 @@ void System::send(const Json& message) {
 
 std::optional<NamedEnd> System::worst_end(const Counts& counts, double settle_s) {
   const auto deadline = after(settle_s);
-  while (Clock::now() < deadline && !all_have_ended()) sleep(kLook_s);
+  while (Clock::now() < deadline && !all_have_ended()) sleep(kProcessLook_s);
   return liana::system::worst_end(children_, counts);
 }
 
@@ -117,13 +117,13 @@ void System::end(double grace_s, const Sink& sink) {
   auto deadline = after(standing_still().empty() ? grace_s : 0.0);
   while (Clock::now() < deadline && !all_have_ended()) {
     const bool was_connected = is_connected();
-    if (const auto message = receive(kLook_s); message && sink) sink(*message);
+    if (const auto message = receive(kProcessLook_s); message && sink) sink(*message);
     if (was_connected && !is_connected())
-      deadline = std::min(deadline, after(is_running("liana-bench") ? kRestGrace_s : kFinishGrace_s));
+      deadline = std::min(deadline, after(is_running("liana-bench") ? kRestGrace_s : kSummaryGrace_s));
   }
   for (const auto& child : children_) child->ask_to_end();
   const auto last_moment = after(kLastGrace_s);
-  while (Clock::now() < last_moment && !all_have_ended()) sleep(kLook_s);
+  while (Clock::now() < last_moment && !all_have_ended()) sleep(kProcessLook_s);
   for (const auto& child : children_) child->end(0.0);
   remove_stale_entry();
   while (const auto message = receive(0.0)) {  // what lianad said last may not have been read yet

@@ -15,6 +15,12 @@
 
 namespace liana::system {
 
+// What the sessions share.
+constexpr const char* kRecorder = "liana-archive";
+constexpr int kMostRecorders = 5;     // of one run: one that has ended is started again
+constexpr double kEndGrace_s = 10.0;  // for lianad to stop the arm, then for the others to end
+constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
+
 class System {
  public:
   // Takes in a message of lianad.

@@ -21,6 +21,8 @@ struct Led {
   std::uint32_t held_mask = 0;        // thetas that go to 0 and stay there
 };
 
+inline const Led kFree{};
+
 struct Following {
   double lag_s = 0.0;  // of the true tip behind the hand at constant speed, mean over a whole swing: what it stands off
                        // counts as lag, so of the exact arm only

@@ -11,7 +11,6 @@ namespace {
 constexpr double kMostLag_s = 0.40;
 constexpr double kLeast_N = 15.0;
 
-const Led kFree{};
 // Out of it: farther in, the shape would have to be led past the wall as well.
 Led in_slit() { return {"segment5_in_slit", scale(scene().slit->u_axis, -1.0), 0.03, 0x100}; }
 

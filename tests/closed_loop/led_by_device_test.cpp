@@ -21,7 +21,6 @@ constexpr double kSpeedUp_s = 1.5;  // they take so long to get there
 constexpr double kLimit_m_s = 0.10;
 constexpr double kSample_s = 1.0 / 90.0;
 constexpr double kSeconds = 8.0;
-const Led kFree{};
 
 // What a tracker tells of the hand from `from_s` on, for `for_s`.
 enum class Tells { kNothing, kWhereItWas };

@@ -18,7 +18,7 @@ using desk::JogEnd;
 constexpr double kRate_hz = 250.0, kBy = 6000.0, kSpeed = 8000.0, kRamp_s = 0.25;
 constexpr std::int32_t kStart = 1000;  // BootedDrive's
 
-canopen::DriveExpectation expectation() {
+canopen::DriveExpectation jogged_drive() {
   canopen::DriveExpectation drive;
   drive.vendor = 0x4C49;
   drive.product = drive.revision = drive.serial.emplace(1);
@@ -40,7 +40,7 @@ bench::DriveSettings settings() {
 // A booted drive, and a jog that is stepped with what it reports.
 class JogLine : public ::testing::Test {
  protected:
-  JogLine() : line(expectation(), settings()) {
+  JogLine() : line(jogged_drive(), settings()) {
     line.run_boot();
     EXPECT_EQ(line.boot.state(), canopen::BootState::kOperational) << line.refusals();
   }

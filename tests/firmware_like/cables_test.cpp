@@ -4,16 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "firmware_like/math/pose.hpp"
+#include "tests/firmware_like/pose_of_arm.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::cable {
 namespace {
 
 using zhu2022::Random;
-
-CableGeometry geometry_at(const RobotTable& robot, const ThetaVector& theta) {
-  return cable_geometry(robot, cable_layout(robot), arm_trig(robot, theta));
-}
 
 // Where a hole of one cable is, in the frame of a disc `x_m` after the joint centre.
 Vec3 hole(const RobotTable& robot, double phase_rad, double x_m) {

@@ -7,6 +7,7 @@
 
 #include "host/solve/goal_ik.hpp"
 #include "tests/firmware_like/panel_slit.hpp"
+#include "tests/firmware_like/pose_of_arm.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::cable {
@@ -14,14 +15,10 @@ namespace {
 
 using namespace solve;
 
+using zhu2022::bit;
 using zhu2022::Random;
 
-std::uint32_t bit(std::size_t theta) { return 1u << (theta - 1); }  // theta as the source counts them, from 1
-
-// ---- equation 13
-// ----------------------------------------------------------------------------------------------------------------------
-
-double pose_difference(const Pose& a, const Pose& b) { return zhu2022::length(pose_error(a, b)); }
+// ---- equation 13 ----
 
 // req:A39
 TEST(DofSplit, TheRootOfTheLastSegmentsFollowsFromTheTipAndTheirAngles) {

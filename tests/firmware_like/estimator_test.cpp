@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "firmware_like/cable/arm/tension.hpp"
+#include "tests/firmware_like/pose_of_arm.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::cable {
@@ -25,14 +26,6 @@ Measured measured_at(const RobotTable& robot, const ThetaVector& theta, const Sl
   const TensionRatio ratio = tension_ratio(robot, layout, trig, slip);
   const CableVector motor_N = plan_tension(robot, geometry, ratio, SegmentVector{}).motor_N;
   return {payout_for(robot, layout, geometry.part_m, ratio, motor_N), motor_N, ratio};
-}
-
-SlipState random_slip(Random& random) {
-  SlipState slip;
-  for (auto& row : slip.sigma) {
-    for (double& sigma : row) sigma = random.uniform(-1.0, 1.0);
-  }
-  return slip;
 }
 
 CableModel model_at(const RobotTable& robot, const CableLayout& layout, const ThetaVector& theta) {

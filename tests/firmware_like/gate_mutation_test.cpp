@@ -4,19 +4,13 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "firmware_like/safety/gate.hpp"
+#include "tests/firmware_like/extremes.hpp"
 
 namespace liana::cable {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr double kDenormal = std::numeric_limits<double>::denorm_min();
-constexpr std::int32_t kIntMax = std::numeric_limits<std::int32_t>::max();
-constexpr std::int32_t kIntMin = std::numeric_limits<std::int32_t>::min();
 
 struct RangeCase {
   double value;

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "tests/firmware_like/extremes.hpp"
 #include "tests/firmware_like/safety_bench.hpp"
 
 namespace liana {
@@ -15,11 +15,6 @@ namespace {
 
 using namespace cable::safety_bench;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr double kDenormal = std::numeric_limits<double>::denorm_min();
-constexpr std::int32_t kIntMax = std::numeric_limits<std::int32_t>::max();
-constexpr std::int32_t kIntMin = std::numeric_limits<std::int32_t>::min();
 constexpr std::int64_t kStep = 51;  // 10 mm/s * 4 ms * 1.25 = 50 counts of 1 um, and one of rounding
 
 constexpr std::int32_t kZeroCounts = 1000000;

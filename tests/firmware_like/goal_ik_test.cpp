@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "tests/firmware_like/pose_of_arm.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::cable {
@@ -12,14 +13,9 @@ namespace {
 
 using namespace solve;
 
+using zhu2022::kX4AndX5;
+using zhu2022::kX5;
 using zhu2022::Random;
-
-constexpr std::uint32_t kX5 = 1u << 8;
-constexpr std::uint32_t kX4AndX5 = (1u << 6) | (1u << 8);
-
-double error_of(const RobotTable& robot, const Pose& goal, const ThetaVector& theta) {
-  return zhu2022::length(pose_error(goal, forward_kinematics(robot, theta).tip_in_base));
-}
 
 // Whatever it says, the angles must keep limits and held values, and "converged" must be true.
 void expect_honest(const RobotTable& robot, const GoalIkProblem& problem, const GoalIkResult& result) {

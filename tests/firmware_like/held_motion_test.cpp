@@ -15,11 +15,10 @@ namespace {
 
 using namespace solve;
 
+using zhu2022::bit;
 using zhu2022::Random;
 
 bool is_held(std::uint32_t mask, std::size_t k) { return ((mask >> k) & 1u) != 0; }
-
-std::uint32_t bit(std::size_t theta) { return 1u << (theta - 1); }  // theta as the source counts them, from 1
 
 // What is held, and where.
 struct Held {

@@ -32,7 +32,7 @@ Vec3 axis_of(const Quat& q, std::size_t column) {
   return rotate(q, unit);
 }
 
-double pose_difference(const Pose& pose, const Matrix4& matrix) {
+double matrix_difference(const Pose& pose, const Matrix4& matrix) {
   double largest = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 axis = axis_of(pose.quaternion, k);
@@ -129,7 +129,7 @@ TEST(Kinematics, GoldenTipSegmentEndsAndJacobianAreMetTo1e9) {
   ASSERT_GE(golden().at("cases").size(), 13u);
   for (const Json& entry : golden().at("cases")) {
     const ArmKinematics arm = forward_kinematics(robot, golden_theta(entry));
-    EXPECT_LE(pose_difference(arm.tip_in_base, entry.at("tip_pose").get<Matrix4>()), 1e-9) << entry.at("name");
+    EXPECT_LE(matrix_difference(arm.tip_in_base, entry.at("tip_pose").get<Matrix4>()), 1e-9) << entry.at("name");
     const auto ends = entry.at("segment_ends_m").get<std::vector<Vec3>>();
     for (std::size_t m = 0; m < 5; ++m)
       EXPECT_LE(largest_difference(arm.node_in_base[m + 1].position_m, ends[m]), 1e-9);
@@ -173,7 +173,7 @@ TEST(Kinematics, ClosedFormEqualsTheSourcesSixteenRowsPerSegment) {
         tip = product(product(tip, dh_row(0, kPi / 2, even)), dh_row(0.1, 0, odd));
       }
     }
-    ASSERT_LE(pose_difference(forward_kinematics(robot, theta).tip_in_base, tip), 1e-12);
+    ASSERT_LE(matrix_difference(forward_kinematics(robot, theta).tip_in_base, tip), 1e-12);
   }
 }
 

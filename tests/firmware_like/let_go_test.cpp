@@ -9,12 +9,13 @@
 #include "firmware_like/cable/arm/payout.hpp"
 #include "firmware_like/cable/arm/sparing.hpp"
 #include "tests/firmware_like/ideal_drives.hpp"
+#include "tests/firmware_like/safety_bench.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::cable {
 namespace {
 
-constexpr Patience kPatience = patience(0.004);
+using safety_bench::kPatience;
 
 constexpr std::size_t kCable = 7, kFirst = 6, kEnd = 9;  // of segment 3
 

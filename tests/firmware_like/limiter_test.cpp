@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "firmware_like/controller_io.hpp"
+#include "tests/firmware_like/pose_of_arm.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::cable {
@@ -16,10 +17,6 @@ constexpr double kRounding = 1e-12;
 // What the last step of a braking parabola may go too far: less than a tick's change of rate can make good.
 double overshoot_rad(const RobotTable& robot) {
   return robot.limits.theta_accel_rad_s2 * robot.tick_s * robot.tick_s / 8.0;
-}
-
-CableGeometry geometry_at(const RobotTable& robot, const ThetaVector& theta) {
-  return cable_geometry(robot, cable_layout(robot), arm_trig(robot, theta));
 }
 
 // One tick; checks rate and acceleration of the command and that the reported rate is the real one.

@@ -9,8 +9,8 @@
 namespace liana::cable {
 namespace {
 
-constexpr std::uint32_t kX5 = 1u << 8;
-constexpr std::uint32_t kX4AndX5 = (1u << 6) | (1u << 8);
+using zhu2022::kX4AndX5;
+using zhu2022::kX5;
 
 // An arm at rest whose every tick is checked against the rate and acceleration limits of the robot.
 class Motion : public testing::Test {

@@ -7,12 +7,10 @@
 #include <vector>
 
 #include "firmware_like/math/convert.hpp"
+#include "tests/firmware_like/extremes.hpp"
 
 namespace liana {
 namespace {
-
-constexpr std::int32_t kIntMax = std::numeric_limits<std::int32_t>::max();
-constexpr std::int32_t kIntMin = std::numeric_limits<std::int32_t>::min();
 
 TEST(Pdo, Rpdo1IsControlwordThenTargetLittleEndian) {
   EXPECT_EQ(encode_rpdo1({0x000F, 0x12345678}), (std::array<std::uint8_t, 6>{0x0F, 0x00, 0x78, 0x56, 0x34, 0x12}));

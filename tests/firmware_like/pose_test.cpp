@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "tests/firmware_like/extremes.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana {
@@ -15,9 +15,6 @@ namespace zhu2022 = cable::zhu2022;
 
 using zhu2022::largest_difference;
 using zhu2022::Random;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 Quat random_quaternion(Random& random) { return quaternion_of(random.vector(1.7)); }
 

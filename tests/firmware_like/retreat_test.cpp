@@ -3,15 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "tests/firmware_like/extremes.hpp"
 #include "tests/firmware_like/ideal_drives.hpp"
 #include "tests/firmware_like/serial_rig.hpp"
 
 namespace liana {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // What both rigs are asked in the same words.
 struct CableRig : cable::Rig {

@@ -21,6 +21,7 @@ constexpr std::uint16_t kStatusFaultReaction = 0x021F;
 constexpr std::uint16_t kStatusFault = 0x0218;
 
 constexpr std::int32_t kDrives = 6;
+constexpr Patience kPatience = patience(0.004);
 constexpr double kMetresPerCount = 1e-6;
 constexpr double kZeroPayout_m = 1.3;
 

@@ -3,15 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/firmware_like/pose_of_arm.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::cable {
 namespace {
 
+using zhu2022::kX4AndX5;
+using zhu2022::kX5;
 using zhu2022::Random;
-
-constexpr std::uint32_t kX5 = 1u << 8;
-constexpr std::uint32_t kX4AndX5 = (1u << 6) | (1u << 8);
 
 Pose tip_at(const RobotTable& robot, const ThetaVector& theta) { return forward_kinematics(robot, theta).tip_in_base; }
 
@@ -19,10 +19,6 @@ IkReport run(const RobotTable& robot, const IkGoal& goal, std::int32_t steps, Th
   IkReport report;
   for (std::int32_t i = 0; i < steps; ++i) report = ik_step(robot, goal, kDamping, theta);
   return report;
-}
-
-double error_of(const RobotTable& robot, const Pose& goal, const ThetaVector& theta) {
-  return zhu2022::length(pose_error(goal, tip_at(robot, theta)));
 }
 
 bool within_limits(const RobotTable& robot, const ThetaVector& theta) {

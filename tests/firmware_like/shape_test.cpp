@@ -11,10 +11,9 @@ namespace {
 
 using namespace solve;
 
+using zhu2022::kX4AndX5;
+using zhu2022::kX5;
 using zhu2022::Random;
-
-constexpr std::uint32_t kX5 = 1u << 8;
-constexpr std::uint32_t kX4AndX5 = (1u << 6) | (1u << 8);
 
 ArmKinematics arm_at(const RobotTable& robot, const ThetaVector& theta) { return forward_kinematics(robot, theta); }
 

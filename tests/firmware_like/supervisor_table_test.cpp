@@ -15,8 +15,6 @@
 namespace liana::cable {
 namespace {
 
-constexpr Patience kPatience = patience(0.004);
-
 using namespace safety_bench;
 
 const LinkLimits kLimits = make_link_limits(table());

@@ -13,8 +13,6 @@
 namespace liana::cable {
 namespace {
 
-constexpr Patience kPatience = patience(0.004);
-
 using namespace safety_bench;
 
 constexpr std::size_t kNoDrive = 99;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "firmware_like/math/cholesky.hpp"
+#include "tests/firmware_like/pose_of_arm.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::cable {
@@ -17,14 +18,6 @@ struct Planned {
   TensionRatio ratio;
   TensionPlan plan;
 };
-
-SlipState random_slip(Random& random) {
-  SlipState slip;
-  for (auto& row : slip.sigma) {
-    for (double& sigma : row) sigma = random.uniform(-1.0, 1.0);
-  }
-  return slip;
-}
 
 Planned plan_at(const RobotTable& robot, const ThetaVector& theta, const SlipState& slip) {
   const CableLayout layout = cable_layout(robot);

@@ -4,10 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "firmware_like/math/scalar.hpp"
 #include "firmware_like/math/trig.hpp"
+#include "tests/firmware_like/extremes.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::cable {
@@ -15,19 +14,17 @@ namespace {
 
 using zhu2022::Random;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr double kRounding = 1.0 + 1e-9;
+constexpr double kWithRounding = 1.0 + 1e-9;
 
 TipFilterConfig config_of(const RobotTable& robot) { return tip_filter_config(robot, 0.0); }
 TipFilterConfig config() { return config_of(zhu2022::table()); }
 
 // Checks one channel of one tick against its bounds; says which one broke.
 void expect_bounded(const FilterBounds& bounds, double tick_s, const ChannelState& before, const ChannelState& now) {
-  ASSERT_LE(norm(now.velocity), bounds.speed * kRounding);
-  ASSERT_LE(norm(now.acceleration), bounds.accel * kRounding);
-  ASSERT_LE(norm(subtract(now.velocity, before.velocity)), bounds.accel * tick_s * kRounding);
-  ASSERT_LE(norm(subtract(now.acceleration, before.acceleration)), bounds.jerk * tick_s * kRounding);
+  ASSERT_LE(norm(now.velocity), bounds.speed * kWithRounding);
+  ASSERT_LE(norm(now.acceleration), bounds.accel * kWithRounding);
+  ASSERT_LE(norm(subtract(now.velocity, before.velocity)), bounds.accel * tick_s * kWithRounding);
+  ASSERT_LE(norm(subtract(now.acceleration, before.acceleration)), bounds.jerk * tick_s * kWithRounding);
 }
 
 // One tick towards `target`, with every bound checked, on the state and on the pose that comes out.
@@ -40,8 +37,8 @@ void step(const Pose& target, TipFilterState& state) {
   expect_bounded(with.angular, with.tick_s, before.angular, state.angular);
   const double moved_m = norm(subtract(state.pose.position_m, before.pose.position_m));
   const double turned = norm(rotation_vector(multiply(state.pose.quaternion, conjugate(before.pose.quaternion))));
-  ASSERT_LE(moved_m, with.linear.speed * with.tick_s * kRounding);
-  ASSERT_LE(turned, with.angular.speed * with.tick_s * kRounding);
+  ASSERT_LE(moved_m, with.linear.speed * with.tick_s * kWithRounding);
+  ASSERT_LE(turned, with.angular.speed * with.tick_s * kWithRounding);
 }
 
 Pose random_pose(Random& random, double range_m) { return {random.vector(range_m), quaternion_of(random.vector(1.5))}; }

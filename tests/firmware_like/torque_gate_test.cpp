@@ -1,14 +1,11 @@
 // The gate over torque drives: every bound just inside and just outside, and what a refusal sends. req:A19 req:B20
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "firmware_like/safety/gate.hpp"
+#include "tests/firmware_like/extremes.hpp"
 
 namespace liana {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // One torque drive in the middle of its range and of a motion.
 struct TorqueGate {

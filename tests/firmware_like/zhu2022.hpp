@@ -19,6 +19,11 @@ constexpr std::size_t kThetas = 10;
 constexpr std::size_t kCables = 15;
 constexpr double kMu = 0.05;  // friction of the nominal arm
 
+// Bits of held masks; angles as the source counts them, from 1.
+constexpr std::uint32_t bit(std::size_t theta) { return 1u << (theta - 1); }
+constexpr std::uint32_t kX5 = bit(9);
+constexpr std::uint32_t kX4AndX5 = bit(7) | bit(9);
+
 using Degrees = std::array<double, kThetas>;
 constexpr Degrees kPrepare_deg{-8.5, 0, -12, 0, 8, -2, 13, 0, 12, -2};
 constexpr Degrees kPanelEdge_deg{-6.14, -15, -3.29, -8.72, 7.2, 15, 5.55, 15, 1, -2.8};

@@ -9,9 +9,17 @@
 namespace liana::bench {
 
 constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
+constexpr double kStep_s = 0.001;
+constexpr double kSlot_s = 0.004;
 
 inline RobotConfig fixture_robot() { return load_robot(HIL_DATA "/robot.json"); }
 inline SceneConfig fixture_scene() { return load_scene(HIL_DATA "/scene.json"); }
+// With its panel moved so far towards the arm.
+inline SceneConfig squeezed_scene(double by_m) {
+  SceneConfig scene = fixture_scene();
+  scene.boxes[0].center_m = scene.boxes[0].center_m - by_m * scene.boxes[0].axis[1];
+  return scene;
+}
 inline BusesConfig fixture_buses() { return load_buses(HIL_DATA "/buses.json"); }
 
 inline Theta random_theta(Random& random, double limit_deg) {

@@ -11,8 +11,6 @@
 namespace liana::bench {
 namespace {
 
-constexpr double kSlot_s = 0.004;
-
 double largest_deg(const Theta& a, const Theta& b) {
   double largest = 0.0;
   for (std::size_t i = 0; i < 10; ++i) largest = std::max(largest, std::fabs(a[i] - b[i]) / kRadPerDeg);

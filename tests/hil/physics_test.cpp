@@ -10,8 +10,6 @@
 namespace liana::bench {
 namespace {
 
-constexpr double kStep_s = 0.001;
-
 ArmPhysics table_arm(const std::string& physics, const std::string& pose, const SceneConfig& scene = fixture_scene()) {
   const RobotConfig robot = fixture_robot();
   return ArmPhysics(robot, scene, table_parameters(robot, physics), start_pose(robot, pose, 0.0, 1));
@@ -261,13 +259,6 @@ TEST_F(OneCable, HasOneTensionWithoutFrictionAndNoneWhenSlack) {
   ideal.settle(paths_, ideal.payout_m() - 1e-4);
   EXPECT_NEAR(ideal.motor_tension_N(), ideal.least_tension_N(), 1e-9);
   EXPECT_GT(ideal.motor_tension_N(), 41.0);
-}
-
-// A panel pushed towards the arm until it overlaps by a millimetre or more.
-SceneConfig squeezed_scene(double by_m) {
-  SceneConfig scene = fixture_scene();
-  scene.boxes[0].center_m = scene.boxes[0].center_m - by_m * scene.boxes[0].axis[1];
-  return scene;
 }
 
 TEST(BenchPhysics, AContactPushesTheArmOutAndStaysStable) {

@@ -9,20 +9,10 @@
 namespace liana::bench {
 namespace {
 
-constexpr double kStep_s = 0.001;
-constexpr double kSlot_s = 0.004;
-
 ArmPhysics arm_at(const std::string& pose, const std::string& physics = "nominal",
                   const SceneConfig& scene = fixture_scene()) {
   const RobotConfig robot = fixture_robot();
   return ArmPhysics(robot, scene, table_parameters(robot, physics), start_pose(robot, pose, 0.0, 1));
-}
-
-// The panel moved so far towards the arm.
-SceneConfig squeezed_scene(double by_m) {
-  SceneConfig scene = fixture_scene();
-  scene.boxes[0].center_m = scene.boxes[0].center_m - by_m * scene.boxes[0].axis[1];
-  return scene;
 }
 
 Truth truth_of(BenchOptions options, std::uint32_t slots, int counts_per_slot) {

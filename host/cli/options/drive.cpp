@@ -61,7 +61,7 @@ void add_type(CLI::App& sub, DriveOptions& drive) {
   sub.add_option("--type", drive.type, "drive type: a name under lua/drives or a file")->capture_default_str();
 }
 
-void add_check(CLI::App& group, Action& action) {
+void add_drive_check(CLI::App& group, Action& action) {
   auto [sub, check] =
       add_on_node(group, action, "check", "everything that a boot would refuse; reads only", drive_check_command);
   add_type(sub, check);
@@ -98,7 +98,7 @@ void declare_drive(CLI::App& app, Action& action) {
   add_on_object(group, action, "read", "an object of a drive", drive_read_command);
   add_write(group, action);
   add_watch(group, action);
-  add_check(group, action);
+  add_drive_check(group, action);
   add_jog(group, action);
 }
 

@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/plan/check/vectors.hpp"
+
 namespace liana::plan {
 namespace {
 
 using Vector = std::array<double, 3>;
-
 constexpr unsigned long kMostIterations = 200;
 constexpr double kSharp_m = 1e-6;
-
-double product(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double distance(const Vector& a, const Vector& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 Vector beyond(const Vector& p, const Vector& way, double factor) {
   return {p[0] + factor * way[0], p[1] + factor * way[1], p[2] + factor * way[2]};

@@ -7,6 +7,7 @@
 #include "firmware_like/cable/arm/tension.hpp"
 #include "host/plan/check/convex_check.hpp"
 #include "host/plan/check/path_search.hpp"
+#include "host/plan/check/vectors.hpp"
 
 namespace liana::plan {
 namespace {
@@ -31,8 +32,6 @@ Rotation times(const Rotation& A, const Rotation& B) {
   }
   return out;
 }
-
-double distance(const Vector& a, const Vector& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 // One universal joint: pitch about z and yaw about y, pitch first in odd modules (the DH rows: mission, A1).
 Rotation joint_rotation(double pitch_rad, double yaw_rad, bool pitch_first) {

@@ -6,16 +6,16 @@
 
 #include "host/plan/check/path_search.hpp"
 #include "host/plan/check/plan_check.hpp"
+#include "host/plan/check/vectors.hpp"
 #include "host/plan/text.hpp"
 
 namespace liana::plan {
 namespace {
 
-using Index = std::size_t;
 using Vector = std::array<double, 3>;
+using Index = std::size_t;
 
 Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double product(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Vector along(const Vector& from, const Vector& way, double share) {
   return {from[0] + share * way[0], from[1] + share * way[1], from[2] + share * way[2]};
 }

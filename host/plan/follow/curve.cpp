@@ -12,7 +12,7 @@ constexpr double kPiece_m = 0.005;  // of the straight pieces that stand for the
 
 double distance(const Vec3& a, const Vec3& b) { return norm(subtract(a, b)); }
 
-Vec3 between(const Vec3& a, const Vec3& b, double share) { return add(scale(a, 1.0 - share), scale(b, share)); }
+Vec3 point_between(const Vec3& a, const Vec3& b, double share) { return add(scale(a, 1.0 - share), scale(b, share)); }
 
 // Slope by chord length at every point: from the parabola through it and its neighbours; at the ends that of the first
 // and last chord.
@@ -24,7 +24,7 @@ std::vector<Vec3> slopes(const std::vector<Vec3>& points) {
   std::vector<Vec3> out{chord.front()};
   for (Index i = 1; i + 1 < points.size(); ++i) {
     const double before = distance(points[i - 1], points[i]), after = distance(points[i], points[i + 1]);
-    out.push_back(between(chord[i - 1], chord[i], before / (before + after)));
+    out.push_back(point_between(chord[i - 1], chord[i], before / (before + after)));
   }
   out.push_back(chord.back());
   return out;
@@ -58,7 +58,7 @@ CurvePlace Curve::at(double along_m) const {
   const Index i = static_cast<Index>(after - along_m_.begin());
   const double share = (along_m - along_m_[i - 1]) / (along_m_[i] - along_m_[i - 1]);
   const Vec3 piece = subtract(sample_m_[i], sample_m_[i - 1]);
-  return {along_m, between(sample_m_[i - 1], sample_m_[i], share), scale(piece, 1.0 / norm(piece))};
+  return {along_m, point_between(sample_m_[i - 1], sample_m_[i], share), scale(piece, 1.0 / norm(piece))};
 }
 
 CurvePlace Curve::nearest(const Vec3& point_m, double from_m, double until_m) const {
@@ -72,7 +72,8 @@ CurvePlace Curve::nearest(const Vec3& point_m, double from_m, double until_m) co
     const double length_m = along_m_[i + 1] - along_m_[i];
     const double share = dot(subtract(point_m, sample_m_[i]), piece) / (length_m * length_m);
     const double here = std::clamp(along_m_[i] + std::clamp(share, 0.0, 1.0) * length_m, from_m, until_m);
-    const double away_m = distance(point_m, between(sample_m_[i], sample_m_[i + 1], (here - along_m_[i]) / length_m));
+    const double away_m =
+        distance(point_m, point_between(sample_m_[i], sample_m_[i + 1], (here - along_m_[i]) / length_m));
     if (away_m < best_m) best_m = away_m, along_m = here;
   }
   return at(along_m);

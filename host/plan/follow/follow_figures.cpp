@@ -9,9 +9,7 @@ namespace {
 
 using Index = std::size_t;
 
-constexpr int kLooks = 4;  // per interval
-
-double distance(const Vec3& a, const Vec3& b) { return norm(subtract(a, b)); }
+constexpr int kFigureLooks = 4;  // per interval
 
 // The arm's line at the start and the way of the tip since, as straight pieces.
 class TipPath {
@@ -43,15 +41,15 @@ FollowFigures follow_figures(const RobotTable& table, const std::vector<ThetaVec
   TipPath tip_path(plain_axis(table, path.front()));
   double sum_m = 0.0;
   std::int64_t asked = 0;
-  for (Index i = 1; i <= kLooks * (path.size() - 1); ++i) {
-    const Index w = (i - 1) / kLooks;
-    const double share = static_cast<double>(i - kLooks * w) / kLooks;
+  for (Index i = 1; i <= kFigureLooks * (path.size() - 1); ++i) {
+    const Index w = (i - 1) / kFigureLooks;
+    const double share = static_cast<double>(i - kFigureLooks * w) / kFigureLooks;
     ThetaVector theta{};
     for (Index k = 0; k < theta.size(); ++k) theta[k] = (1.0 - share) * path[w][k] + share * path[w + 1][k];
     const std::vector<Vec3> end_m = plain_axis(table, theta);
     tip_path.go_to(end_m.back());
     const CurvePlace tip = curve.nearest(end_m.back(), 0.0, curve.length_m());
-    out.tip_off_m = std::max(out.tip_off_m, distance(end_m.back(), tip.position_m));
+    out.tip_off_m = std::max(out.tip_off_m, norm(subtract(end_m.back(), tip.position_m)));
     for (Index link = end_m.size() - 1; link-- > 1;) {
       const double off_m = tip_path.distance_m(end_m[link]);
       sum_m += off_m;

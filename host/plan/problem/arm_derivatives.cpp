@@ -51,7 +51,7 @@ Quat second(const JetQuat& q, Index i, Index j) {
 }
 Vec3 twice_vector(const Quat& q) { return {2.0 * q[1], 2.0 * q[2], 2.0 * q[3]}; }
 
-double dot(const Quat& a, const Quat& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
+double quat_dot(const Quat& a, const Quat& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
 
 // Half of the quaternion product with a pure quaternion: how q turns with angular velocity v.
 Quat half_turn(const Vec3& v, const Quat& q) { return multiply({0.0, 0.5 * v[0], 0.5 * v[1], 0.5 * v[2]}, q); }
@@ -153,13 +153,15 @@ void ArmDerivatives::add_quaternion_hessian(const Quat& weight, ThetaHessian& he
       const Vec3& spin_i = segment_[n].spin[i];
       for (Index j = 0; j <= i; ++j) {
         const Quat both = half_turn(segment_[n].spin[j], half_turn(spin_i, q));
-        hessian[2 * n + i][2 * n + j] += dot(weight, half_turn(segment_[n].spin_rate[i][j], q)) + dot(weight, both);
+        hessian[2 * n + i][2 * n + j] +=
+            quat_dot(weight, half_turn(segment_[n].spin_rate[i][j], q)) + quat_dot(weight, both);
       }
       for (Index l = n + 1; l < segment_.size(); ++l) {
         for (Index j = 0; j < 2; ++j) {
           const Vec3& spin_j = segment_[l].spin[j];  // turns with everything before it: d spin_j / di = spin_i x spin_j
           const Quat both = half_turn(spin_j, half_turn(spin_i, q));
-          hessian[2 * l + j][2 * n + i] += dot(weight, half_turn(cross(spin_i, spin_j), q)) + dot(weight, both);
+          hessian[2 * l + j][2 * n + i] +=
+              quat_dot(weight, half_turn(cross(spin_i, spin_j), q)) + quat_dot(weight, both);
         }
       }
     }

@@ -5,12 +5,12 @@
 
 #include <cmath>
 
+#include "tests/host/arbiter/interval.hpp"
+
 namespace liana::arbiter {
 
 using namespace cable;
 namespace {
-
-constexpr double kInterval_s = 0.02;
 
 class Steering : public testing::Test {
  protected:

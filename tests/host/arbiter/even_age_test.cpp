@@ -9,14 +9,15 @@
 #include <random>
 #include <vector>
 
+#include "tests/host/arbiter/interval.hpp"
+
 namespace liana::arbiter {
 namespace {
 
-constexpr double kInterval_s = 0.02;
 constexpr std::int64_t kInterval_us = 20'000;
 constexpr std::int64_t kHandClock_us = 7'000'000'000;  // ahead of the arm's
 
-device::Sample sample(std::int64_t t_us, double x_m, bool deadman = true) {
+device::Sample sample_at(std::int64_t t_us, double x_m, bool deadman = true) {
   return {.t_us = t_us + kHandClock_us, .deadman = deadman, .pose = {{x_m, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}};
 }
 
@@ -36,7 +37,7 @@ class HandBehindLink {
     Packet packet{++sent_, now_us_ += kInterval_us, {}};
     packet.due_us += std::llround(1e6 * (delay_s_ + jitter_s_ * share_(random_)));
     for (; next_us_ <= now_us_; next_us_ += period_us_)
-      packet.samples.push_back(sample(next_us_, 0.015e-6 * static_cast<double>(next_us_)));
+      packet.samples.push_back(sample_at(next_us_, 0.015e-6 * static_cast<double>(next_us_)));
     under_way_.push_back(packet);
     std::vector<device::Sample> came;
     std::ranges::stable_sort(under_way_, {}, &Packet::due_us);
@@ -74,7 +75,7 @@ std::optional<double> mean_m(const std::vector<device::Sample>& samples) {
 }
 
 // Shortest and longest way in an interval, by the means of those that have samples; an interval without has none.
-struct Steps {
+struct WaysAnInterval {
   double least_m = 1.0, most_m = 0.0;
 
   void add(std::optional<double> mean_m) {
@@ -115,7 +116,7 @@ TEST(EvenAge, WhileTheLinkIsEvenNothingWaits) {
 TEST(EvenAge, BehindAVaryingDelayAHandThatGoesEvenlyIsFollowedEvenly) {
   HandBehindLink hand(1000, 0.5, 0.025);
   EvenAge age;
-  Steps heard, followed;
+  WaysAnInterval heard, followed;
   for (int i = 0; i < 3000; ++i) {
     const std::vector<device::Sample> came = hand.interval();
     for (const device::Sample& s : came) age.add(s);
@@ -138,7 +139,7 @@ TEST(EvenAge, AWaitThatHasBecomeShorterIsMadeUpForSlowly) {
   for (int i = 0; i < 500; ++i) interval(hand, age);
   hand.vary(0.5, 0.0);
   for (int i = 0; i < 5; ++i) interval(hand, age);
-  Steps followed;
+  WaysAnInterval followed;
   for (int i = 0; i < 1000; ++i) followed.add(mean_m(interval(hand, age)));
   EXPECT_LT(followed.most_m, 1.1 * 0.0003);
   const std::vector<device::Sample> due = interval(hand, age);

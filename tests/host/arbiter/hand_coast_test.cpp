@@ -8,10 +8,10 @@
 #include <numbers>
 #include <random>
 
+#include "tests/host/arbiter/interval.hpp"
+
 namespace liana::arbiter {
 namespace {
-
-constexpr double kInterval_s = 0.02;
 
 Pose at(const Vec3& position_m, const Vec3& turn_rad = {}) { return {position_m, quaternion_of(turn_rad)}; }
 

@@ -4,11 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "host/arbiter/speed_zone.hpp"
+#include "tests/host/arbiter/interval.hpp"
 
 namespace liana::arbiter {
 namespace {
-
-constexpr double kInterval_s = 0.02;
 
 TEST(StartRamp, AsksForLittleWhileTheCommandStands) {
   StartRamp ramp;

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -15,6 +16,7 @@ namespace liana::archive {
 
 constexpr double kPeriod_s = 0.004;
 constexpr int kInterval = 5;
+constexpr std::uint64_t kSecond = 250;  // ticks
 
 inline Life life() { return {"hash", "{}", "{}", "{}", "fast", kPeriod_s, "2026-01-01T00:00:00Z", "test"}; }
 

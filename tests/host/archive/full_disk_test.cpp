@@ -12,8 +12,6 @@
 namespace liana::archive {
 namespace {
 
-constexpr std::uint64_t kSecond = 250;
-
 // A refused command and an event every second, and telemetry that no compression makes small: 40 kB a second.
 class Feed {
  public:

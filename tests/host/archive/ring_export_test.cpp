@@ -12,7 +12,6 @@
 namespace liana::archive {
 namespace {
 
-constexpr std::uint64_t kSecond = 250;
 constexpr std::uint64_t kGapBegins = 20000, kGapEnds = 20050;
 
 // 100 s of ticks, images every 4 s of which the ring keeps every fifth, Outputs of the last 6 s, a gap of 50 ticks.

@@ -17,7 +17,6 @@
 namespace liana::archive {
 namespace {
 
-constexpr std::uint64_t kSecond = 250;
 constexpr std::uint64_t kLife = 1;
 
 // Hours in seconds, so that a test sees files come and go.

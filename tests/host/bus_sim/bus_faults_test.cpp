@@ -11,10 +11,10 @@ namespace {
 constexpr std::uint64_t kSlotNs = 4'000'000;
 constexpr int kPlant = 1;
 
-bus::CanFrame frame_of(std::uint32_t id, std::uint8_t length = 8) {
+bus::CanFrame full_frame(std::uint32_t id) {
   bus::CanFrame frame;
   frame.id = id;
-  frame.length = length;
+  frame.length = 8;
   return frame;
 }
 
@@ -34,7 +34,7 @@ class Wires : private FrameSink {
     now_ns = slot * kSlotNs;
     sim.arbitrate(now_ns);
   }
-  bool send(int sender, int bus, std::uint32_t id) { return sim.queue(sender, bus, frame_of(id), now_ns); }
+  bool send(int sender, int bus, std::uint32_t id) { return sim.queue(sender, bus, full_frame(id), now_ns); }
   // Identifiers that the controller has heard at its connector `bus`, and the plant on the wire `bus`.
   std::vector<std::uint32_t> heard_by_controller(int bus) const {
     return ids([=](const EndedFrame& each) {
@@ -99,7 +99,7 @@ TEST(BusFaults, ADisturbedFrameIsSentAgainAndCosts20BitsMore) {
   wires.send(kController, 0, 0x201);
   wires.run_to(1);
   EXPECT_EQ(wires.heard_by_plant(0), Ids{0x201});
-  EXPECT_EQ(wires.sim.stats(0).bits, 2 * bus::frame_bits(frame_of(0x201)) + kErrorFrameBits);
+  EXPECT_EQ(wires.sim.stats(0).bits, 2 * bus::frame_bits(full_frame(0x201)) + kErrorFrameBits);
   EXPECT_TRUE(wires.errors.empty()) << "8 is far from the warning at 96";
 }
 
@@ -185,7 +185,7 @@ TEST(BusFaults, WithSwappedCablesEachConnectorIsOnTheOtherWire) {
 
 TEST(BusFaults, AStrangerTakesItsShareOfTheWireByPriority) {
   BusFault babble = on_bus_0(BusAction::kSend, 0, 0);
-  babble.frame = frame_of(0x100);
+  babble.frame = full_frame(0x100);
   babble.load_percent = 50;
   Wires wires({babble});
   for (const std::uint32_t id : {0x080U, 0x100U, 0x101U}) wires.send(kController, 0, id);

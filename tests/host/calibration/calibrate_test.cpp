@@ -19,14 +19,13 @@
 #include "host/config/canonical.hpp"
 #include "host/config/sha256.hpp"
 #include "host/json/json.hpp"
+#include "tests/host/calibration/day.hpp"
 #include "tests/host/config/tables.hpp"
 
 namespace liana::calibration {
 
 using namespace cable;
 namespace {
-
-constexpr const char* kDay = "2026-06-15";
 
 // What the drives of an arm report that is as its table says, but for cables exchanged, drives that count backwards,
 // and drums.

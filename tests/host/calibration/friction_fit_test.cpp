@@ -10,14 +10,13 @@
 #include "firmware_like/math/trig.hpp"
 #include "host/calibration/fixture.hpp"
 #include "host/config/sha256.hpp"
+#include "tests/host/calibration/day.hpp"
 #include "tests/host/config/tables.hpp"
 
 namespace liana::calibration {
 
 using namespace cable;
 namespace {
-
-constexpr const char* kDay = "2026-06-15";
 
 // Readings of an arm with this friction and torque gains off by up to 1 %, that turns one segment after the other.
 FrictionFit measured(double true_mu, double time_s) {

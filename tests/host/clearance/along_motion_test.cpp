@@ -14,7 +14,6 @@
 namespace liana::clearance {
 namespace {
 
-constexpr double kRadius_m = 0.03;
 constexpr std::array<Vec3, 3> kUpright{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
 
 // A motion between two axes, point by point on straight lines: nothing moves more than the farthest point does.

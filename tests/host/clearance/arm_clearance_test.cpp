@@ -15,8 +15,6 @@ namespace liana::clearance {
 using namespace cable;
 namespace {
 
-constexpr double kRadius_m = 0.03;
-
 ArmClearance every_pair(AxisPoints points, double radius_m, const config::SceneConfig& scene) {
   ArmClearance out;
   out.nearest.distance_m = kNoObstacle_m;

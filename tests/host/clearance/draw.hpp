@@ -9,6 +9,8 @@
 
 namespace liana::clearance {
 
+constexpr double kRadius_m = 0.03;  // of the arms
+
 // Random links and obstacles of the sizes that matter: links of 0 to 0.5 m among bodies of 0.01 to 1 m.
 class Draw {
  public:

@@ -8,8 +8,6 @@
 namespace liana::config {
 namespace {
 
-constexpr double kDeg = 3.14159265358979323846 / 180.0;
-
 BusesConfig buses() { return parse_buses(good_table("buses", "embedded").dump(), "b"); }
 
 // Mission, A1 and A9.

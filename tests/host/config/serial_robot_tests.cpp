@@ -7,8 +7,6 @@
 namespace liana::config {
 namespace {
 
-constexpr double kDeg = 3.14159265358979323846 / 180.0;
-
 BusesConfig micro_buses() { return parse_buses(good_table("buses", "embedded_micro").dump(), "b"); }
 
 SerialRobotConfig micro() { return parse_serial_robot(good_table("robot", "micro").dump(), "r", micro_buses()); }

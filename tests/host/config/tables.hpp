@@ -12,6 +12,8 @@
 
 namespace liana::config {
 
+constexpr double kDeg = 3.14159265358979323846 / 180.0;
+
 // The project's own table, evaluated.
 inline Json good_table(const std::string& kind, const std::string& name) {
   script::Activity activity;

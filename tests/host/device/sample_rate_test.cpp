@@ -12,7 +12,7 @@ namespace {
 constexpr double kInterval_s = 0.02;
 
 // Samples `step_us` apart for `time_s`, handed over at the end of each command interval.
-class Device {
+class SteadyDevice {
  public:
   void run(SampleRate& rate, double time_s, std::int64_t step_us) {
     for (double end_s = now_s_ + time_s; now_s_ < end_s - 1e-9;) {
@@ -44,7 +44,7 @@ TEST(SampleRate, IsThatOfTheDevicesClockWithLeastAndMostInterval) {
   for (const Row row : {Row{1000, 1000.0, false}, Row{11111, 90.0, false}, Row{20000, 50.0, false},
                         Row{20100, 49.75, false}, Row{20408, 49.0, true}, Row{40000, 25.0, true}}) {
     SampleRate rate;
-    Device device;
+    SteadyDevice device;
     device.run(rate, 3.0, row.step_us);
     EXPECT_NEAR(rate.now_hz().value(), row.hz, 0.02) << row.step_us;
     EXPECT_NEAR(rate.mean_hz(), row.hz, 0.02) << row.step_us;
@@ -57,7 +57,7 @@ TEST(SampleRate, IsThatOfTheDevicesClockWithLeastAndMostInterval) {
 // req:A24
 TEST(SampleRate, ADeviceThatFallsUnderFiftyHertzIsSlowUntilItIsFastAgain) {
   SampleRate rate;
-  Device device;
+  SteadyDevice device;
   device.run(rate, 2.0, 11111);
   EXPECT_FALSE(rate.is_slow());
   device.run(rate, 2.0, 30000);
@@ -71,7 +71,7 @@ TEST(SampleRate, ADeviceThatFallsUnderFiftyHertzIsSlowUntilItIsFastAgain) {
 
 TEST(SampleRate, SilenceIsSlowButOnlyAfterTheFirstSample) {
   SampleRate rate;
-  Device device;
+  SteadyDevice device;
   device.silence(rate, 5.0);
   EXPECT_FALSE(rate.is_slow());
   EXPECT_FALSE(rate.now_hz());

@@ -7,7 +7,7 @@ namespace liana::haptic {
 namespace {
 
 // All tips along x.
-Motion tip(double x_m, double speed_m_s = 0.0) { return {{x_m, 0.0, 0.0}, {speed_m_s, 0.0, 0.0}}; }
+Motion tip_at_x(double x_m, double speed_m_s = 0.0) { return {{x_m, 0.0, 0.0}, {speed_m_s, 0.0, 0.0}}; }
 
 // req:C15
 TEST(FeedbackLaw, HasANameThatLeadsBackToIt) {
@@ -23,7 +23,7 @@ TEST(FeedbackLaw, EachComparesTheArmWithItsOwnOther) {
     double expected_N;
     const char* why;
   };
-  const LawInputs inputs{tip(0.00), tip(0.04), tip(0.03), tip(0.01)};
+  const LawInputs inputs{tip_at_x(0.00), tip_at_x(0.04), tip_at_x(0.03), tip_at_x(0.01)};
   for (const Row& row : {Row{Law::kClaim, -8.0, "against what the hand asks for"},
                          Row{Law::kAbstract, -6.0, "against the prediction for now"},
                          Row{Law::kAligned, -2.0, "against the prediction of then"}})
@@ -32,12 +32,12 @@ TEST(FeedbackLaw, EachComparesTheArmWithItsOwnOther) {
 
 // req:C14
 TEST(FeedbackLaw, IsZeroWhereArmAndOtherAreOne) {
-  const LawInputs inputs{tip(0.3, 0.1), tip(0.3, 0.1), tip(0.3, 0.1), tip(0.3, 0.1)};
+  const LawInputs inputs{tip_at_x(0.3, 0.1), tip_at_x(0.3, 0.1), tip_at_x(0.3, 0.1), tip_at_x(0.3, 0.1)};
   for (const Law law : {Law::kClaim, Law::kAbstract, Law::kAligned}) EXPECT_EQ(norm(law_force(law, {}, inputs)), 0.0);
 }
 
 TEST(FeedbackLaw, OnlyTheLawsWithoutAlignmentDampSpeeds) {
-  const LawInputs inputs{tip(0.0, 0.0), tip(0.0, 0.2), tip(0.0, 0.1), tip(0.0, 0.3)};
+  const LawInputs inputs{tip_at_x(0.0, 0.0), tip_at_x(0.0, 0.2), tip_at_x(0.0, 0.1), tip_at_x(0.0, 0.3)};
   EXPECT_NEAR(law_force(Law::kClaim, {}, inputs)[0], -1.0, 1e-12);
   EXPECT_NEAR(law_force(Law::kAbstract, {}, inputs)[0], -0.5, 1e-12);
   EXPECT_EQ(law_force(Law::kAligned, {}, inputs)[0], 0.0);
@@ -48,7 +48,7 @@ TEST(FeedbackLaw, OnlyTheLawsWithoutAlignmentDampSpeeds) {
 TEST(FeedbackLaw, IsDividedByTheOperatingCoefficient) {
   LawGains gains;
   gains.scale = 4.0;
-  EXPECT_NEAR(law_force(Law::kClaim, gains, {tip(0.0), tip(0.04), {}, {}})[0], -2.0, 1e-12);
+  EXPECT_NEAR(law_force(Law::kClaim, gains, {tip_at_x(0.0), tip_at_x(0.04), {}, {}})[0], -2.0, 1e-12);
 }
 
 TEST(FeedbackLaw, WhatIsNotSureIsNotFeltAndTheRestWithoutAStep) {

@@ -13,18 +13,17 @@
 
 #include "tests/host/bus/allocation_count.hpp"
 #include "tests/host/haptic/bilateral_rig.hpp"
+#include "tests/host/haptic/laws.hpp"
 #include "tests/rounds.hpp"
 
 namespace liana::haptic {
 namespace {
 
-constexpr std::array kLaws{Law::kClaim, Law::kAbstract, Law::kAligned};
-
 device::Sample held_at(double y_m, bool button = true, bool valid = true) {
   return {.valid = valid, .deadman = button, .pose = {{0.0, y_m, 0.0}}};
 }
 
-Motion tip(double y_m) { return {{0.0, y_m, 0.0}, {}}; }
+Motion tip_at_y(double y_m) { return {{0.0, y_m, 0.0}, {}}; }
 
 // The force a second after a state has been heard, with a hand that stands and a state every 20 ms.
 double settled_N(HandLoop& loop, const StatePacket& state, double commanded_m) {
@@ -48,11 +47,11 @@ TEST(HandLoop, FeelsTheArmByItsLaw) {
     HandLoopTable table;
     table.law = row.law;
     HandLoop loop(table);
-    loop.predict(0, tip(0.000));
-    loop.predict(20000, tip(0.010));
-    loop.predict(40000, tip(0.015));
+    loop.predict(0, tip_at_y(0.000));
+    loop.predict(20000, tip_at_y(0.010));
+    loop.predict(40000, tip_at_y(0.015));
     // The arm is at 0 and had the command of 10 ms for 5 ms more: predicted then, half-way between 5 and 7.5 mm.
-    EXPECT_NEAR(settled_N(loop, {1, 5000, 5000, tip(0.0)}, 0.020), row.expected_N, 1e-9) << name_of(row.law);
+    EXPECT_NEAR(settled_N(loop, {1, 5000, 5000, tip_at_y(0.0)}, 0.020), row.expected_N, 1e-9) << name_of(row.law);
   }
 }
 
@@ -62,22 +61,22 @@ TEST(HandLoop, FeelsNothingBeforeAnythingIsHeardAndWithoutTheButton) {
   HandLoopTable table;
   table.law = Law::kClaim;
   HandLoop open(table);
-  open.take(StatePacket{1, 0, 0, tip(0.0)});
+  open.take(StatePacket{1, 0, 0, tip_at_y(0.0)});
   for (int i = 0; i < 100; ++i) EXPECT_EQ(norm(open.step(held_at(0.0, false), {0.0, 0.1, 0.0}).force_N), 0.0);
 }
 
 // An arm that has had no command yet says nothing about the prediction of it.
 TEST(HandLoop, AlignedIsSilentUntilTheArmAnswersACommand) {
   HandLoop loop({});
-  loop.predict(0, tip(0.01));
-  EXPECT_EQ(settled_N(loop, {1, -1, 0, tip(0.0)}, 0.02), 0.0);
+  loop.predict(0, tip_at_y(0.01));
+  EXPECT_EQ(settled_N(loop, {1, -1, 0, tip_at_y(0.0)}, 0.02), 0.0);
 }
 
 TEST(HandLoop, StatesThatComeLateOrTwiceAreDropped) {
   HandLoop loop({});
-  EXPECT_TRUE(loop.take(StatePacket{5, 0, 0, tip(0.0)}));
-  EXPECT_FALSE(loop.take(StatePacket{4, 0, 0, tip(1.0)}));
-  EXPECT_FALSE(loop.take(StatePacket{5, 0, 0, tip(1.0)}));
+  EXPECT_TRUE(loop.take(StatePacket{5, 0, 0, tip_at_y(0.0)}));
+  EXPECT_FALSE(loop.take(StatePacket{4, 0, 0, tip_at_y(1.0)}));
+  EXPECT_FALSE(loop.take(StatePacket{5, 0, 0, tip_at_y(1.0)}));
   EXPECT_EQ(loop.dropped(), 2);
 }
 
@@ -85,7 +84,7 @@ TEST(HandLoop, WhatIsNoLongerHeardFadesAndComesBackWithoutAJump) {
   HandLoopTable table;
   table.law = Law::kClaim;
   HandLoop loop(table);
-  double last_N = settled_N(loop, {1, 0, 0, tip(0.0)}, 0.03), largest_N = 0.0;
+  double last_N = settled_N(loop, {1, 0, 0, tip_at_y(0.0)}, 0.03), largest_N = 0.0;
   EXPECT_NEAR(last_N, -6.0, 1e-9);
   const auto pass_ms = [&](int count) {
     for (int ms = 0; ms < count; ++ms) {
@@ -100,7 +99,7 @@ TEST(HandLoop, WhatIsNoLongerHeardFadesAndComesBackWithoutAJump) {
   EXPECT_NEAR(last_N, -6.0 * std::exp(-1.0), 0.03);
   pass_ms(2000);
   EXPECT_NEAR(last_N, 0.0, 0.01);
-  loop.take(StatePacket{5000, 0, 0, tip(0.0)});
+  loop.take(StatePacket{5000, 0, 0, tip_at_y(0.0)});
   pass_ms(100);
   EXPECT_NEAR(last_N, -6.0, 1e-9);
   EXPECT_LE(largest_N, 0.2 + 1e-9);
@@ -124,7 +123,7 @@ TEST(HandLoop, ForceIsClampedToWhatTheDeviceCan) {
   table.law = Law::kClaim;
   HandLoop loop(table);
   ASSERT_TRUE(loop.take(Plane{{0.0, -1.0, 0.0}, -0.05, 1500.0, 10.0}));
-  EXPECT_NEAR(settled_N(loop, {1, 0, 0, tip(0.0)}, 1.0), -12.0, 1e-9);
+  EXPECT_NEAR(settled_N(loop, {1, 0, 0, tip_at_y(0.0)}, 1.0), -12.0, 1e-9);
   for (int i = 0; i < 100; ++i) {
     const HandForce& force = loop.step(held_at(0.09), {0.0, 1.0, 0.0});
     EXPECT_LE(norm(force.force_N), 12.0 + 1e-9);
@@ -136,7 +135,7 @@ TEST(HandLoop, ASampleThatIsNotValidGivesNoForce) {
   HandLoopTable table;
   table.law = Law::kClaim;
   HandLoop loop(table);
-  settled_N(loop, {1, 0, 0, tip(0.0)}, 0.03);
+  settled_N(loop, {1, 0, 0, tip_at_y(0.0)}, 0.03);
   EXPECT_EQ(norm(loop.step(held_at(0.0, true, false), {0.0, 0.03, 0.0}).force_N), 0.0);
 }
 

@@ -9,11 +9,11 @@
 
 #include "host/haptic/hand_loop.hpp"
 #include "host/haptic/omega.hpp"
+#include "tests/host/haptic/laws.hpp"
 
 namespace liana::haptic {
 namespace {
 
-constexpr std::array kLaws{Law::kClaim, Law::kAbstract, Law::kAligned};
 constexpr double kWallDamping_N_s_m = 10.0;
 // In a millisecond, besides what the damping of a wall is to a hand that comes into it at speed, which is no switch:
 // what the law's rate limit lets through (0.2 N), a wall of 1500 N/m that gets its stiffness in 20 ms under a hand up

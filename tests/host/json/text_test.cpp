@@ -6,7 +6,7 @@
 namespace liana {
 namespace {
 
-std::string refusal_of(std::string_view text) {
+std::string parse_refusal(std::string_view text) {
   try {
     (void)Json::parse(text);
   } catch (const JsonParseError& error) {
@@ -23,7 +23,7 @@ std::string nested(int levels, const char* open, const char* close) {
 }
 
 TEST(JsonText, SyntaxErrorNamesLineColumnAndWhatWasExpected) {
-  const std::string text = refusal_of("{\n  \"a\": 1,\n  \"b\" x\n}");
+  const std::string text = parse_refusal("{\n  \"a\": 1,\n  \"b\" x\n}");
   EXPECT_TRUE(text.starts_with("parse error at line 3, column 7: ")) << text;
   EXPECT_NE(text.find("expected ':'"), std::string::npos) << text;
   try {
@@ -39,12 +39,12 @@ TEST(JsonText, WhatIsNoJsonIsRefused) {
        {"",         " ",       "nul",         "tru", "{",     "[1,]",    "{\"a\":1,}", "[1 2]",
         "1 2",      "{a:1}",   "'a'",         "01",  "+1",    ".5",      "1.",         "NaN",
         "Infinity", "\"\\x\"", "\"\\ud800\"", "\"a", "1e999", "// a\n1", "[1]]",       "\xef\xbb\xbf"}) {
-    EXPECT_NE(refusal_of(text), "") << text;
+    EXPECT_NE(parse_refusal(text), "") << text;
     EXPECT_TRUE(Json::parse_or_null(text).is_null()) << text;
   }
-  EXPECT_NE(refusal_of(std::string_view("1\0", 2)), "");
-  EXPECT_NE(refusal_of(std::string_view("1\0x", 3)), "");
-  EXPECT_NE(refusal_of(std::string_view("\"\0\"", 3)), "");
+  EXPECT_NE(parse_refusal(std::string_view("1\0", 2)), "");
+  EXPECT_NE(parse_refusal(std::string_view("1\0x", 3)), "");
+  EXPECT_NE(parse_refusal(std::string_view("\"\0\"", 3)), "");
 }
 
 TEST(JsonText, NumberThatNoDoubleHoldsIsRefusedWithItsPlaceAndItself) {
@@ -80,7 +80,7 @@ TEST(JsonText, NumberThatNoDoubleHoldsIsRefusedWithItsPlaceAndItself) {
 
 TEST(JsonText, TextThatIsNoUtf8IsRefusedInBothDirections) {
   for (const char* bytes : {"\xff", "\x80", "\xc0\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xe2\x82"}) {
-    EXPECT_NE(refusal_of("\"" + std::string(bytes) + "\""), "") << bytes;
+    EXPECT_NE(parse_refusal("\"" + std::string(bytes) + "\""), "") << bytes;
     EXPECT_THROW((void)Json(bytes).dump(), JsonError) << bytes;
     EXPECT_EQ(Json(std::string("a") + bytes).dump(-1, Json::BadUtf8::kReplace).substr(0, 5), "\"a\xef\xbf\xbd")
         << bytes;
@@ -90,12 +90,12 @@ TEST(JsonText, TextThatIsNoUtf8IsRefusedInBothDirections) {
 
 TEST(JsonText, NestingIsAcceptedUpToTheLimitAndAnErrorBeyond) {
   EXPECT_EQ(Json::parse(nested(Json::kMostLevels, "[", "]")).dump().size(), 2u * Json::kMostLevels);
-  EXPECT_NE(refusal_of(nested(Json::kMostLevels + 1, "[", "]")).find("200 levels"), std::string::npos);
-  EXPECT_NE(refusal_of("{\"a\":" + nested(Json::kMostLevels, "[", "]") + "}"), "");
+  EXPECT_NE(parse_refusal(nested(Json::kMostLevels + 1, "[", "]")).find("200 levels"), std::string::npos);
+  EXPECT_NE(parse_refusal("{\"a\":" + nested(Json::kMostLevels, "[", "]") + "}"), "");
   for (const int levels : {400'000, 3'000'000}) {
-    EXPECT_NE(refusal_of(nested(levels, "[", "")), "");
-    EXPECT_NE(refusal_of(nested(levels, "[", "]")), "");
-    EXPECT_NE(refusal_of(nested(levels, "{\"a\":", "}")), "");
+    EXPECT_NE(parse_refusal(nested(levels, "[", "")), "");
+    EXPECT_NE(parse_refusal(nested(levels, "[", "]")), "");
+    EXPECT_NE(parse_refusal(nested(levels, "{\"a\":", "}")), "");
     EXPECT_TRUE(Json::parse_or_null(nested(levels, "[", "]")).is_null());
   }
 }

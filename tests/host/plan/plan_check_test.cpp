@@ -11,18 +11,12 @@
 #include "host/clearance/arm_clearance.hpp"
 #include "host/config/convex_shape.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
+#include "tests/host/plan/requests.hpp"
 
 namespace liana::plan {
 namespace {
 
 using Index = std::size_t;
-
-config::RobotConfig robot_of(const RobotTable& table) {
-  config::RobotConfig robot;
-  robot.table = table;
-  robot.module_radius_m = 0.03;
-  return robot;
-}
 
 config::SceneConfig ball_and_box() {
   config::SceneConfig scene;

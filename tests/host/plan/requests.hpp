@@ -9,6 +9,14 @@ namespace liana::plan {
 
 inline config::RobotConfig the_robot() { return config::nominal_zhu2022(); }
 
+// No more than what is checked of an arm.
+inline config::RobotConfig robot_of(const RobotTable& table) {
+  config::RobotConfig robot;
+  robot.table = table;
+  robot.module_radius_m = 0.03;
+  return robot;
+}
+
 inline PlanRequest request_between(const zhu2022::Degrees& from_deg, const zhu2022::Degrees& to_deg,
                                    const config::SceneConfig& scene) {
   PlanRequest request;

@@ -12,13 +12,6 @@
 namespace liana::plan {
 namespace {
 
-config::RobotConfig robot() {
-  config::RobotConfig robot;
-  robot.table = zhu2022::table();
-  robot.module_radius_m = 0.03;
-  return robot;
-}
-
 // Every pitch and every yaw alike: a circle, or a helix.
 ThetaVector curled(double pitch_rad, double yaw_rad) {
   ThetaVector theta{};
@@ -49,14 +42,14 @@ TEST(SelfCheck, FindsWhatDenseSamplingFinds) {
   for (int i = 0; i < 20; ++i) {
     const ThetaVector theta =
         i < 10 ? random.theta(zhu2022::table(), 19.0) : curled(random.uniform(0.2, 0.34), random.uniform(-0.1, 0.1));
-    const double found_m = self_clearance(robot(), theta).clearance_m;
+    const double found_m = self_clearance(robot_of(zhu2022::table()), theta).clearance_m;
     EXPECT_LE(found_m, sampled_m(theta) + 1e-12);
     EXPECT_GT(found_m, sampled_m(theta) - 0.006) << "samples are 5 mm apart";
   }
 }
 
 TEST(SelfCheck, AnArmCurledIntoACircleLiesInItself) {
-  const SelfClearance self = self_clearance(robot(), curled(0.3, 0.0));  // 21 links make a turn
+  const SelfClearance self = self_clearance(robot_of(zhu2022::table()), curled(0.3, 0.0));  // 21 links make a turn
   EXPECT_LT(self.clearance_m, -0.05);
   EXPECT_GE(self.link[1] - self.link[0], 7);
 }
@@ -70,9 +63,9 @@ ThetaVector twisted(double pitch_rad, double yaw_rad) {
 
 TEST(SelfCheck, FindsACollisionBetweenWaypointsThatAreFree) {
   const ThetaVector left = twisted(0.3, 0.08), right = twisted(0.3, -0.08);
-  ASSERT_GT(self_clearance(robot(), left).clearance_m, 0.02);
-  ASSERT_GT(self_clearance(robot(), right).clearance_m, 0.02);
-  EXPECT_LT(self_clearance_along(robot(), {left, right}).clearance_m, -0.04);
+  ASSERT_GT(self_clearance(robot_of(zhu2022::table()), left).clearance_m, 0.02);
+  ASSERT_GT(self_clearance(robot_of(zhu2022::table()), right).clearance_m, 0.02);
+  EXPECT_LT(self_clearance_along(robot_of(zhu2022::table()), {left, right}).clearance_m, -0.04);
 }
 
 TEST(SelfCheck, APlanThroughTheArmItselfIsRefusedByName) {

@@ -12,13 +12,6 @@ namespace {
 
 constexpr double kMargin_m = 0.005, kOff_m = 0.001, kSphere_m = 0.01;
 
-config::RobotConfig robot() {
-  config::RobotConfig robot;
-  robot.table = zhu2022::table();
-  robot.module_radius_m = 0.03;
-  return robot;
-}
-
 // The arm bent up evenly; the tip goes along an arc.
 ThetaVector bent(double pitch_deg) {
   ThetaVector theta{};
@@ -40,7 +33,7 @@ config::SceneConfig scene_with_sphere(const ThetaVector& theta, double clearance
 }
 
 std::string refusal(const config::SceneConfig& scene, const std::vector<ThetaVector>& points) {
-  return refusal_of_way(robot(), scene, points, kMargin_m, kOff_m);
+  return refusal_of_way(robot_of(zhu2022::table()), scene, points, kMargin_m, kOff_m);
 }
 
 TEST(WayCheck, AFreeWayIsNotRefused) {

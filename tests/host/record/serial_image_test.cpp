@@ -25,7 +25,7 @@ std::string outputs_of(const serial::Outputs& outputs) {
 }
 
 // An arm on a straight line, `ticks` after it was told to go.
-serial::micro::Rig moving_rig(std::int32_t ticks) {
+serial::micro::Rig moving_serial_rig(std::int32_t ticks) {
   serial::micro::Rig rig;
   rig.enable();
   rig.tick(Request::kNone, rig.release(rig.tip_by({0.03, 0.02, -0.01})));
@@ -45,7 +45,7 @@ std::string refusal_of(const std::string& state, const serial::RobotTable& table
 
 TEST(SerialImage, AReplayFromTheMiddleGivesTheBitsOfOneFromTheStart) {
   for (const std::int32_t ticks : {1, 17, 160, 700}) {
-    serial::micro::Rig whole = moving_rig(ticks);
+    serial::micro::Rig whole = moving_serial_rig(ticks);
     serial::micro::Rig middle = whole;
     std::memset(static_cast<void*>(&middle.controller), 0x55, sizeof middle.controller);
     middle.controller = controller_from<SerialArm>(state_of(whole.controller), whole.robot, "test");
@@ -74,7 +74,7 @@ TEST(SerialImage, TwoControllersInDifferentMemoryGiveTheSameBytes) {
 }
 
 TEST(SerialImage, OneThatIsCutShortOrTooLongIsRefusedWithTheField) {
-  const serial::micro::Rig rig = moving_rig(50);
+  const serial::micro::Rig rig = moving_serial_rig(50);
   const std::string good = state_of(rig.controller);
   EXPECT_EQ(refusal_of(good, rig.robot), "");
   for (std::size_t length = 0; length < good.size(); ++length)
@@ -87,7 +87,7 @@ TEST(SerialImage, OneThatIsCutShortOrTooLongIsRefusedWithTheField) {
 }
 
 TEST(SerialImage, WhatWouldLeadTheCoreOutOfItsArraysIsRefusedAndNamed) {
-  const serial::micro::Rig rig = moving_rig(50);
+  const serial::micro::Rig rig = moving_serial_rig(50);
   const auto expect_refused = [&](const std::string& field, auto value, const std::string& allowed) {
     const std::string said = refusal_of(with_field(rig.controller, field, value), rig.robot);
     EXPECT_NE(said.find("field controller." + field + ": "), std::string::npos) << field << ": " << said;
@@ -134,13 +134,13 @@ TEST(SerialImage, ATableThatWouldLeadTheCoreOutOfItsArraysIsRefused) {
 }
 
 TEST(SerialImage, AnImageOfACableArmIsRefused) {
-  const serial::micro::Rig rig = moving_rig(1);
+  const serial::micro::Rig rig = moving_serial_rig(1);
   EXPECT_NE(refusal_of(state_of(cable::Controller(cable::zhu2022::table())), rig.robot), "");
 }
 
 // Thousands of images nobody wrote: the core lives through every one that is taken.
 TEST(SerialImage, AnImageWithFlippedBytesIsRefusedOrHarmless) {
-  const serial::micro::Rig rig = moving_rig(90);
+  const serial::micro::Rig rig = moving_serial_rig(90);
   const std::string good = state_of(rig.controller);
   std::mt19937 draw(7);
   int taken = 0;

@@ -18,24 +18,24 @@ namespace {
 using serial::SerialArm;
 using Change = std::function<void(TickRecord<SerialArm>&)>;
 
-constexpr std::uint64_t kFirstTick = 40, kTicks = 400, kMoves = 200, kSilent = 330;
+constexpr std::uint64_t kFirst = 40, kTicks = 400, kMoves = 200, kSilent = 330;
 
 // A run as lianad would record it: switched on, told to move, and at last a drive that falls silent. The image stands
 // before the tick `image_at`; `change` may falsify what is written.
-std::string record_run(const std::string& name, const Change& change, std::uint64_t image_at = kFirstTick) {
+std::string record_serial_run(const std::string& name, const Change& change, std::uint64_t image_at = kFirst) {
   const std::string folder = testing::TempDir() + "liana_serial_" + std::to_string(::getpid()) + name;
   std::filesystem::create_directories(folder);
   Recording recording(folder, {"hash", R"({"kind":"serial"})", "{}", "{}", "fast", 0.004});
   serial::micro::Rig rig;
-  for (std::uint64_t tick = kFirstTick; tick < kFirstTick + kTicks; ++tick) {
+  for (std::uint64_t tick = kFirst; tick < kFirst + kTicks; ++tick) {
     if (tick == image_at) {
-      recording.take(tick == kFirstTick ? image_packet<SerialArm>(tick, rig.robot)
-                                        : image_packet<SerialArm>(tick, rig.controller));
+      recording.take(tick == kFirst ? image_packet<SerialArm>(tick, rig.robot)
+                                    : image_packet<SerialArm>(tick, rig.controller));
     }
     TickRecord<SerialArm> record;
     rig.now = tick;
     record.inputs.tick = tick;
-    if (tick == kFirstTick + 60) record.inputs.request = Request::kEnable;
+    if (tick == kFirst + 60) record.inputs.request = Request::kEnable;
     if (tick == kMoves) record.inputs.telecommand = rig.release(rig.tip_by({0.02, 0.0, 0.01}));
     if (tick >= kSilent) rig.drive[3].feedback_age_ticks = 9;
     record.inputs.drive = rig.drive;
@@ -51,7 +51,7 @@ std::string record_run(const std::string& name, const Change& change, std::uint6
 
 TEST(SerialReplay, ATrueRecordingHasNoDifferingTick) {
   double fastest_m_s = 0.0;
-  const ReplayResult result = replay(record_run("true", [&](TickRecord<SerialArm>& record) {
+  const ReplayResult result = replay(record_serial_run("true", [&](TickRecord<SerialArm>& record) {
     fastest_m_s = std::max(fastest_m_s, record.outputs.tip_speed_m_s);
   }));
   EXPECT_EQ(result.ticks, kTicks);
@@ -61,7 +61,7 @@ TEST(SerialReplay, ATrueRecordingHasNoDifferingTick) {
 }
 
 TEST(SerialReplay, OneChangedBitIsFoundAndNamed) {
-  const ReplayResult result = replay(record_run("bit", [](TickRecord<SerialArm>& record) {
+  const ReplayResult result = replay(record_serial_run("bit", [](TickRecord<SerialArm>& record) {
     if (record.outputs.tick == 77) record.outputs.drive[5].target_counts ^= 1;
     if (record.outputs.tick == 78) record.outputs.joint_command_rad[6] += 1e-16;
   }));
@@ -71,7 +71,7 @@ TEST(SerialReplay, OneChangedBitIsFoundAndNamed) {
 }
 
 TEST(SerialReplay, AFieldOfTheJointsIsNamedToo) {
-  const ReplayResult result = replay(record_run("joint", [](TickRecord<SerialArm>& record) {
+  const ReplayResult result = replay(record_serial_run("joint", [](TickRecord<SerialArm>& record) {
     if (record.outputs.tick == 250) record.outputs.torque_measured_Nm[6] += 1.0;
   }));
   EXPECT_EQ(result.differing_ticks, 1u);
@@ -79,7 +79,7 @@ TEST(SerialReplay, AFieldOfTheJointsIsNamedToo) {
 }
 
 TEST(SerialReplay, AChangedInputShowsInTheOutputs) {
-  const ReplayResult result = replay(record_run("input", [](TickRecord<SerialArm>& record) {
+  const ReplayResult result = replay(record_serial_run("input", [](TickRecord<SerialArm>& record) {
     if (record.inputs.tick == 60) record.inputs.drive[2].position_counts += 1000;
   }));
   EXPECT_GT(result.differing_ticks, 0u);
@@ -87,10 +87,10 @@ TEST(SerialReplay, AChangedInputShowsInTheOutputs) {
 }
 
 TEST(SerialReplay, ARecordingThatStartsInMidRunGoesOnFromItsImage) {
-  const ReplayResult result = replay(record_run(
+  const ReplayResult result = replay(record_serial_run(
       "image", [](TickRecord<SerialArm>&) {}, 250));
-  EXPECT_EQ(result.ticks, kFirstTick + kTicks - 250);
-  EXPECT_EQ(result.missing_ticks, 250 - kFirstTick);
+  EXPECT_EQ(result.ticks, kFirst + kTicks - 250);
+  EXPECT_EQ(result.missing_ticks, 250 - kFirst);
   EXPECT_EQ(result.differing_ticks, 0u);
 }
 

@@ -9,7 +9,7 @@ namespace liana::servo {
 namespace {
 
 constexpr double kStep_s = 0.02;
-const Pose kTarget{{2.0, -1.0, 0.5}, quaternion_of({0.3, 0.2, -0.5})};
+const Pose kApproached{{2.0, -1.0, 0.5}, quaternion_of({0.3, 0.2, -0.5})};
 
 TEST(Approach, TheSpeedThatCanBeBrakedFromMeetsTheLawWithoutAStep) {
   const double k = 0.45, accel = 0.005, meet = accel / (k * k);
@@ -19,10 +19,10 @@ TEST(Approach, TheSpeedThatCanBeBrakedFromMeetsTheLawWithoutAStep) {
 }
 
 TEST(Approach, ErrorsAreToldInTheTargetsAxes) {
-  Pose tip = kTarget;
-  tip.position_m = add(kTarget.position_m, rotate(kTarget.quaternion, {-0.1, 0.02, 0.0}));
-  tip.quaternion = multiply(kTarget.quaternion, quaternion_of({0.0, 0.0, -0.01}));
-  const PoseError error = error_between(kTarget, kTarget, tip);
+  Pose tip = kApproached;
+  tip.position_m = add(kApproached.position_m, rotate(kApproached.quaternion, {-0.1, 0.02, 0.0}));
+  tip.quaternion = multiply(kApproached.quaternion, quaternion_of({0.0, 0.0, -0.01}));
+  const PoseError error = error_between(kApproached, kApproached, tip);
   EXPECT_NEAR(error.m[0], 0.1, 1e-12);
   EXPECT_NEAR(error.m[1], -0.02, 1e-12);
   EXPECT_NEAR(error.rad[2], 0.01, 1e-12);
@@ -37,14 +37,14 @@ struct Walk {
 Walk walk(const Vec3& off_m, const Vec3& off_rad) {
   const ApproachLimits limits;
   Approach approach(limits);
-  Pose tip{add(kTarget.position_m, rotate(kTarget.quaternion, off_m)),
-           multiply(kTarget.quaternion, quaternion_of(off_rad))};
+  Pose tip{add(kApproached.position_m, rotate(kApproached.quaternion, off_m)),
+           multiply(kApproached.quaternion, quaternion_of(off_rad))};
   approach.begin(tip);
   Walk out;
   Vec3 velocity{};
-  for (out.left = error_between(kTarget, kTarget, tip); norm(out.left.m) + norm(out.left.rad) > 1e-4;) {
-    tip = approach.next(kTarget, kTarget, tip, tip, kStep_s);
-    const PoseError left = error_between(kTarget, kTarget, tip);
+  for (out.left = error_between(kApproached, kApproached, tip); norm(out.left.m) + norm(out.left.rad) > 1e-4;) {
+    tip = approach.next(kApproached, kApproached, tip, tip, kStep_s);
+    const PoseError left = error_between(kApproached, kApproached, tip);
     const Vec3 now = scale(subtract(out.left.m, left.m), 1.0 / kStep_s);
     out.axial_m_s = std::max(out.axial_m_s, std::fabs(now[0]));
     out.lateral_m_s = std::max(out.lateral_m_s, std::hypot(now[1], now[2]));
@@ -75,13 +75,13 @@ TEST(Approach, TheWayInIsTheAxisThatIsNamed) {
     ApproachLimits limits;
     limits.axis = axis;
     Approach approach(limits);
-    approach.begin(kTarget);
-    Pose goal = kTarget, tip = kTarget;
-    goal.position_m = add(kTarget.position_m, rotate(kTarget.quaternion, {1.0, 1.0, 1.0}));
-    for (int i = 0; i < 1000; ++i) tip = approach.next(kTarget, goal, kTarget, tip, kStep_s);
-    const Pose next = approach.next(kTarget, goal, kTarget, tip, kStep_s);
+    approach.begin(kApproached);
+    Pose goal = kApproached, tip = kApproached;
+    goal.position_m = add(kApproached.position_m, rotate(kApproached.quaternion, {1.0, 1.0, 1.0}));
+    for (int i = 0; i < 1000; ++i) tip = approach.next(kApproached, goal, kApproached, tip, kStep_s);
+    const Pose next = approach.next(kApproached, goal, kApproached, tip, kStep_s);
     const Vec3 now =
-        rotate(conjugate(kTarget.quaternion), scale(subtract(next.position_m, tip.position_m), 1 / kStep_s));
+        rotate(conjugate(kApproached.quaternion), scale(subtract(next.position_m, tip.position_m), 1 / kStep_s));
     for (std::size_t i = 0; i < 3; ++i)
       EXPECT_NEAR(now[i], i == axis ? limits.speed_m_s : limits.lateral_speed_m_s / std::sqrt(2.0), 1e-9);
   }
@@ -90,36 +90,36 @@ TEST(Approach, TheWayInIsTheAxisThatIsNamed) {
 TEST(Approach, ALagOfWhatFollowsIsNoOvershoot) {
   const ApproachLimits limits;
   Approach approach(limits);
-  Pose tip{add(kTarget.position_m, rotate(kTarget.quaternion, {-0.5, 0.0, 0.0})), kTarget.quaternion};
+  Pose tip{add(kApproached.position_m, rotate(kApproached.quaternion, {-0.5, 0.0, 0.0})), kApproached.quaternion};
   approach.begin(tip);
   double past_m = 0.0;
   for (int i = 0; i < 3000; ++i) {
-    const Pose goal = approach.next(kTarget, kTarget, tip, tip, kStep_s);
+    const Pose goal = approach.next(kApproached, kApproached, tip, tip, kStep_s);
     tip.position_m = add(tip.position_m, scale(subtract(goal.position_m, tip.position_m), kStep_s / 1.0));
-    past_m = std::max(past_m, -error_between(kTarget, kTarget, tip).m[0]);
+    past_m = std::max(past_m, -error_between(kApproached, kApproached, tip).m[0]);
   }
   EXPECT_LT(past_m, 2e-4);
-  EXPECT_LT(norm(error_between(kTarget, kTarget, tip).m), 1e-5);
+  EXPECT_LT(norm(error_between(kApproached, kApproached, tip).m), 1e-5);
 }
 
 TEST(Approach, AnErrorThatTheCommandDoesNotKnowOfIsTakenOut) {
   Approach approach((ApproachLimits()));
-  Pose command = kTarget;
+  Pose command = kApproached;
   const Vec3 sag{0.0, 0.004, -0.003};  // measured beside the command
   approach.begin(command);
   Pose measured;
   for (int i = 0; i < 3000; ++i) {
     measured = {add(command.position_m, sag), command.quaternion};
-    command = approach.next(kTarget, kTarget, measured, command, kStep_s);
+    command = approach.next(kApproached, kApproached, measured, command, kStep_s);
   }
-  EXPECT_LT(norm(error_between(kTarget, kTarget, measured).m), 1e-5);
+  EXPECT_LT(norm(error_between(kApproached, kApproached, measured).m), 1e-5);
 }
 
 TEST(Approach, BrakesToRestWithinItsAcceleration) {
   Approach approach((ApproachLimits()));
-  Pose tip{add(kTarget.position_m, rotate(kTarget.quaternion, {-0.5, 0.0, 0.0})), kTarget.quaternion};
+  Pose tip{add(kApproached.position_m, rotate(kApproached.quaternion, {-0.5, 0.0, 0.0})), kApproached.quaternion};
   approach.begin(tip);
-  for (int i = 0; i < 500; ++i) tip = approach.next(kTarget, kTarget, tip, tip, kStep_s);
+  for (int i = 0; i < 500; ++i) tip = approach.next(kApproached, kApproached, tip, tip, kStep_s);
   const Vec3 from = tip.position_m;
   Pose before = tip;
   for (int i = 0; i < 300; ++i) {

@@ -19,10 +19,10 @@ namespace {
 
 constexpr double kTick_s = 0.004;
 constexpr int kIntervalTicks = 5;
-constexpr double kInterval_s = kTick_s * kIntervalTicks;
+constexpr double kCommandInterval_s = kTick_s * kIntervalTicks;
 constexpr double kArmLag_s = 0.3;
 
-const Pose kTarget{{4.0, 0.5, 1.0}, quaternion_of({0.4, -0.3, 0.9})};
+const Pose kFlownTo{{4.0, 0.5, 1.0}, quaternion_of({0.4, -0.3, 0.9})};
 const Vec3 kStartOff_m{-0.53, 0.015, 0.020};  // of the goal, in the target's axes: the study's
 
 struct Camera {
@@ -63,19 +63,19 @@ class Flown {
   Flown(const Camera& camera, std::uint64_t seed) : camera_(camera), noise_(seed) {
     off_ = {noise_.vector(0.005), quaternion_of(noise_.vector(0.5 * kDegree))};
     const Pose start_in_target{add({-0.108, 0.0, 0.0}, kStartOff_m), quaternion_of({0.0087, -0.0070, 0.0105})};
-    const Pose true_tip = compose(kTarget, start_in_target);
+    const Pose true_tip = compose(kFlownTo, start_in_target);
     filter_.pose = arm_ = measured_of(true_tip);
     request_.target = "adapter";
     request_.place = {{-0.108, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
   }
 
   Flight fly() {
-    TargetServo servo(kInterval_s);
+    TargetServo servo(kCommandInterval_s);
     servo.begin(request_, filter_.pose);
     Vec3 nearest{1.0, 1.0, 1.0};
     Flight out;
     for (int interval = 0; servo.is_under_way() && interval < 10000; ++interval) {
-      const double now_s = kInterval_s * interval;
+      const double now_s = kCommandInterval_s * interval;
       servo.note_tip(now_s, arm_);
       photograph(now_s);
       deliver(now_s, servo);
@@ -101,12 +101,12 @@ class Flown {
   // The arm's own reading of where the tip is: beside the truth by what its geometry is off.
   Pose measured_of(const Pose& true_tip) const { return compose(off_, true_tip); }
   Pose true_of(const Pose& measured) const { return compose(inverse(off_), measured); }
-  PoseError true_error() const { return error_between(kTarget, compose(kTarget, request_.place), true_of(arm_)); }
+  PoseError true_error() const { return error_between(kFlownTo, compose(kFlownTo, request_.place), true_of(arm_)); }
 
   void photograph(double now_s) {
     if (now_s + 1e-9 < static_cast<double>(images_) / camera_.rate_hz) return;
     ++images_;
-    const Pose sound = compose(inverse(true_of(arm_)), kTarget);
+    const Pose sound = compose(inverse(true_of(arm_)), kFlownTo);
     const Pose noisy{add(sound.position_m, noise_.vector(camera_.noise_m)),
                      multiply(quaternion_of(noise_.vector(camera_.noise_rad)), sound.quaternion)};
     if (noise_.uniform() >= camera_.dropped) pending_.push_back({now_s, noisy});

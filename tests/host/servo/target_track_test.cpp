@@ -7,11 +7,11 @@
 namespace liana::servo {
 namespace {
 
-const Pose kTarget{{3.0, 1.0, -0.5}, quaternion_of({0.2, -0.1, 0.4})};
+const Pose kTracked{{3.0, 1.0, -0.5}, quaternion_of({0.2, -0.1, 0.4})};
 
 Pose tip_at(double x) { return {{x, 0.1, 0.2}, quaternion_of({0.0, 0.05 * x, 0.0})}; }
 // What a camera without errors shows.
-Pose seen_from(const Pose& tip) { return compose(inverse(tip), kTarget); }
+Pose seen_from(const Pose& tip) { return compose(inverse(tip), kTracked); }
 
 // Ten images a second of a tip that moves.
 TargetTrack settled(double until_s) {
@@ -23,7 +23,7 @@ TargetTrack settled(double until_s) {
 TEST(TargetTrack, ATargetAtRestStandsStillWhileTheTipMoves) {
   const TargetTrack track = settled(5.0);
   EXPECT_TRUE(track.is_settled());
-  EXPECT_LT(norm(subtract(track.target_in_base().position_m, kTarget.position_m)), 1e-12);
+  EXPECT_LT(norm(subtract(track.target_in_base().position_m, kTracked.position_m)), 1e-12);
   EXPECT_EQ(track.used(), 50);
 }
 
@@ -34,13 +34,13 @@ TEST(TargetTrack, SettlesOnlyWhenFiveImagesAgree) {
 
 TEST(TargetTrack, FollowsAStepWithItsTimeConstant) {
   TargetTrack track = settled(50.0);
-  Pose beside = kTarget;
+  Pose beside = kTracked;
   beside.position_m[1] += 0.01;
   for (int i = 0; i < 40; ++i) {
     const double capture_s = 50.0 + 0.1 * i;
     track.see(capture_s, compose(inverse(tip_at(capture_s)), beside), tip_at(capture_s));
   }
-  const double done = (track.target_in_base().position_m[1] - kTarget.position_m[1]) / 0.01;
+  const double done = (track.target_in_base().position_m[1] - kTracked.position_m[1]) / 0.01;
   EXPECT_NEAR(done, 0.632, 0.02);
 }
 
@@ -69,7 +69,7 @@ TEST(TargetTrack, ImagesThatCannotBeBelievedAreCountedAndLeftOut) {
     EXPECT_EQ(track.see(image.capture_s, image.target_in_tip, image.tip), image.use) << image.name;
     EXPECT_EQ(track.rejected(), 1) << image.name;
     EXPECT_EQ(track.used(), 50) << image.name;
-    EXPECT_LT(norm(subtract(track.target_in_base().position_m, kTarget.position_m)), 1e-12) << image.name;
+    EXPECT_LT(norm(subtract(track.target_in_base().position_m, kTracked.position_m)), 1e-12) << image.name;
   }
 }
 
@@ -87,7 +87,7 @@ TEST(TargetTrack, AFirstImageThatIsWrongDoesNotKeepOutThoseBehindIt) {
   for (int i = 1; i < 8; ++i) track.see(0.1 * i, seen_from(tip_at(0.01 * i)), tip_at(0.01 * i));
   EXPECT_TRUE(track.is_settled());
   EXPECT_EQ(track.rejected(), 1);
-  EXPECT_LT(norm(subtract(track.target_in_base().position_m, kTarget.position_m)), 1e-12);
+  EXPECT_LT(norm(subtract(track.target_in_base().position_m, kTracked.position_m)), 1e-12);
 }
 
 // req:B16
@@ -97,13 +97,13 @@ TEST(TargetTrack, OnABaseThatSwingsPlaceAndAttitudeAreThoseOfItsMiddle) {
   for (int i = 0; i < 600; ++i) {
     const double capture_s = 0.1 * i, slow = std::sin(kTurn_rad * capture_s / 33.0),
                  quick = std::cos(kTurn_rad * capture_s / 8.9);
-    const Pose swung{add(kTarget.position_m, {0.006 * slow, 0.004 * quick, 0.0}),
-                     multiply(quaternion_of({0.0, 0.001 * slow, 0.005 * quick}), kTarget.quaternion)};
+    const Pose swung{add(kTracked.position_m, {0.006 * slow, 0.004 * quick, 0.0}),
+                     multiply(quaternion_of({0.0, 0.001 * slow, 0.005 * quick}), kTracked.quaternion)};
     ASSERT_EQ(track.see(capture_s, swung, Pose{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}), ImageUse::kUsed);
     if (capture_s < 30.0) continue;
     const Pose& middle = track.target_in_base();
-    EXPECT_LT(norm(subtract(middle.position_m, kTarget.position_m)), 0.001) << capture_s;
-    EXPECT_LT(norm(rotation_vector(multiply(middle.quaternion, conjugate(kTarget.quaternion)))), 0.0007) << capture_s;
+    EXPECT_LT(norm(subtract(middle.position_m, kTracked.position_m)), 0.001) << capture_s;
+    EXPECT_LT(norm(rotation_vector(multiply(middle.quaternion, conjugate(kTracked.quaternion)))), 0.0007) << capture_s;
   }
 }
 

@@ -8,7 +8,7 @@
 namespace liana::system {
 namespace {
 
-std::string refusal_of(const OperatorChoice& choice) {
+std::string choice_refusal(const OperatorChoice& choice) {
   try {
     operator_words(choice);
   } catch (const BadInput& error) {
@@ -26,17 +26,17 @@ TEST(OperatorChoice, SaysNothingOfWhatWasNotAskedFor) {
 TEST(OperatorChoice, WhatOnlyAHumanHasIsRefusedOfRecordedHandsByName) {
   for (const OperatorChoice& choice :
        {OperatorChoice{"", "0.5,0.5", "", "", ""}, {"recorded", "", "claim", "", ""}, {"", "", "", "off", ""}}) {
-    EXPECT_NE(refusal_of(choice).find("--operator human"), std::string::npos) << refusal_of(choice);
+    EXPECT_NE(choice_refusal(choice).find("--operator human"), std::string::npos) << choice_refusal(choice);
   }
 }
 
 TEST(OperatorChoice, ADelayThatIsNoneIsRefusedWithWhatIsAllowed) {
   for (const char* delay : {"x", "0.5", "0.5,", "0.5;0.5", "0.5,0.5,0.5", "-1,0", "0,2.01", "nan,0", "0.5,0.5s"}) {
-    const std::string refused = refusal_of({"human", delay, "", "", ""});
+    const std::string refused = choice_refusal({"human", delay, "", "", ""});
     EXPECT_NE(refused.find(std::string("--delay: '") + delay + "'"), std::string::npos) << delay;
     EXPECT_NE(refused.find("0 to 2"), std::string::npos) << delay;
   }
-  EXPECT_EQ(refusal_of({"human", "2,0", "", "", ""}), "");
+  EXPECT_EQ(choice_refusal({"human", "2,0", "", "", ""}), "");
 }
 
 }  // namespace

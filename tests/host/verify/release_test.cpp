@@ -7,7 +7,6 @@
 
 namespace liana::verify {
 
-using namespace cable;
 namespace {
 
 static_assert(!std::is_constructible_v<cable::Telecommand, std::uint64_t, std::uint64_t, std::uint64_t, std::uint32_t,

@@ -26,15 +26,15 @@ serial::RobotTable uneven_table() {
   table.torque.most_force_N = 60.0;
   return table;
 }
-const serial::RobotTable kTable = uneven_table();
+const serial::RobotTable kUnevenTable = uneven_table();
 
-struct Judged {
+struct JudgedTwice {
   Refusal execution, simulation;
   std::string text;
 };
 
 // A prediction of five quiet ticks and a stop of three, with one tick changed.
-Judged judge(const Change& change, std::size_t at) {
+JudgedTwice judge_twice(const Change& change, std::size_t at) {
   ReleaseStep<SerialArm> release;
   serial::Setpoint setpoint;
   setpoint.kind = CommandKind::kTip;
@@ -45,8 +45,8 @@ Judged judge(const Change& change, std::size_t at) {
   prediction.ticks.resize(8);
   for (serial::Outputs& outputs : prediction.ticks) outputs.active_sequence = candidate.sequence();
   change(prediction.ticks[at]);
-  const ExecutionVerdict execution = judge_execution<SerialArm>(kTable, candidate, prediction);
-  const SimulationVerdict simulation = judge_motion<SerialArm>(kTable, candidate, prediction);
+  const ExecutionVerdict execution = judge_execution<SerialArm>(kUnevenTable, candidate, prediction);
+  const SimulationVerdict simulation = judge_motion<SerialArm>(kUnevenTable, candidate, prediction);
   return {execution.code, simulation.code, execution.text + simulation.text};
 }
 
@@ -60,7 +60,7 @@ struct Row {
   const char* words;  // that the refusal has to hold
 };
 
-const double kRate = kTable.joint[4].rate_rad_s, kWay = kTargetSpeedMargin * kRate * kTable.tick_s;
+const double kRate = kUnevenTable.joint[4].rate_rad_s, kWay = kTargetSpeedMargin * kRate * kUnevenTable.tick_s;
 
 // Changes a tick to one of a push.
 Change pushing(const std::function<void(serial::PushReport&)>& change) {
@@ -88,10 +88,11 @@ const Row kRows[] = {
      [](serial::Outputs& o) { o.joint_rate_rad_s[4] = -kRate * kOver; },
      [](serial::Outputs& o) { o.joint_rate_rad_s[4] = -kRate; }, Refusal::kJointRate, "rate of joint 5 = "},
     {"203: near a station the tip is slow; 5 % are granted while the IK catches up",
-     [](serial::Outputs& o) { o.tip_speed_m_s = 1.06 * kTable.tip.speed_m_s; },
-     [](serial::Outputs& o) { o.tip_speed_m_s = 1.04 * kTable.tip.speed_m_s; }, Refusal::kTipSpeed, "tip speed"},
-    {"203: and turns slowly", [](serial::Outputs& o) { o.tip_rate_rad_s = 1.06 * kTable.tip.rate_rad_s; },
-     [](serial::Outputs& o) { o.tip_rate_rad_s = 1.04 * kTable.tip.rate_rad_s; }, Refusal::kTipSpeed, "tip turn rate"},
+     [](serial::Outputs& o) { o.tip_speed_m_s = 1.06 * kUnevenTable.tip.speed_m_s; },
+     [](serial::Outputs& o) { o.tip_speed_m_s = 1.04 * kUnevenTable.tip.speed_m_s; }, Refusal::kTipSpeed, "tip speed"},
+    {"203: and turns slowly", [](serial::Outputs& o) { o.tip_rate_rad_s = 1.06 * kUnevenTable.tip.rate_rad_s; },
+     [](serial::Outputs& o) { o.tip_rate_rad_s = 1.04 * kUnevenTable.tip.rate_rad_s; }, Refusal::kTipSpeed,
+     "tip turn rate"},
     {"205: a number that is none compares with nothing, and must not pass for it",
      [](serial::Outputs& o) { o.tip_speed_m_s = kNone; }, [](serial::Outputs&) {}, Refusal::kNotFinite, "not a finite"},
     {"205: of a joint as well", [](serial::Outputs& o) { o.joint_rate_rad_s[6] = kNone; }, [](serial::Outputs&) {},
@@ -106,7 +107,7 @@ const Row kRows[] = {
 // req:C8
 TEST(VerifyASerialArm, EveryLimitRefusesWhatIsJustOutsideAndPassesWhatIsJustInside) {
   for (const Row& row : kRows) {
-    const Judged out = judge(row.refused, 2), in = judge(row.passed, 2);
+    const JudgedTwice out = judge_twice(row.refused, 2), in = judge_twice(row.passed, 2);
     EXPECT_EQ(row.code, out.execution != Refusal::kNone ? out.execution : out.simulation) << row.why;
     EXPECT_NE(out.text.find(row.words), std::string::npos) << row.why << ": " << out.text;
     EXPECT_EQ(in.execution, Refusal::kNone) << row.why << ": " << in.text;
@@ -116,7 +117,7 @@ TEST(VerifyASerialArm, EveryLimitRefusesWhatIsJustOutsideAndPassesWhatIsJustInsi
 
 TEST(VerifyASerialArm, TheStopAfterTheCommandIsJudgedByTheSameLimits) {
   for (const Row& row : kRows) {
-    const Judged out = judge(row.refused, 7);
+    const JudgedTwice out = judge_twice(row.refused, 7);
     EXPECT_EQ(row.code, out.execution != Refusal::kNone ? out.execution : out.simulation) << row.why;
   }
 }
@@ -124,7 +125,7 @@ TEST(VerifyASerialArm, TheStopAfterTheCommandIsJudgedByTheSameLimits) {
 // 201: where a range is not symmetric, both its ends count, not the larger one.
 TEST(VerifyASerialArm, AJointStaysBetweenTheTwoEndsOfItsRange) {
   const auto at = [](double joint_rad) {
-    return judge([&](serial::Outputs& o) { o.joint_command_rad[2] = joint_rad; }, 2).simulation;
+    return judge_twice([&](serial::Outputs& o) { o.joint_command_rad[2] = joint_rad; }, 2).simulation;
   };
   EXPECT_EQ(at(1.0), Refusal::kNone);
   EXPECT_EQ(at(1.0 + 1e-5), Refusal::kJointAngle);
@@ -134,7 +135,7 @@ TEST(VerifyASerialArm, AJointStaysBetweenTheTwoEndsOfItsRange) {
 }
 
 TEST(VerifyASerialArm, AJointThatTheArmHasNotIsNotJudged) {
-  EXPECT_EQ(judge([](serial::Outputs& o) { o.joint_command_rad[7] = 100.0; }, 2).simulation, Refusal::kNone);
+  EXPECT_EQ(judge_twice([](serial::Outputs& o) { o.joint_command_rad[7] = 100.0; }, 2).simulation, Refusal::kNone);
 }
 
 }  // namespace

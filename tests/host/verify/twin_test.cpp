@@ -11,7 +11,6 @@
 
 namespace liana::verify {
 
-using namespace cable;
 namespace {
 
 class TwinOfAnArm : public testing::Test {

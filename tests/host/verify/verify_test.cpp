@@ -10,10 +10,9 @@
 
 namespace liana::verify {
 
-using namespace cable;
 namespace {
 
-const cable::RobotTable kTable = zhu2022::table();
+const cable::RobotTable kTable = cable::zhu2022::table();
 
 struct Judged {
   Refusal execution;
