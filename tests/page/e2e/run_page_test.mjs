@@ -23,22 +23,24 @@ after(async () => {
   rmSync(folder, { recursive: true, force: true });
 });
 
-async function run(name, ...args) {
+async function run(name, mission, ...args) {
   const record = join(folder, name);
-  await start(liana, ['run', 'slit_crossing', '--seed', '5', '--record', record, ...args]).ended;
+  await start(liana, ['run', mission, '--seed', '5', '--record', record, ...args]).ended;
   return join(record, 'page.html');
 }
 
 const text = (page, selector) => page.textContent(selector);
 
 test('a crossing leaves one file that shows it from the disk, without any request', async () => {
-  const file = await run('crossing');
+  const file = await run('crossing', 'slit_crossing');
   assert.ok(statSync(file).size <= kMostBytes, `${statSync(file).size} bytes`);
   const page = await open_page(chromium.browser, pathToFileURL(file).href);
   await page.waitForSelector('.page.run');
   await page.waitForFunction(() => /step 4 of 6/.test(document.querySelector('.sentence').textContent));
   assert.match(await text(page, '.finding'), /^Success: \d+\.\d s, at least [\d.]+ mm clear/);
   assert.deepEqual(page.requests.filter((url) => !url.startsWith('file:') && !url.startsWith('data:')), []);
+  assert.equal(await page.isVisible('.push'), false); // nothing of pushes where none can be
+  assert.doesNotMatch(await text(page, '.plots .filter'), /wrist|servo/);
   await picture(page, 'run_plots');
 
   // A click on an event takes the scene there.
@@ -76,7 +78,7 @@ test('a crossing leaves one file that shows it from the disk, without any reques
 test('the page of a run that failed says what failed, where, why and what to do, and stands at that moment', async () => {
   const faults = join(folder, 'faults.json');
   writeFileSync(faults, JSON.stringify([{ drive: 7, kind: 'cable_break', at_slot: 3500 }]));
-  const page = await open_page(chromium.browser, pathToFileURL(await run('broken', '--faults', faults)).href);
+  const page = await open_page(chromium.browser, pathToFileURL(await run('broken', 'slit_crossing', '--faults', faults)).href);
   await page.waitForSelector('.finding.bad');
   const finding = await text(page, '.finding');
   assert.match(finding, /slit_crossing failed in "around the obstacle to the panel edge"/);
@@ -85,5 +87,25 @@ test('the page of a run that failed says what failed, where, why and what to do,
   assert.match(finding, /look at the cable and its clamp/);
   assert.match(await text(page, '.clock'), /^14\.0/);
   await picture(page, 'run_failed');
+  await page.close();
+});
+
+test('the page of a push shows what the wrist feels, how the push went, and where the payload is', async () => {
+  const file = await run('push', 'payload_install', '--scene', 'payload_at_adapter');
+  const page = await open_page(chromium.browser, pathToFileURL(file).href);
+  await page.waitForSelector('.push dl');
+  await page.click('#tab-Events');
+  assert.match(await text(page, '.events ol'), /push 1: pressing.*push 1: touches.*push 1 ended: captured.*lock closed/s);
+  await page.click('.events li[data-kind="push"]:has-text("touches") button');
+  await page.click('#tab-Plots');
+  const pressing = await text(page, '.push');
+  assert.match(pressing, /on the tip.*1 pressing, set \d+\.\d N, gives.*not captured.*N m \(.*good/s);
+  for (const name of ['wrist force', 'wrist torque', 'push', 'insertion']) assert.match(await text(page, '.plots .filter'), new RegExp(name));
+  await picture(page, 'run_push');
+  await page.focus('canvas.scene');
+  await page.keyboard.press('End');
+  assert.match(await text(page, '.push'), /locked in the adapter/);
+  assert.deepEqual(await serious_findings(page), []);
+  assert.deepEqual(page.errors, []);
   await page.close();
 });

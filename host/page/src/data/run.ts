@@ -1,8 +1,10 @@
 // A recorded run: what `liana view` wrote into its page.
 import { chain_of, type ArmChain } from '../model/arm_chain';
 import type { Robot, Scene } from '../model/robot';
+import { fact_columns, kFactFields } from './fact_numbers';
 import type { Facts, LianaEvent, Sample } from './sample';
 import { inflated, telemetry_of, type Telemetry, type TelemetryHead } from './telemetry';
+import { with_told_changes } from './told_changes';
 
 export interface Judged {
   code: number; // M_e; 0: passed
@@ -68,7 +70,9 @@ function whole_facts(changes: RunHead['facts']): RunHead['facts'] {
 }
 
 export class Run {
-  readonly telemetry: Telemetry;
+  readonly telemetry: Telemetry; // with the numbers that the facts have
+  readonly columns: { name: string; index: number; unit: string }[];
+  readonly events: LianaEvent[]; // in the order of their ticks
   private readonly facts: RunHead['facts'];
   private readonly chain: ArmChain;
   private readonly sample: Sample & { numbers: Map<string, Float32Array> };
@@ -77,9 +81,11 @@ export class Run {
   constructor(readonly head: RunHead, planes: Uint8Array) {
     if (head.format !== kFormat) throw new Error(`format = ${head.format}: this page reads ${kFormat}`);
     this.telemetry = telemetry_of(head.telemetry, planes);
+    this.facts = whole_facts(head.facts);
+    this.events = with_told_changes(head.events, this.facts);
+    this.columns = [...head.telemetry.columns, ...this.add_fact_columns()];
     const numbers = new Map<string, Float32Array>();
     for (const [name, columns] of this.telemetry.columns) numbers.set(name, new Float32Array(columns.length));
-    this.facts = whole_facts(head.facts);
     this.chain = chain_of(head.robot);
     if (!numbers.has('measured_cp')) numbers.set('measured_cp', new Float32Array(7).fill(NaN)); // from the angles, below
     this.sample = { tick: 0, time_s: 0, numbers, facts: {} };
@@ -113,9 +119,21 @@ export class Run {
       for (let i = 0; i < columns.length; ++i) values[i] = columns[i]?.[row] ?? NaN;
     }
     this.place_tip(sample.numbers);
-    const facts = last_before(this.facts, sample.tick);
-    sample.facts = facts < 0 ? {} : this.facts[facts].state;
+    sample.facts = this.facts_at(row);
     return sample;
+  }
+
+  private facts_at(row: number): Facts {
+    const facts = last_before(this.facts, this.tick(row));
+    return facts < 0 ? {} : this.facts[facts].state;
+  }
+
+  // Which they are.
+  private add_fact_columns(): Run['columns'] {
+    const found = fact_columns(this.rows, (row) => this.facts_at(row));
+    for (const [name, columns] of found) this.telemetry.columns.set(name, columns);
+    const fields = kFactFields.filter(({ name }) => found.has(name));
+    return fields.flatMap(({ name, unit }) => found.get(name)!.map((_, index) => ({ name, index, unit })));
   }
 
   // Where the tip is, which the page does not hold: the angles say it. Its attitude is left out.

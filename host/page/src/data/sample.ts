@@ -33,6 +33,42 @@ export interface Facts {
   path?: { hash?: string } | null;
   mission_control?: { number: number; command: string; by: string } | null;
   operator_says?: { what: string; tick: number } | null;
+  push?: Push;
+  adapter?: { age_s: number | null; captured: boolean; latch: string; lock: string; depth_m: number[] };
+  payload?: { mass_kg: number }; // what the arm was told that it carries
+  servo?: Servo;
+  tool?: { command: string; phase: string };
+}
+
+export interface Servo {
+  phase: string;
+  target: string;
+  error_m: number[] | null; // left to go; null: not known
+  error_deg: number[] | null;
+  swing_m: number;
+  reason: string;
+}
+
+// Of a serial arm: the push under way, or how the last one went, and the sensor at the wrist.
+export interface Push {
+  number: number; // 0: none was asked for
+  phase: string;
+  end: string;
+  law: string;
+  set_N: number;
+  given: Wrench; // above the tare
+  felt: Wrench;
+  touched: boolean;
+  travel_m: number;
+  aside_m: number;
+  wrist: string;
+  wrist_age_s: number | null; // null: there is no sensor that was ever heard
+}
+
+// In the tip's frame.
+export interface Wrench {
+  force_N: number[];
+  torque_Nm: number[];
 }
 
 export interface Sample {

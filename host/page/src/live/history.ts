@@ -1,19 +1,21 @@
 // The last minute of records, for strips and to look back.
 import type { Layout } from '../data/record';
+import { is_known } from '../data/sample';
 
 const kRows = 3000; // a minute at 50 Hz
 
 export class History {
   readonly numbers = new Map<string, { at: number; count: number }>(); // where a field is in a row
+  readonly known = new Set<string>(); // fields that ever had a number
   private readonly width: number;
   private readonly cells: Float32Array;
   private readonly ticks = new Float64Array(kRows);
   private readonly times_s = new Float64Array(kRows);
   private written = 0;
 
-  constructor(layout: Layout) {
+  constructor(fields: readonly Pick<Layout['fields'][number], 'name' | 'count'>[]) {
     let at = 0;
-    for (const field of layout.fields) {
+    for (const field of fields) {
       this.numbers.set(field.name, { at, count: field.count });
       at += field.count;
     }
@@ -29,7 +31,11 @@ export class History {
     const row = this.written % kRows;
     this.ticks[row] = tick;
     this.times_s[row] = time_s;
-    for (const [name, place] of this.numbers) this.cells.set(numbers.get(name)!, row * this.width + place.at);
+    for (const [name, place] of this.numbers) {
+      const values = numbers.get(name)!;
+      this.cells.set(values, row * this.width + place.at);
+      if (is_known(values)) this.known.add(name);
+    }
     ++this.written;
   }
 

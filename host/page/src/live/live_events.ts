@@ -31,10 +31,9 @@ export class LiveEvents {
   }
 
   update(): void {
-    const { events, welcome, lost_events } = this.live;
-    const newest = events.length === 0 ? 0 : events[events.length - 1].sequence;
-    if (newest === this.drawn || !welcome) return;
-    this.drawn = newest;
+    const { events, welcome, lost_events, taken_events } = this.live;
+    if (taken_events === this.drawn || !welcome) return;
+    this.drawn = taken_events;
     const rows = events.filter(kWhich[this.which]).slice(-kShown).reverse().map((event) => this.row(event, welcome.period_s));
     if (lost_events > 0) rows.push(h('li', { class: 'warning' }, `${lost_events} events before were not kept by lianad`));
     this.list.replaceChildren(...rows);

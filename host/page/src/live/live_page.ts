@@ -16,6 +16,7 @@ import { action_of, is_field } from '../steer/keyboard';
 import { MotionPanel } from '../steer/motion_panel';
 import { ShapePanel } from '../steer/shape_panel';
 import { h, set_text } from '../ui/dom';
+import { PushCard } from '../ui/push_card';
 import { Tabs } from '../ui/tabs';
 import { theme_button, theme_now } from '../ui/theme';
 import { AlarmPanel } from './alarm_panel';
@@ -53,6 +54,7 @@ export class LivePage {
   private readonly told: Told;
   private readonly middle = h('div', { class: 'middle' }, h('p', { class: 'no-scene' }, 'waiting for the arm'));
   private panels: { update(now_s: number): void }[] = [];
+  private push_card: PushCard | null = null;
   private scene: SceneView | null = null;
   private plots: LivePlots | null = null;
   private handle: TipHandle | null = null;
@@ -138,7 +140,9 @@ export class LivePage {
     const jog = new JogPanel(this.live, this.jogger, ask);
     const shape = welcome.robot.kind === 'serial' ? null : new ShapePanel(this.live, welcome.robot, ask);
     this.panels = [motion, device, joints, ...(shape ? [shape] : [])];
-    const steer = h('div', { class: 'panel' }, motion.element, device.element, jog.element, joints.element, shape?.element);
+    this.push_card = new PushCard(welcome.scene);
+    const cards = [motion, this.push_card, device, jog, joints, ...(shape ? [shape] : [])];
+    const steer = h('div', { class: 'panel' }, ...cards.map(({ element }) => element));
     const go_to = (time_s: number) => this.look_back.go_to(time_s);
     this.plots = new LivePlots(this.live, welcome, theme, go_to);
     const events = new LiveEvents(this.live, go_to);
@@ -229,6 +233,7 @@ export class LivePage {
     const sample = this.look_back.sample();
     const { welcome } = this.live;
     if (!sample || !welcome) return set_text(this.sentence, this.live.status);
+    if (this.live.sample) this.push_card?.show(this.live.sample);
     const is_live = this.live.is_live(now_s);
     this.sentence.classList.toggle('stale', !is_live);
     set_text(this.sentence, `${is_live ? '' : 'last heard: '}${sentence_of(sample, welcome.robot, welcome.scene, null)}`);

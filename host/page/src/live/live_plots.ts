@@ -1,5 +1,6 @@
 // Strips of the last minute; one of them is drawn again at a time, a few a second.
 import type uPlot from 'uplot';
+import { kFactFields } from '../data/fact_numbers';
 import { chart_colours } from '../plots/chart_colours';
 import { groups_of, type Group } from '../plots/groups';
 import { Strip } from '../plots/strip';
@@ -19,7 +20,7 @@ export class LivePlots {
   private last_ms = 0;
 
   constructor(private readonly live: Live, welcome: Welcome, theme: Theme, go_to: (time_s: number) => void) {
-    const counts = new Map(welcome.layout.fields.map((f) => [f.name, f.count]));
+    const counts = new Map([...kFactFields, ...welcome.layout.fields].map((f) => [f.name, f.count]));
     const groups = groups_of(welcome.robot, (field, index) => index < (counts.get(field) ?? 0));
     this.strips = groups.map((group) => ({ group, strip: new Strip(group.title, group.sources, chart_colours(theme), 396, kStrip_px, go_to, group.most), data: [] }));
     this.element.append(...this.strips.map(({ strip }) => strip.element));
@@ -34,6 +35,8 @@ export class LivePlots {
     const { history } = this.live;
     if (!history || now_ms - this.last_ms < kPeriod_ms || this.element.offsetParent === null) return;
     this.last_ms = now_ms;
+    // Strips of what never had a number are not shown: which of it an arm has, only its states tell.
+    for (const { group, strip } of this.strips) strip.element.hidden = !group.sources.some((s) => history.known.has(s.field));
     const box = this.element.parentElement!.getBoundingClientRect();
     for (let tried = 0; tried < this.strips.length; ++tried) {
       const { group, strip } = this.strips[this.next];

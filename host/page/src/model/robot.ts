@@ -61,6 +61,11 @@ export interface Slit {
   frame: { position_m: Triple };
 }
 
+export interface ScenePose {
+  position_m: Triple;
+  quaternion_wxyz: [number, number, number, number];
+}
+
 export interface Scene {
   name: string;
   boxes?: Box[];
@@ -68,6 +73,8 @@ export interface Scene {
   convex?: Convex[];
   slit?: Slit;
   rod?: { position_m: Triple; radius_m: number };
+  payload?: ScenePose & { start: string; length_m: number }; // frame of its grapple, z towards its pins
+  adapter?: ScenePose; // the middle of its face, z into it
   margins?: { slow_m?: number; refuse_m?: number };
 }
 

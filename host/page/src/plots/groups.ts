@@ -54,6 +54,28 @@ function force_groups(robot: Robot): Group[] {
   return [{ name: 'tension', title: 'cable tension, in the colours of the segments [N]', sources: cables }];
 }
 
+const kAxisColours = ['#e0564a', '#57b894', '#4e9bd6']; // x, y, z, as in the scene
+
+function axes(field: string, factor = 1): Source[] {
+  return ['x', 'y', 'z'].map((axis, i) => source(field, i, axis, kAxisColours[i], factor));
+}
+
+// Of an arm with a wrist sensor, an adapter or a servo; forces and torques in the tip's frame.
+function push_groups(): Group[] {
+  const set = source('push.set_N', 0, 'set', '#f0a030', 1, true);
+  const depths = [0, 1, 2].map((i) => source('adapter.depth_m', i, `pin ${i + 1}`, segment_colour(i), 1000));
+  const way = source('push.travel_m', 0, 'way', '#c96bb0', 1000, true);
+  const aside = source('push.aside_m', 0, 'aside', '#8f9aa6', 1000, true);
+  return [
+    { name: 'wrist force', title: 'force at the wrist [N]', sources: axes('push.felt.force_N') },
+    { name: 'wrist torque', title: 'torque at the wrist [N m]', sources: axes('push.felt.torque_Nm') },
+    { name: 'push', title: 'push: what the arm gives [N]', sources: [...axes('push.given.force_N'), set] },
+    { name: 'insertion', title: 'into the adapter [mm]', sources: [...depths, way, aside] },
+    { name: 'servo', title: 'servo: left to go [mm]', most: 100, sources: axes('servo.error_m', 1000) },
+    { name: 'servo turn', title: 'servo: left to turn [deg]', most: 5, sources: axes('servo.error_deg') },
+  ];
+}
+
 // The strips of this arm; fields that are not there are left out, and strips without any.
 export function groups_of(robot: Robot, has: Has): Group[] {
   const clearance: Group = {
@@ -82,7 +104,8 @@ export function groups_of(robot: Robot, has: Has): Group[] {
     sources: [source('verdict.share', 0, 'verdict', '#c96bb0', 100)],
   };
   const tick: Group = { name: 'tick', title: 'longest tick in real time [us]', sources: [source('tick_us', 0, 'tick', '#4e9bd6')] };
-  return [...angle_groups(robot), ...force_groups(robot), current_group(robot), clearance, verdict, bus, tick, error]
+  const of_arm = [...angle_groups(robot), ...push_groups(), ...force_groups(robot), current_group(robot)];
+  return [...of_arm, clearance, verdict, bus, tick, error]
     .map((group) => ({ ...group, sources: group.sources.filter((s) => has(s.field, s.index)) }))
     .filter((group) => group.sources.length > 0);
 }

@@ -19,7 +19,8 @@ export class EventList {
   private now = -1;
 
   constructor(private readonly run: Run, go_to: (time_s: number) => void) {
-    const { events, period_s } = run.head;
+    const { events } = run;
+    const { period_s } = run.head;
     this.rows = events.map((event) => {
       const remedy = remedy_of(event);
       const time_s = event.tick * period_s;
@@ -35,7 +36,7 @@ export class EventList {
 
   // Marks the last event before this tick.
   at(tick: number): void {
-    const now = last_before(this.run.head.events, tick);
+    const now = last_before(this.run.events, tick);
     if (now === this.now) return;
     if (this.now >= 0) set_class(this.rows[this.now], 'now', false);
     if (now >= 0) set_class(this.rows[now], 'now', true);

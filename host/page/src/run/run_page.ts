@@ -5,6 +5,7 @@ import { sentence_of } from '../model/sentence';
 import { SceneView } from '../scene/scene_view';
 import type { Theme } from '../scene/palette';
 import { h, set_text } from '../ui/dom';
+import { PushCard } from '../ui/push_card';
 import { Tabs } from '../ui/tabs';
 import { theme_button, theme_now } from '../ui/theme';
 import { CommandList } from './command_list';
@@ -21,6 +22,7 @@ export class RunPage {
   private readonly time_line: TimeLine;
   private readonly plots: RunPlots;
   private readonly events: EventList;
+  private readonly push_card: PushCard;
   private readonly sentence = h('p', { class: 'sentence' });
   private readonly scene_place = h('div', { class: 'scene-place' });
   private scene: SceneView | null = null;
@@ -31,6 +33,8 @@ export class RunPage {
     const outcome = outcome_of(run.head);
     this.time_line = new TimeLine(run, (time_s) => this.show(time_s));
     this.plots = new RunPlots(run, theme_now(), go_to);
+    this.push_card = new PushCard(run.head.scene);
+    this.plots.element.prepend(this.push_card.element);
     this.events = new EventList(run, go_to);
     const commands = new CommandList(run, go_to);
     const tabs = new Tabs([
@@ -53,11 +57,13 @@ export class RunPage {
   private show(time_s: number): void {
     const row = this.run.row_at(time_s);
     const sample = this.run.at(row);
-    const { report } = this.run.head;
-    const steps = report?.outcome === 'success' ? report.steps?.length : undefined; // of others the rest is not known
-    set_text(this.sentence, sentence_of(sample, this.run.head.robot, this.run.head.scene, steps ?? null));
+    const { report, robot, scene, steps } = this.run.head;
+    const is_whole = report?.outcome === 'success'; // of others the rest is not known
+    const last = is_whole ? Math.max(...steps.map(({ index }) => index)) : null; // a mission may leave steps out
+    set_text(this.sentence, sentence_of(sample, robot, scene, last));
     this.plots.at(time_s);
     this.events.at(sample.tick);
+    this.push_card.show(sample);
     if (!this.scene) return;
     this.scene.trail.show(this.way_rows.findIndex((way_row) => way_row > row) + 1 || this.way_rows.length);
     const truth_m = value(sample, 'truth.clearance_m');

@@ -100,7 +100,7 @@ export class TimeLine {
   }
 
   private marks(): HTMLElement[] {
-    return this.run.head.events
+    return this.run.events
       .filter((event) => event.kind !== 'step')
       .map((event) => h('div', { class: `mark ${weight_of(event)}`, style: `left:${this.percent(event.tick * this.run.head.period_s)}%` }));
   }

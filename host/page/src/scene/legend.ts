@@ -43,6 +43,7 @@ export function legend_of(
     segments_line(robot),
     tension_line(robot),
     h('div', {}, scene.rod ? key(colours.rod, 'rod') : null, key(colours.near, 'closest point'), key(colours.ghost, 'commanded arm')),
+    scene.payload ? h('div', {}, key(colours.payload, 'payload'), key(colours.base, 'adapter')) : null,
     scene.slit ? h('div', {}, key(colours.held, 'discs: held in the plane of the slit (S2)')) : null,
     choice('error 10 times as large', exaggerate),
     choice('where it would stop, by the last verdict', predict));

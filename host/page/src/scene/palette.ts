@@ -17,6 +17,7 @@ export interface SceneColours {
   wall: string;
   obstacle: string;
   rod: string;
+  payload: string;
   base: string;
   ghost: string;
   predicted: string;
@@ -36,6 +37,7 @@ const kDark: SceneColours = {
   wall: '#a8b0ba',
   obstacle: '#c25a50',
   rod: '#ffe14a',
+  payload: '#c9a86a',
   base: '#7b8592',
   ghost: '#7fd4ff',
   predicted: '#c8a2ff',
@@ -55,6 +57,7 @@ const kLight: SceneColours = {
   wall: '#68727e',
   obstacle: '#b8473c',
   rod: '#c79200',
+  payload: '#b08c48',
   base: '#7b8592',
   ghost: '#0a78b8',
   predicted: '#7a3fd0',

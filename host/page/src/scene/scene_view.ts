@@ -1,6 +1,7 @@
 // The scene as a part of the page: canvas, tip picture, labels, legend, views; draws when something new is there.
 import * as THREE from 'three';
 import { is_known, value, values, type Sample } from '../data/sample';
+import { payload_place } from '../model/payload_place';
 import type { Robot, Scene } from '../model/robot';
 import { length_text } from '../model/sentence';
 import { distance } from '../model/vector';
@@ -11,6 +12,7 @@ import { legend_of } from './legend';
 import { FrameTurns } from './frame_pace';
 import { ClosestPoint, GoalCross, NodeBalls, Trail } from './markers';
 import { scene_colours, type Theme } from './palette';
+import { PayloadBody } from './payload_body';
 import { Stage } from './stage';
 import { surroundings } from './surroundings';
 import { views_of, type View } from './views';
@@ -36,6 +38,7 @@ export class SceneView {
   private readonly closest: ClosestPoint;
   private readonly goal = new GoalCross();
   private readonly nodes: NodeBalls;
+  private readonly payload: PayloadBody | null;
   private readonly labels: Labels;
   private readonly corner = h('div', { class: 'corner' });
   private readonly error = h('div', { class: 'error-number' });
@@ -68,6 +71,8 @@ export class SceneView {
     this.way = new Trail(this.colours.way);
     const world = [this.arm.group, this.ghost.mesh, this.predicted.mesh, this.closest.group, this.goal.group, this.nodes.mesh];
     this.stage.scene.add(surroundings(scene, robot, this.colours), ...world, this.way.line, this.trail.line);
+    this.payload = scene.payload && scene.adapter ? new PayloadBody(scene.payload, scene.adapter, this.colours) : null;
+    if (this.payload) this.stage.scene.add(this.payload.mesh);
     this.stage.hidden_from_tip = [...world.slice(1), ...this.arm.details, this.way.line, this.trail.line];
     this.labels = new Labels(this.stage);
     this.views = views_of(robot, scene);
@@ -187,6 +192,7 @@ export class SceneView {
     if (this.predicted.mesh.visible && is_known(predicted)) this.predicted.set(predicted);
     this.nodes.set(this.arm.chain.nodes);
     this.goal.set(values(sample, 'goal_cp'));
+    this.payload?.set(payload_place(sample.facts, this.scene), this.arm.chain.tip);
     const link = value(sample, 'clearance.link') - 1;
     const piece = this.arm.chain.pieces[link];
     this.closest.set(values(sample, 'clearance.where_m'), piece ? this.arm.chain.matrices.subarray(16 * link, 16 * link + 16) : null, piece?.length_m ?? 0);
@@ -221,6 +227,8 @@ export class SceneView {
     }
     if (scene.rod) labels.push({ text: 'press rod: the goal', place_m: scene.rod.position_m });
     if (scene.slit) labels.push({ text: `slit, ${Math.round(2000 * scene.slit.half_gap_m)} mm`, place_m: scene.slit.frame.position_m });
+    if (this.payload) labels.push({ text: 'payload', place_m: this.payload.centre_m });
+    if (scene.adapter) labels.push({ text: 'adapter', place_m: scene.adapter.position_m });
     for (const body of scene.spheres ?? []) labels.push({ text: body.name, place_m: body.center_m });
     labels.push({ text: this.robot.kind === 'serial' ? 'base' : `base: ${3 * this.robot.segments.length} motors`, place_m: [-0.16, 0, 0.1] });
     if (this.tip_label) labels.push({ text: this.tip_label, place_m: chain.tip.subarray(12, 15) });

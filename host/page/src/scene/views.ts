@@ -15,7 +15,7 @@ const add = (a: Triple, b: Triple, k = 1): Triple => [a[0] + k * b[0], a[1] + k 
 // The views of a scene; the first is the one to begin with.
 export function views_of(robot: Robot, scene: Scene): View[] {
   const reach = reach_m(robot);
-  const goal: Triple = scene.rod?.position_m ?? [0.6 * reach, 0, 0];
+  const goal: Triple = scene.rod?.position_m ?? scene.adapter?.position_m ?? [0.6 * reach, 0, 0];
   const middle: Triple = [0.42 * goal[0], 0.5 * goal[1], 0.5 * goal[2] + 0.02];
   const views: View[] = [
     { name: 'whole task', eye_m: add(middle, [-0.46 * reach, -1.34 * reach, 0.6 * reach]), target_m: middle, up: [0, 0, 1], follows_tip: false },

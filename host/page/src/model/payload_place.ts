@@ -1,0 +1,12 @@
+// Where the payload of a scene is, by what a state tells.
+import type { Facts } from '../data/sample';
+import type { Scene } from './robot';
+
+export type Place = 'mechanism' | 'tip' | 'adapter';
+
+// What the arm was told that it carries is on its tip, also where no end effector says so.
+export function payload_place({ payload, tool }: Facts, scene: Scene): Place {
+  if (tool?.command === 'release' && tool.phase === 'done') return 'adapter';
+  if (scene.payload?.start === 'arm' || (payload?.mass_kg ?? 0) > 0) return 'tip';
+  return tool?.command === 'grapple' && tool.phase === 'done' ? 'tip' : 'mechanism';
+}

@@ -1,0 +1,62 @@
+// The payload of a scene with its pins: in the transfer mechanism, on the tip, or in the adapter.
+import * as THREE from 'three';
+import type { Place } from '../model/payload_place';
+import type { Scene, ScenePose } from '../model/robot';
+import type { SceneColours } from './palette';
+import { Batch, paint } from './shade';
+
+export const kBodyRadius_m = 0.3;
+const kPins = { circle_m: 0.25, radius_m: 0.02, length_m: 0.06 }; // as the bench has them, but thicker: to be seen
+const kIn_m = 0.02; // pins of a payload that the adapter has
+
+export function matrix_of(pose: ScenePose): THREE.Matrix4 {
+  const [w, x, y, z] = pose.quaternion_wxyz;
+  const turn = new THREE.Quaternion(x, y, z, w);
+  return new THREE.Matrix4().compose(new THREE.Vector3(...pose.position_m), turn, new THREE.Vector3(1, 1, 1));
+}
+
+type Placed = [THREE.BufferGeometry, THREE.Matrix4];
+
+// Along z from `from_m` on.
+function upright(radius_m: number, from_m: number, length_m: number, x_m = 0, y_m = 0): Placed {
+  const place = new THREE.Matrix4().makeRotationX(Math.PI / 2).setPosition(x_m, y_m, from_m + length_m / 2);
+  return [new THREE.CylinderGeometry(radius_m, radius_m, length_m, 24), place];
+}
+
+function shape_of(length_m: number, colour: string): THREE.BufferGeometry {
+  const batch = new Batch();
+  batch.add(...upright(kBodyRadius_m, 0, length_m - kPins.length_m), colour, true);
+  for (let pin = 0; pin < 3; ++pin) {
+    const angle = (2 * Math.PI * pin) / 3;
+    const at = [kPins.circle_m * Math.cos(angle), kPins.circle_m * Math.sin(angle)] as const;
+    batch.add(...upright(kPins.radius_m, length_m - kPins.length_m, kPins.length_m, ...at), colour, true);
+  }
+  return batch.geometry();
+}
+
+export class PayloadBody {
+  readonly mesh: THREE.Mesh;
+  readonly centre_m = new Float32Array(3); // for its label
+  private readonly at_start: THREE.Matrix4;
+  private readonly in_adapter: THREE.Matrix4;
+  private readonly length_m: number;
+
+  constructor(payload: NonNullable<Scene['payload']>, adapter: ScenePose, colours: SceneColours) {
+    this.length_m = payload.length_m;
+    this.mesh = new THREE.Mesh(shape_of(payload.length_m, colours.payload), paint());
+    this.mesh.matrixAutoUpdate = false;
+    this.at_start = matrix_of(payload);
+    this.in_adapter = matrix_of(adapter).multiply(new THREE.Matrix4().makeTranslation(0, 0, kIn_m - payload.length_m));
+    this.set('mechanism', new Float32Array(16));
+  }
+
+  // `tip`: the tip's frame, column by column.
+  set(place: Place, tip: Float32Array): void {
+    const { matrix } = this.mesh;
+    if (place === 'tip') matrix.fromArray(tip);
+    else matrix.copy(place === 'adapter' ? this.in_adapter : this.at_start);
+    this.mesh.matrixWorldNeedsUpdate = true;
+    const e = matrix.elements;
+    for (let r = 0; r < 3; ++r) this.centre_m[r] = e[12 + r] + (this.length_m / 2) * e[8 + r];
+  }
+}
