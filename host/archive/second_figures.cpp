@@ -14,7 +14,7 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // SQLite keeps it as NULL
 
 // What is worth a plot over hours; all numbers would take as much room as the records themselves.
-constexpr std::array<std::string_view, 19> kPlotted{"measured_js_deg",
+constexpr std::array<std::string_view, 23> kPlotted{"measured_js_deg",
                                                     "measured_cp",
                                                     "tension_N",
                                                     "torque_Nm",
@@ -32,7 +32,11 @@ constexpr std::array<std::string_view, 19> kPlotted{"measured_js_deg",
                                                     "device_samples",
                                                     "overruns",
                                                     "refusals",
-                                                    "tick_us"};
+                                                    "tick_us",
+                                                    "push.felt.force_N",
+                                                    "push.felt.torque_Nm",
+                                                    "push.set_N",
+                                                    "adapter.depth_m"};
 
 telemetry::Layout plotted(telemetry::Layout layout) {
   std::erase_if(layout.places, [](const telemetry::Place& place) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "firmware_like/math/trig.hpp"
 #include "host/api/request_error.hpp"
@@ -118,23 +119,29 @@ Json payload_json(const serial::LinkMass& payload_at_tip) {
 }
 
 Json push_json(const serial::PushReport& push, double tick_s) {
+  const bool was_asked = push.number > 0;
+  const auto of_push = [&](Json value) { return was_asked ? std::move(value) : Json(); };
+  const bool is_heard = push.wrist_age_ticks != serial::kNeverHeard;
   return {{"number", push.number},
           {"phase", name_of(kPhases, push.phase)},
           {"end", name_of(kEnds, push.end)},
           {"law", push.law == serial::PushLaw::kImpedance ? "impedance" : "force"},
-          {"set_N", push.set_N},
-          {"given", wrench_json(push.given)},
-          {"felt", wrench_json(push.felt)},
+          {"set_N", of_push(push.set_N)},
+          {"given", of_push(wrench_json(push.given))},
+          {"felt", is_heard ? wrench_json(push.felt) : Json()},
           {"touched", push.touched != 0},
-          {"travel_m", push.travel_m},
-          {"aside_m", push.aside_m},
+          {"travel_m", of_push(push.travel_m)},
+          {"aside_m", of_push(push.aside_m)},
           {"wrist", name_of(kHealth, push.wrist)},
           {"wrist_age_s", age_json(push.wrist_age_ticks, tick_s)}};
 }
 
 Json adapter_json(const serial::PushReport& push, double tick_s) {
-  Json depth_m = Json::array();
-  for (const std::uint8_t depth : push.depth_01mm) depth_m.push_back(1e-4 * depth);
+  Json depth_m;
+  if (push.adapter_age_ticks != serial::kNeverHeard) {
+    depth_m = Json::array();
+    for (const std::uint8_t depth : push.depth_01mm) depth_m.push_back(1e-4 * depth);
+  }
   return {{"age_s", age_json(push.adapter_age_ticks, tick_s)},
           {"sequence", push.adapter_sequence},
           {"captured", push.captured != 0},

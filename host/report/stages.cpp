@@ -51,7 +51,8 @@ void keep_stage(std::vector<Stage>& stages, const Json& state) {
   if (push.is_object()) {
     stage.push = push.value("phase", stage.push);
     stage.push_end = push.value("end", stage.push_end);
-    stage.set_N = push.value("set_N", 0.0);
+    const Json& set_N = push.member_or_null("set_N");  // null: no push yet
+    stage.set_N = set_N.is_number() ? set_N.get<double>() : 0.0;
   }
   if (adapter.is_object()) stage.says_captured = adapter.value("captured", false);
   if (stages.empty() || !is_same(stages.back(), stage)) stages.push_back(stage);

@@ -2,7 +2,7 @@
 
 namespace liana::telemetry {
 
-const std::array<Field, 45> kFields{{
+const std::array<Field, 63> kFields{{
     {"measured_js_deg", "deg", Shape::kJoints},
     {"setpoint_js_deg", "deg", Shape::kJoints},
     {"verdict.twin_js_deg", "deg", Shape::kJoints},
@@ -48,6 +48,24 @@ const std::array<Field, 45> kFields{{
     {"refusals", "1", Shape::kOne},
     {"path.share", "1", Shape::kOne},
     {"retract.points_left", "1", Shape::kOne},
+    {"push.felt.force_N", "N", Shape::kThree},
+    {"push.felt.torque_Nm", "Nm", Shape::kThree},
+    {"push.given.force_N", "N", Shape::kThree},
+    {"push.given.torque_Nm", "Nm", Shape::kThree},
+    {"push.set_N", "N", Shape::kOne},
+    {"push.travel_m", "m", Shape::kOne},
+    {"push.aside_m", "m", Shape::kOne},
+    {"push.wrist_age_s", "s", Shape::kOne},
+    {"adapter.depth_m", "m", Shape::kThree},
+    {"adapter.sequence", "1", Shape::kOne},
+    {"adapter.age_s", "s", Shape::kOne},
+    {"servo.error_m", "m", Shape::kThree},
+    {"servo.error_deg", "deg", Shape::kThree},
+    {"servo.swing_m", "m", Shape::kOne},
+    {"servo.duration_s", "s", Shape::kOne},
+    {"servo.images_used", "1", Shape::kOne},
+    {"servo.images_rejected", "1", Shape::kOne},
+    {"torque_told_Nm", "Nm", Shape::kFound},
 }};
 
 }  // namespace liana::telemetry

@@ -17,7 +17,7 @@ enum class Shape : std::uint8_t {
   kEach,    // one of each entry of an array of objects
 };
 
-// `path`: names of members with a dot between them; of kEach the array and a member of its entries.
+// `path`: names of members with dots between them; of kEach the array and a member of its entries.
 struct Field {
   std::string_view path;
   std::string_view unit;
@@ -25,6 +25,6 @@ struct Field {
 };
 
 // In the order in which records hold them. Not every arm's states have all.
-extern const std::array<Field, 45> kFields;
+extern const std::array<Field, 63> kFields;
 
 }  // namespace liana::telemetry

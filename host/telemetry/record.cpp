@@ -49,26 +49,35 @@ class Cells {
   std::size_t offset_, left_;
 };
 
+// The member that a path leads to; null where one on the way is not there.
+const Json& at_path(const Json& json, std::string_view path) {
+  const std::size_t dot = path.find('.');
+  const Json& first = json.member_or_null(path.substr(0, dot));
+  return dot == std::string_view::npos ? first : at_path(first, path.substr(dot + 1));
+}
+
 void encode(std::string& record, const Json& state, const Place& place) {
-  const std::size_t dot = place.field.path.find('.');
-  const Json& first = state.member_or_null(place.field.path.substr(0, dot));
   Cells cells(record, place);
   if (place.field.shape == Shape::kEach) {
-    for (const Json& entry : first) cells.add(entry.member_or_null(place.field.path.substr(dot + 1)));
+    const std::size_t dot = place.field.path.find('.');
+    for (const Json& entry : state.member_or_null(place.field.path.substr(0, dot)))
+      cells.add(entry.member_or_null(place.field.path.substr(dot + 1)));
   } else {
-    cells.add(dot == std::string_view::npos ? first : first.member_or_null(place.field.path.substr(dot + 1)));
+    cells.add(at_path(state, place.field.path));
   }
   cells.fill();
 }
 
-void erase(Json& state, const Field& field) {
-  const std::size_t dot = field.path.find('.');
-  if (dot == std::string_view::npos) return state.erase(field.path);
-  Json* first = state.find(field.path.substr(0, dot));
-  const std::string_view name = field.path.substr(dot + 1);
-  if (first != nullptr && first->is_object()) first->erase(name);
-  if (first == nullptr || !first->is_array()) return;
-  for (Json& entry : *first) entry.erase(name);
+// Takes the member away that a path leads to, where it is there; of an array from each of its entries.
+void erase(Json& json, std::string_view path) {
+  if (json.is_array()) {
+    for (Json& entry : json) erase(entry, path);
+    return;
+  }
+  if (!json.is_object()) return;
+  const std::size_t dot = path.find('.');
+  if (dot == std::string_view::npos) return json.erase(path);
+  if (Json* first = json.find(path.substr(0, dot))) erase(*first, path.substr(dot + 1));
 }
 
 }  // namespace
@@ -97,7 +106,7 @@ float value_of(const std::string& record, const Place& place, std::size_t i) {
 Json facts_of(Json state) {
   const Json* verdict = state.find("verdict");
   if (verdict != nullptr && verdict->value("code", 0) == 0) state.erase("verdict");
-  for (const Field& field : kFields) erase(state, field);
+  for (const Field& field : kFields) erase(state, field.path);
   if (Json* drives = state.find("drives"); drives != nullptr && drives->is_array()) {
     for (Json& drive : *drives) {
       drive.erase("tension_N");  // what the arm has as a whole, again

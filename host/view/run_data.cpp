@@ -1,5 +1,6 @@
 #include "host/view/run_data.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -31,9 +32,12 @@ constexpr std::array<TruthColumn, 7> kTruth{{{"theta_deg_", "truth.theta_deg", "
                                              {"tip_speed_m_s", "truth.tip_speed_m_s", "m/s"},
                                              {"slit_depth_m", "truth.slit_depth_m", "m"}}};
 // What can be computed from the angles, or is of no use on a page, is left out.
-constexpr std::array<std::string_view, 8> kLeftOut{"measured_cp",       "setpoint_cp",       "node_m",
-                                                   "drives.position_m", "buses.frames",      "ik.residual_rad",
-                                                   "friction.sd",       "clearance.turn_deg"};
+constexpr std::array<std::string_view, 16> kLeftOut{"measured_cp",       "setpoint_cp",        "node_m",
+                                                    "drives.position_m", "buses.frames",       "ik.residual_rad",
+                                                    "friction.sd",       "clearance.turn_deg", "push.given.torque_Nm",
+                                                    "push.wrist_age_s",  "adapter.age_s",      "adapter.sequence",
+                                                    "servo.duration_s",  "servo.images_used",  "servo.images_rejected",
+                                                    "torque_told_Nm"};
 
 bool is_left_out(std::string_view name) {
   for (const std::string_view each : kLeftOut) {
@@ -42,16 +46,22 @@ bool is_left_out(std::string_view name) {
   return false;
 }
 
+// A field that never had a number in the run has no columns.
 void add_telemetry(const RunData& run, const TimeGrid& grid, std::vector<Column>& columns) {
   const std::vector<const std::string*> rows = records_at(grid, run.records);
   std::vector<double> values(rows.size());
   for (const telemetry::Place& place : run.layout.places) {
     if (is_left_out(place.field.path)) continue;
+    const std::size_t before = columns.size();
+    bool is_known = false;
     for (std::size_t i = 0; i < place.count; ++i) {
       for (std::size_t row = 0; row < rows.size(); ++row)
         values[row] = rows[row] == nullptr ? kNone : static_cast<double>(telemetry::value_of(*rows[row], place, i));
+      is_known =
+          is_known || std::any_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
       columns.push_back(column_of(std::string(place.field.path), i, std::string(place.field.unit), values));
     }
+    if (!is_known) columns.erase(columns.begin() + static_cast<std::ptrdiff_t>(before), columns.end());
   }
 }
 

@@ -22,7 +22,7 @@ test('the proof is the HMAC-SHA256 of the nonce as text, in hex', async () => {
 
 test('a minute of records is kept, the oldest go', () => {
   const layout: Layout = { version: 1, bytes: 36, fields: [{ name: 'a', unit: '1', offset: 24, count: 2 }, { name: 'b', unit: '1', offset: 32, count: 1 }] };
-  const history = new History(layout.fields);
+  const history = new History(layout);
   for (let i = 0; i < 3100; ++i) history.add(5 * i, i / 50, new Map([['a', Float32Array.of(i, -i)], ['b', Float32Array.of(i / 2)]]));
   assert.equal(history.rows, 3000);
   assert.equal(history.time_s(0), 2);

@@ -1,9 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { csv_of } from '../../host/page/src/data/csv';
-import { fact_columns, kFactFields, read_fact_numbers } from '../../host/page/src/data/fact_numbers';
-import { Run, type RunHead } from '../../host/page/src/data/run';
-import type { Facts, Push, Sample } from '../../host/page/src/data/sample';
+import type { Facts, Push } from '../../host/page/src/data/sample';
 import { told_changes, with_told_changes } from '../../host/page/src/data/told_changes';
 import { Live } from '../../host/page/src/live/live';
 import type { Welcome } from '../../host/page/src/live/protocol';
@@ -12,55 +9,35 @@ import { push_lines } from '../../host/page/src/model/push_words';
 import type { Scene, ScenePose } from '../../host/page/src/model/robot';
 import { weight_of } from '../../host/page/src/model/weight';
 import { groups_of } from '../../host/page/src/plots/groups';
-import { kArm, kMicro } from './support';
+import { kArm, kMicro, sample_of } from './support';
 
-const still = { force_N: [0, 0, 0], torque_Nm: [0, 0, 0] };
-const no_push: Push = {
-  number: 0, phase: 'none', end: 'none', law: 'force', set_N: 0, given: still, felt: still,
-  touched: false, travel_m: 0, aside_m: 0, wrist: 'silent', wrist_age_s: null,
+const no_push: Push = { number: 0, phase: 'none', end: 'none', law: 'force', touched: false, wrist: 'silent' };
+const pressing: Push = { ...no_push, number: 1, phase: 'pressing', touched: true, wrist: 'good' };
+const open = { captured: false, latch: 'open', lock: 'open' };
+const servoing = { phase: 'approaching', target: 'adapter', reason: '' };
+// What a record holds of a push in its adapter.
+const kNumbers = {
+  'push.felt.force_N': [0.3, -0.4, -20], 'push.felt.torque_Nm': [0, 3, 4], 'push.given.force_N': [-0.3, 0.4, 20],
+  'push.set_N': [30], 'push.travel_m': [0.012], 'push.aside_m': [0.0004], 'adapter.depth_m': [0.0015, 0.001, 0.0021],
+  'servo.error_m': [0.003, 0, 0.004], 'servo.error_deg': [0, 0.1, 0], 'servo.swing_m': [0.014],
 };
-const felt = { force_N: [0.3, -0.4, -20], torque_Nm: [0, 3, 4] };
-const given = { force_N: [-0.3, 0.4, 20], torque_Nm: [0, -3, -4] };
-const pressing: Push = {
-  ...no_push, number: 1, phase: 'pressing', set_N: 30, given, felt,
-  touched: true, travel_m: 0.012, aside_m: 0.0004, wrist: 'good', wrist_age_s: 0,
-};
-const open = { age_s: 0.004, captured: false, latch: 'open', lock: 'open', depth_m: [0.0015, 0.001, 0.0021] };
-const left = { error_m: [0.003, 0, 0.004], error_deg: [0, 0.1, 0] };
-const servoing = { phase: 'approaching', target: 'adapter', ...left, swing_m: 0.014, reason: '' };
 const place: ScenePose = { position_m: [0, 0, 0], quaternion_wxyz: [1, 0, 0, 0] };
 const scene: Scene = { name: 's', payload: { ...place, start: 'mechanism', length_m: 1 }, adapter: place };
 // As states of arms that have nothing to push with say it.
 const bare: Facts = {
-  push: no_push, adapter: { ...open, age_s: null }, payload: { mass_kg: 0 }, servo: { ...servoing, phase: 'standby', target: '' },
+  push: no_push, adapter: open, payload: { mass_kg: 0 }, servo: { ...servoing, phase: 'standby', target: '' },
 };
 
-function sample(facts: Facts): Sample {
-  const numbers = new Map(kFactFields.map(({ name, count }) => [name, new Float32Array(count)]));
-  read_fact_numbers(facts, numbers);
-  return { tick: 0, time_s: 0, numbers, facts };
+function lines(facts: Facts, numbers: Record<string, number[]> = kNumbers): Record<string, string> {
+  return Object.fromEntries(push_lines(sample_of(numbers, facts), scene));
 }
 
-const lines = (facts: Facts, of: Scene = scene) => Object.fromEntries(push_lines(sample(facts), of));
-
-test('wrench, set force, way in and what the servo has left to go are numbers of a state', () => {
-  const { numbers } = sample({ push: pressing, adapter: open, servo: servoing });
-  assert.deepEqual([...numbers.get('push.felt.force_N')!], [...Float32Array.from(felt.force_N)]);
-  assert.deepEqual([...numbers.get('push.felt.torque_Nm')!, ...numbers.get('push.set_N')!], [0, 3, 4, 30]);
-  assert.deepEqual([...numbers.get('adapter.depth_m')!], [...Float32Array.from(open.depth_m)]);
-  assert.deepEqual([...numbers.get('servo.error_m')!], [...Float32Array.from(servoing.error_m)]);
-});
-
-test('an arm without wrist sensor, adapter and servo has no such numbers, no strips and no words of them', () => {
+test('an arm without wrist sensor, adapter and servo has no words of them', () => {
+  const none = Object.fromEntries(Object.entries(kNumbers).map(([name, numbers]) => [name, numbers.map(() => NaN)]));
   for (const facts of [{}, bare]) {
-    assert.ok([...sample(facts).numbers.values()].every((values) => values.every(Number.isNaN)));
-    assert.equal(fact_columns(2, () => facts).size, 0);
-    assert.ok(push_lines(sample(facts), { name: 'none' }).every(([, text]) => text === ''));
+    for (const numbers of [{}, none])
+      assert.ok(push_lines(sample_of(numbers, facts), { name: 'none' }).every(([, text]) => text === ''));
   }
-});
-
-test('a servo that is over has nothing left to go', () => {
-  assert.ok(Number.isNaN(sample({ servo: { ...servoing, phase: 'done' } }).numbers.get('servo.error_m')![0]));
 });
 
 test('strips of force and push are there for fields that are', () => {
@@ -99,7 +76,7 @@ function told(before: Facts, now: Facts): string[] {
 test('what changes of servo, push and adapter are events, and those that went wrong are warnings', () => {
   const captured: Push = { ...pressing, phase: 'unloading', end: 'captured' };
   assert.deepEqual(told({ push: { ...pressing, touched: false } }, { push: pressing }), ['push: push 1: touches']);
-  assert.deepEqual(told({ push: pressing }, { push: { ...pressing, set_N: 20 } }), []);
+  assert.deepEqual(told({ push: pressing }, { push: { ...pressing } }), []);
   const has_it = { ...open, captured: true, latch: 'closing' };
   assert.deepEqual(told({ push: pressing, adapter: open }, { push: captured, adapter: has_it }),
     ['push: push 1 ended: captured', 'push: push 1: unloading', 'adapter: captured', 'adapter: latch closing']);
@@ -125,39 +102,23 @@ test('events made of facts stand between the others by their ticks', () => {
   assert.deepEqual(all, [[20, 'step'], [25, 'push'], [25, 'push'], [25, 'wrist'], [40, 'push']]);
 });
 
-test('a run has the numbers of its facts as columns, in its moments and in its table', () => {
-  const facts = [{ tick: 10, state: { push: no_push } }, { tick: 15, state: { push: pressing } }];
-  const telemetry = { rows: 2, ticks: { first: 10, every: 5 }, columns: [] };
-  const head: RunHead = {
-    format: 1, title: '', robot: kMicro, scene, report: null, period_s: 0.004,
-    steps: [], events: [], commands: [], facts, telemetry,
-  };
-  const run = new Run(head, new Uint8Array(0));
-  assert.ok(Number.isNaN(run.at(0).numbers.get('push.set_N')![0]));
-  assert.equal(run.at(1).numbers.get('push.set_N')![0], 30);
-  assert.equal(run.telemetry.columns.has('servo.error_m'), false);
-  const [names, , last] = csv_of(run, 0, 1).split('\n');
-  assert.equal(last.split(',')[names.split(',').indexOf('push.felt.force_N[2] [N]')], '-20');
-  assert.equal(run.events.length, 3);
-});
-
-function record(tick: number): ArrayBuffer {
-  const view = new DataView(new ArrayBuffer(24));
+function record(tick: number, set_N: number): ArrayBuffer {
+  const view = new DataView(new ArrayBuffer(28));
   view.setUint32(0, tick, true);
   view.setFloat64(8, tick, true);
+  view.setFloat32(24, set_N, true);
   return view.buffer;
 }
 
-test('live, numbers of facts go with the next record, are kept a minute, and changes of them are events', () => {
+test('live, a number is known from its first value on, and changes of facts are events', () => {
   const live = new Live();
-  live.take_welcome({ robot: kArm, scene, layout: { version: 1, bytes: 24, fields: [] } } as unknown as Welcome);
+  const fields = [{ name: 'push.set_N', unit: 'N', offset: 24, count: 1 }];
+  live.take_welcome({ robot: kArm, scene, layout: { version: 1, bytes: 28, fields } } as unknown as Welcome);
   live.take({ op: 'facts', facts: 1, state: bare });
-  live.take_record(record(5), 0.02);
+  live.take_record(record(5, NaN), 0.02);
   assert.equal(live.history!.known.size, 0);
   live.take({ op: 'facts', facts: 2, state: { ...bare, push: pressing } });
-  live.take_record(record(10), 0.04);
-  assert.equal(live.history!.value(1, 'push.set_N', 0), 30);
-  assert.ok(live.history!.known.has('push.felt.force_N') && !live.history!.known.has('adapter.depth_m'));
-  assert.equal(live.sample!.numbers.get('push.felt.torque_Nm')![2], 4);
+  live.take_record(record(10, 30), 0.04);
+  assert.ok(live.history!.known.has('push.set_N'));
   assert.deepEqual(live.events.map((e) => [e.kind, e.tick]), [['push', 5], ['push', 5], ['wrist', 5]]);
 });

@@ -8,7 +8,7 @@ function cell(text: string): string {
 // One line for each row of the run between two arm times, a column for each field and index; numbers that are not there
 // stay empty.
 export function csv_of(run: Run, from_s: number, to_s: number): string {
-  const { columns } = run;
+  const { columns } = run.head.telemetry;
   const names = columns.map((c) => cell(`${c.name}[${c.index}] [${c.unit}]`));
   const lines = [['tick', 'time_s [s]', ...names].join(',')];
   for (let row = run.row_at(from_s); row <= run.row_at(to_s); ++row) {

@@ -1,7 +1,6 @@
 // A recorded run: what `liana view` wrote into its page.
 import { chain_of, type ArmChain } from '../model/arm_chain';
 import type { Robot, Scene } from '../model/robot';
-import { fact_columns, kFactFields } from './fact_numbers';
 import type { Facts, LianaEvent, Sample } from './sample';
 import { inflated, telemetry_of, type Telemetry, type TelemetryHead } from './telemetry';
 import { with_told_changes } from './told_changes';
@@ -70,8 +69,7 @@ function whole_facts(changes: RunHead['facts']): RunHead['facts'] {
 }
 
 export class Run {
-  readonly telemetry: Telemetry; // with the numbers that the facts have
-  readonly columns: { name: string; index: number; unit: string }[];
+  readonly telemetry: Telemetry;
   readonly events: LianaEvent[]; // in the order of their ticks
   private readonly facts: RunHead['facts'];
   private readonly chain: ArmChain;
@@ -83,7 +81,6 @@ export class Run {
     this.telemetry = telemetry_of(head.telemetry, planes);
     this.facts = whole_facts(head.facts);
     this.events = with_told_changes(head.events, this.facts);
-    this.columns = [...head.telemetry.columns, ...this.add_fact_columns()];
     const numbers = new Map<string, Float32Array>();
     for (const [name, columns] of this.telemetry.columns) numbers.set(name, new Float32Array(columns.length));
     this.chain = chain_of(head.robot);
@@ -119,21 +116,9 @@ export class Run {
       for (let i = 0; i < columns.length; ++i) values[i] = columns[i]?.[row] ?? NaN;
     }
     this.place_tip(sample.numbers);
-    sample.facts = this.facts_at(row);
+    const facts = last_before(this.facts, sample.tick);
+    sample.facts = facts < 0 ? {} : this.facts[facts].state;
     return sample;
-  }
-
-  private facts_at(row: number): Facts {
-    const facts = last_before(this.facts, this.tick(row));
-    return facts < 0 ? {} : this.facts[facts].state;
-  }
-
-  // Which they are.
-  private add_fact_columns(): Run['columns'] {
-    const found = fact_columns(this.rows, (row) => this.facts_at(row));
-    for (const [name, columns] of found) this.telemetry.columns.set(name, columns);
-    const fields = kFactFields.filter(({ name }) => found.has(name));
-    return fields.flatMap(({ name, unit }) => found.get(name)!.map((_, index) => ({ name, index, unit })));
   }
 
   // Where the tip is, which the page does not hold: the angles say it. Its attitude is left out.

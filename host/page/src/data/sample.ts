@@ -34,7 +34,7 @@ export interface Facts {
   mission_control?: { number: number; command: string; by: string } | null;
   operator_says?: { what: string; tick: number } | null;
   push?: Push;
-  adapter?: { age_s: number | null; captured: boolean; latch: string; lock: string; depth_m: number[] };
+  adapter?: { captured: boolean; latch: string; lock: string };
   payload?: { mass_kg: number }; // what the arm was told that it carries
   servo?: Servo;
   tool?: { command: string; phase: string };
@@ -43,9 +43,6 @@ export interface Facts {
 export interface Servo {
   phase: string;
   target: string;
-  error_m: number[] | null; // left to go; null: not known
-  error_deg: number[] | null;
-  swing_m: number;
   reason: string;
 }
 
@@ -55,20 +52,8 @@ export interface Push {
   phase: string;
   end: string;
   law: string;
-  set_N: number;
-  given: Wrench; // above the tare
-  felt: Wrench;
   touched: boolean;
-  travel_m: number;
-  aside_m: number;
   wrist: string;
-  wrist_age_s: number | null; // null: there is no sensor that was ever heard
-}
-
-// In the tip's frame.
-export interface Wrench {
-  force_N: number[];
-  torque_Nm: number[];
 }
 
 export interface Sample {

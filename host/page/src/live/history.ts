@@ -13,9 +13,9 @@ export class History {
   private readonly times_s = new Float64Array(kRows);
   private written = 0;
 
-  constructor(fields: readonly Pick<Layout['fields'][number], 'name' | 'count'>[]) {
+  constructor(layout: Layout) {
     let at = 0;
-    for (const field of fields) {
+    for (const field of layout.fields) {
       this.numbers.set(field.name, { at, count: field.count });
       at += field.count;
     }

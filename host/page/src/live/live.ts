@@ -1,5 +1,4 @@
 // What is known of the running system: the newest state, facts, events, alarms, and who we are.
-import { kFactFields, read_fact_numbers } from '../data/fact_numbers';
 import { RecordReader } from '../data/record';
 import type { Facts, LianaEvent, Sample } from '../data/sample';
 import { told_changes } from '../data/told_changes';
@@ -25,14 +24,13 @@ export class Live {
   lost_events = 0;
   taken_events = 0; // since the page was loaded
   private reader: RecordReader | null = null;
-  private numbers = new Map<string, Float32Array>(); // of the newest record and of the facts
   private device_samples = NaN;
   private came_s = NaN;
 
   // The newest state; null before the first.
   get sample(): Sample | null {
-    const { reader, numbers, facts } = this;
-    return reader && reader.sequence > 0 ? { tick: reader.tick, time_s: reader.time_s, numbers, facts } : null;
+    const { reader, facts } = this;
+    return reader && reader.sequence > 0 ? { tick: reader.tick, time_s: reader.time_s, numbers: reader.numbers, facts } : null;
   }
 
   // Does what is shown come from the arm now?
@@ -53,9 +51,7 @@ export class Live {
   take_welcome(welcome: Welcome): void {
     this.welcome = welcome;
     this.reader = new RecordReader(welcome.layout);
-    this.numbers = new Map(this.reader.numbers);
-    for (const { name, count } of kFactFields) this.numbers.set(name, new Float32Array(count).fill(NaN));
-    this.history = new History([...welcome.layout.fields, ...kFactFields]);
+    this.history = new History(welcome.layout);
     this.events.length = 0;
     this.facts = {};
   }
@@ -69,7 +65,6 @@ export class Live {
   private take_facts(facts: Facts): void {
     for (const event of told_changes(this.facts, facts, this.reader?.tick ?? 0, this.newest_event)) this.add_event(event);
     this.facts = facts;
-    read_fact_numbers(facts, this.numbers);
   }
 
   private add_event(event: LianaEvent): void {
@@ -85,7 +80,7 @@ export class Live {
     this.states.add(now_s);
     this.age.came(reader.time_s, now_s);
     this.came_s = now_s;
-    this.history?.add(reader.tick, reader.time_s, this.numbers);
+    this.history?.add(reader.tick, reader.time_s, reader.numbers);
     const samples = reader.numbers.get('device_samples')?.[0] ?? NaN;
     if (samples > this.device_samples) this.samples_per_s.add(now_s, Math.min(200, samples - this.device_samples));
     this.device_samples = samples;

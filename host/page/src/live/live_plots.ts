@@ -1,6 +1,5 @@
 // Strips of the last minute; one of them is drawn again at a time, a few a second.
 import type uPlot from 'uplot';
-import { kFactFields } from '../data/fact_numbers';
 import { chart_colours } from '../plots/chart_colours';
 import { groups_of, type Group } from '../plots/groups';
 import { Strip } from '../plots/strip';
@@ -20,7 +19,7 @@ export class LivePlots {
   private last_ms = 0;
 
   constructor(private readonly live: Live, welcome: Welcome, theme: Theme, go_to: (time_s: number) => void) {
-    const counts = new Map([...kFactFields, ...welcome.layout.fields].map((f) => [f.name, f.count]));
+    const counts = new Map(welcome.layout.fields.map((f) => [f.name, f.count]));
     const groups = groups_of(welcome.robot, (field, index) => index < (counts.get(field) ?? 0));
     this.strips = groups.map((group) => ({ group, strip: new Strip(group.title, group.sources, chart_colours(theme), 396, kStrip_px, go_to, group.most), data: [] }));
     this.element.append(...this.strips.map(({ strip }) => strip.element));

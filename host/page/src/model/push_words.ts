@@ -1,5 +1,5 @@
 // What payload, servo, push, adapter and wrist tell, in short lines; empty where the arm has no such thing.
-import { value, values, type Sample } from '../data/sample';
+import { is_known, value, values, type Sample } from '../data/sample';
 import { payload_place } from './payload_place';
 import type { Scene } from './robot';
 import { length_text } from './sentence';
@@ -15,7 +15,7 @@ function triple(v: ArrayLike<number>, digits: number, factor = 1): string {
 function wrist_text(sample: Sample): string {
   const force_N = values(sample, 'push.felt.force_N');
   const torque_Nm = values(sample, 'push.felt.torque_Nm');
-  if (!Number.isFinite(force_N[0])) return '';
+  if (!is_known(force_N)) return '';
   const force = `${length_of(force_N).toFixed(1)} N (${triple(force_N, 1)})`;
   const torque = `${length_of(torque_Nm).toFixed(1)} N m (${triple(torque_Nm, 1)})`;
   return `${force}, ${torque}, ${sample.facts.push?.wrist ?? '?'}`;
@@ -36,7 +36,7 @@ function push_text(sample: Sample): string {
 function adapter_text(sample: Sample): string {
   const { adapter } = sample.facts;
   const depth_m = values(sample, 'adapter.depth_m');
-  if (!adapter || !Number.isFinite(depth_m[0])) return '';
+  if (!adapter || !is_known(depth_m)) return '';
   const what = adapter.captured ? 'captured' : 'not captured';
   return `${what}, latch ${adapter.latch}, lock ${adapter.lock}, pins ${triple(depth_m, 1, 1000)} mm in`;
 }
@@ -44,10 +44,11 @@ function adapter_text(sample: Sample): string {
 function servo_text(sample: Sample): string {
   const { servo } = sample.facts;
   if (!servo?.target) return '';
-  const { error_m, error_deg } = servo;
-  const known = error_m && error_deg;
-  const left = known ? `, ${length_text(length_of(error_m))} and ${length_of(error_deg).toFixed(2)} deg to go` : '';
-  const swing = servo.swing_m > 0 ? `, the target swings by ${length_text(servo.swing_m)}` : '';
+  const error_m = values(sample, 'servo.error_m');
+  const error_deg = values(sample, 'servo.error_deg');
+  const left = is_known(error_m) ? `, ${length_text(length_of(error_m))} and ${length_of(error_deg).toFixed(2)} deg to go` : '';
+  const swing_m = value(sample, 'servo.swing_m');
+  const swing = swing_m > 0 ? `, the target swings by ${length_text(swing_m)}` : '';
   const why = servo.reason ? `, ${servo.reason}` : '';
   return `to the ${servo.target}: ${servo.phase.replaceAll('_', ' ')}${left}${swing}${why}`;
 }
