@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "firmware_like/math/trig.hpp"
+#include "tests/rounds.hpp"
 #include "tests/serial/push_run.hpp"
 
 namespace liana::test {
@@ -18,7 +19,7 @@ using serial::PushLaw;
 using serial::PushPhase;
 
 constexpr std::uint64_t kFirstSeed = 101;
-constexpr std::uint64_t kSeeds = 24;
+constexpr std::uint64_t kSeeds = rounds(std::uint64_t{24});
 constexpr int kImpedanceSeeds = 8;
 
 // One row a seed, as docs/force-control.md sums them up.
