@@ -75,8 +75,8 @@ class DevicesTest(SystemTest):
         return self.client.until(lambda state: name in [each["name"] for each in state["devices"]])
 
     def patiently(self, wanted, limit_s=60.0):
-        """Goes on until wanted(state), a state in at least 20 ms: the driver's time is the wall's, and where the arm's is a
-        hundred times as fast, no sample is young enough on a busy machine."""
+        """Goes on until wanted(state), a state in at least 20 ms: the driver's time is the wall's, and where the arm's is
+        a hundred times as fast, no sample is young enough on a busy machine."""
         return self.client.until(lambda state: time.sleep(0.02) or wanted(state), limit_s)
 
     def steer(self, device, seconds, deadman=True, speed_m_s=0.02):
