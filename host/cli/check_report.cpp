@@ -131,12 +131,13 @@ std::string margins_text(const Json& margins) {
   return text.empty() ? "without margins" : "leaves " + text;
 }
 
-// Null where the scene has no bodies, the arm is a serial one, or it never ran.
-std::string clearance_text(const Json& least_m, double arm_s, bool is_serial) {
-  if (least_m.is_null() && arm_s <= 0.0) return "";
-  if (is_serial) return "clearance: a serial arm is not checked against the scene\n";
-  if (least_m.is_null()) return "clearance: nothing in the scene\n";
-  return line("least clearance %.1f mm\n", 1e3 * least_m.get<double>());
+// What the bench measured; of a serial arm, whose bench knows no bodies, what verification claimed. Null where the scene
+// has none, or the arm never ran.
+std::string clearance_text(const Json& report, double arm_s, bool is_serial) {
+  const Json& least_m = is_serial ? report["margins"]["clearance_m"] : report["min_clearance_m"];
+  if (least_m.is_null()) return arm_s > 0.0 ? "clearance: nothing in the scene\n" : "";
+  return line(is_serial ? "least clearance claimed %.1f mm\n" : "least clearance %.1f mm\n",
+              1e3 * least_m.get<double>());
 }
 
 std::string step_text(const Json& step) {
@@ -189,7 +190,7 @@ std::string check_text(const Json& report, bool is_serial) {
   }
   for (const Json& step : report["steps"]) text += step_text(step);
   for (const Json& refusal : report["refusals"]) text += refusal_text(refusal);
-  text += clearance_text(report["min_clearance_m"], arm_s, is_serial);
+  text += clearance_text(report, arm_s, is_serial);
   text +=
       line("%.0f commands", report["commands"].get<double>()) + line(", %.0f refused", report["refused"].get<double>());
   const Json& times = report["verify_us"];

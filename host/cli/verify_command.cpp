@@ -1,13 +1,18 @@
 #include <cmath>
 #include <cstdio>
+#include <optional>
+#include <string>
 
 #include "firmware_like/math/trig.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
 #include "host/json/json.hpp"
+#include "host/report/line.hpp"
+#include "host/simulate/serial_simulation.hpp"
 #include "host/simulate/simulation.hpp"
 #include "host/simulate/straight_way.hpp"
 #include "host/system/tables.hpp"
+#include "host/verify/judge_serial.hpp"
 #include "host/verify/judge_simulated.hpp"
 #include "host/verify/refusal_table.hpp"
 
@@ -15,23 +20,37 @@ namespace liana::cli {
 namespace {
 
 constexpr double kLongest_s = 600.0;
+constexpr double kMostAngle_deg = 720.0;
+constexpr double kSerialInterval_s = 0.02;
 
 // Whatever the angles are: those beyond their limits are what verification refuses.
-cable::ThetaVector any_angles(const char* option, const std::string& text, const cable::RobotTable& table) {
-  const std::vector<double> angles_deg = parse_numbers(option, text, static_cast<std::size_t>(table.theta_count()));
-  cable::ThetaVector theta_rad{};
+template <class Joints>
+Joints any_angles(const char* option, const std::string& text, std::size_t count) {
+  const std::vector<double> angles_deg = parse_numbers(option, text, count);
+  Joints joint_rad{};
   for (std::size_t k = 0; k < angles_deg.size(); ++k) {
-    if (std::fabs(angles_deg[k]) > 360.0)
-      throw system::BadInput(std::string(option) + ": '" + text + "': allowed: angles within +-360 deg");
-    theta_rad[k] = angles_deg[k] * kDegree;
+    if (std::fabs(angles_deg[k]) > kMostAngle_deg)
+      throw system::BadInput(std::string(option) + ": '" + text + "': allowed: angles within +-720 deg");
+    joint_rad[k] = angles_deg[k] * kDegree;
   }
-  return theta_rad;
+  return joint_rad;
 }
 
-verify::Verdict verdict_of(const config::RobotConfig& robot, const config::SceneConfig& scene,
-                           const simulate::JointSequence& way) {
+template <class Joints, class Table>
+simulate::ToldRows<Joints> way_of(const VerifyOptions& options, const Table& table, std::size_t joints,
+                                  double interval_s) {
+  const double duration_s = parse_number_in("--duration", options.duration_s, interval_s, kLongest_s, "s");
+  return simulate::straight_way(table, any_angles<Joints>("--from-deg", options.from_deg, joints),
+                                any_angles<Joints>("--to-deg", options.to_deg, joints), duration_s, interval_s);
+}
+
+verify::Verdict verdict_of(const VerifyOptions& options, const config::RobotConfig& robot,
+                           const config::SceneConfig& scene) {
+  const double interval_s = robot.table.interval_ticks * robot.table.tick_s;
+  const auto thetas = static_cast<std::size_t>(robot.table.theta_count());
+  const simulate::JointSequence way = way_of<cable::ThetaVector>(options, robot.table, thetas, interval_s);
   simulate::StartState start;
-  start.theta_rad = way.theta_rad.front();
+  start.theta_rad = way.rows_rad.front();
   simulate::Simulation simulation(simulate::arm_model(robot), scene);
   const verify::MotionRules rules{
       robot.table, scene, {scene.slit, robot.table.limits.tip_speed_slit_m_s}, robot.machine, robot.module_radius_m};
@@ -39,9 +58,24 @@ verify::Verdict verdict_of(const config::RobotConfig& robot, const config::Scene
   return verify::judge_simulated(rules, way, true, simulation.run(start, way), too_near);
 }
 
+// No buses say how long a command interval is, and nothing but how finely the motion is looked at hangs on it.
+verify::Verdict verdict_of(const VerifyOptions& options, const config::SerialRobotConfig& robot,
+                           const config::SceneConfig& scene) {
+  const auto way = way_of<serial::JointVector>(options, robot.table, robot.table.joints(), kSerialInterval_s);
+  simulate::SerialSimulation simulation(simulate::serial_model(robot), scene);
+  verify::TooNear too_near;
+  verify::SimulationVerdict verdict;
+  verdict.margins = verify::margins_unknown();
+  verify::judge_serial(robot.table, simulation, way, simulation.run(way.rows_rad.front(), way), too_near, verdict);
+  return verdict;
+}
+
+// Null where nobody looked at it.
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
 // How near a body was; null where the scene has none.
 Json clearance_of(const verify::Verdict& verdict) {
-  return verdict.first.body.empty() ? Json() : Json(verdict.margins.clearance_m);
+  return verdict.first.body.empty() ? Json() : number_or_null(verdict.margins.clearance_m);
 }
 
 Json json_of(const verify::Verdict& verdict) {
@@ -52,10 +86,10 @@ Json json_of(const verify::Verdict& verdict) {
               {"inside", verdict.margins.clearance_m < 0.0},
               {"margins",
                {{"clearance_m", clearance_of(verdict)},
-                {"joint_deg", verdict.margins.joint_deg},
-                {"rate_deg_s", verdict.margins.rate_deg_s},
-                {"tension_N", verdict.margins.tension_N},
-                {"time_us", verdict.margins.time_us}}},
+                {"joint_deg", number_or_null(verdict.margins.joint_deg)},
+                {"rate_deg_s", number_or_null(verdict.margins.rate_deg_s)},
+                {"tension_N", number_or_null(verdict.margins.tension_N)},
+                {"time_us", number_or_null(verdict.margins.time_us)}}},
               {"first", {{"body", verdict.first.body}, {"time_s", verdict.first.time_s}}},
               {"remedy", nullptr}};
   if (refused) {
@@ -66,6 +100,14 @@ Json json_of(const verify::Verdict& verdict) {
   return out;
 }
 
+// What is left of a limit.
+struct Left {
+  const char* what;
+  double value;
+  int digits;
+  const char* unit;
+};
+
 void print_summary(const verify::Verdict& verdict) {
   if (verdict.passed()) {
     std::printf("accepted%s\n", verdict.slowly ? ", to be carried out slowly" : "");
@@ -74,10 +116,18 @@ void print_summary(const verify::Verdict& verdict) {
     std::printf("refused: %d %s: %s; %s\n", static_cast<int>(verdict.code), row.name, verdict.text.c_str(), row.remedy);
   }
   const verify::Margins& left = verdict.margins;
-  std::printf("left: ");
-  if (!verdict.first.body.empty()) std::printf("clearance %.1f mm, ", 1000.0 * left.clearance_m);
-  std::printf("angle %.3f deg, rate %.3f deg/s, tension %.1f N, time of a tick %.0f us\n", left.joint_deg,
-              left.rate_deg_s, left.tension_N, left.time_us);
+  const double clearance_mm = verdict.first.body.empty() ? std::nan("") : 1000.0 * left.clearance_m;
+  const Left shown[] = {{"clearance", clearance_mm, 1, "mm"},
+                        {"angle", left.joint_deg, 3, "deg"},
+                        {"rate", left.rate_deg_s, 3, "deg/s"},
+                        {"tension", left.tension_N, 1, "N"},
+                        {"time of a tick", left.time_us, 0, "us"}};
+  std::string text;
+  for (const Left& each : shown) {
+    if (!std::isfinite(each.value)) continue;
+    text += (text.empty() ? "" : ", ") + report::line("%s %.*f %s", each.what, each.digits, each.value, each.unit);
+  }
+  std::printf("left: %s\n", text.c_str());
   if (left.clearance_m < 0.0)
     std::printf("inside: the arm is in a body on this way; only motion that leads out is let through\n");
   if (!verdict.first.body.empty())
@@ -87,19 +137,11 @@ void print_summary(const verify::Verdict& verdict) {
 }  // namespace
 
 int verify_command(const VerifyOptions& options) {
-  if (system::serial_robot_for_kinematics(options.robot))
-    throw system::BadInput(
-        "--robot: '" + options.robot +
-        "': allowed: a cable arm; serial arms have no simulation with a scene yet: look with liana check "
-        "of a mission");
-  const config::RobotConfig robot = system::robot_for_kinematics(options.robot);
   const config::SceneConfig scene = system::scene_of(options.scene);
-  const double interval_s = robot.table.interval_ticks * robot.table.tick_s;
-  const double duration_s = parse_number_in("--duration", options.duration_s, interval_s, kLongest_s, "s");
-  const simulate::JointSequence way =
-      simulate::straight_way(robot.table, any_angles("--from-deg", options.from_deg, robot.table),
-                             any_angles("--to-deg", options.to_deg, robot.table), duration_s, interval_s);
-  const verify::Verdict verdict = verdict_of(robot, scene, way);
+  const std::optional<config::SerialRobotConfig> serial = system::serial_robot_for_kinematics(options.robot);
+  const verify::Verdict verdict = serial
+                                      ? verdict_of(options, *serial, scene)
+                                      : verdict_of(options, system::robot_for_kinematics(options.robot), scene);
   if (options.json) {
     std::puts(json_of(verdict).dump().c_str());
   } else {

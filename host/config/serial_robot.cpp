@@ -136,11 +136,12 @@ void read_poses(const Field& field, SerialRobotConfig& out) {
 // The robot without what the buses decide (tick, T_c), and without its base.
 SerialRobotConfig read_arm_alone(const Field& table) {
   check_kind(table, "serial");
-  table.only({"format", "kind", "name", "joints", "mass", "friction", "drives", "limits", "named_poses_deg",
+  table.only({"format", "kind", "name", "joints", "link_radius_m", "mass", "friction", "drives", "limits", "named_poses_deg",
               "start_pose", "base", "force_control"});
   SerialRobotConfig out;
   out.name = table.at("name").name(40);
   read_joints(table.at("joints"), out);
+  out.link_radius_m = table.at("link_radius_m").number({0.001, 2});
   out.masses = read_masses(table, out.table);
   check_friction(table.at("friction"));
   read_joint_drives(table.at("drives"), out);
@@ -159,7 +160,7 @@ LockedBase read_base(const Field& field) {
   const SerialRobotConfig carrier = read_arm_alone(robot);
   if (carrier.stiffness_Nm_rad.empty())
     robot.at("joints").refuse("stiffness_Nm_per_rad at every joint", "say how its locked joints give way");
-  LockedBase base{carrier.name, carrier.table, {}, {}, {}};
+  LockedBase base{carrier.name, carrier.table, {}, {}, carrier.link_radius_m, {}};
   std::vector<std::string> names;
   for (const auto& [name, joint_deg] : carrier.named_poses_deg) names.push_back(name);
   const std::vector<double>& joint_deg = carrier.named_poses_deg.at(field.at("pose").choice(names));

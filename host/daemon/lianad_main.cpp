@@ -170,7 +170,7 @@ int serve_serial_arm(const Setup& setup) {
   refuse("--fixtures", options.fixtures, "no hand steers a serial arm yet");
   const liana::config::SerialRobotConfig robot = liana::config::load_serial_robot(options.robot, setup.buses);
   const auto link = std::make_unique<liana::control::ArmLink<serial::SerialArm>>(robot.table);
-  liana::daemon::SerialDesk desk(robot, setup.mode, *link);
+  liana::daemon::SerialDesk desk(robot, setup.scene, setup.mode, *link);
   return serve(setup, robot, *link, desk);
 }
 

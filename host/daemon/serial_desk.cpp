@@ -36,10 +36,11 @@ std::string why_not(const serial::RobotTable& table, const serial::Inputs& input
 
 }  // namespace
 
-SerialDesk::SerialDesk(const config::SerialRobotConfig& robot, timing::TimeMode time_mode,
-                       control::ArmLink<serial::SerialArm>& link)
+SerialDesk::SerialDesk(const config::SerialRobotConfig& robot, const config::SceneConfig& scene,
+                       timing::TimeMode time_mode, control::ArmLink<serial::SerialArm>& link)
     : ArmDesk(robot.table, arbiter::SpeedZone{}, time_mode, link,
-              std::make_unique<verify::SimulationEnd<serial::SerialArm>>(robot.table), taken(time_mode)),
+              std::make_unique<verify::SimulationEnd<serial::SerialArm>>(simulate::serial_model(robot), scene),
+              taken(time_mode)),
       robot_(robot) {
   handlers_["push"] = [this](const MotionRequest& r) { arbiter_.push(outputs(), push_of(robot_, r.fields)); };
   handlers_["payload"] = [this](const MotionRequest& r) { arbiter_.carry(payload_of(r.fields)); };

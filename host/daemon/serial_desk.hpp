@@ -9,7 +9,7 @@ namespace liana::daemon {
 
 class SerialDesk final : public ArmDesk<serial::SerialArm, arbiter::SerialArbiter> {
  public:
-  SerialDesk(const config::SerialRobotConfig& robot, timing::TimeMode time_mode,
+  SerialDesk(const config::SerialRobotConfig& robot, const config::SceneConfig& scene, timing::TimeMode time_mode,
              control::ArmLink<serial::SerialArm>& link);
 
   void watch(bool booted) override;

@@ -4,7 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "host/simulate/chain.hpp"
+#include "host/clearance/along_motion.hpp"
+#include "host/clearance/clearance.hpp"
 #include "host/simulate/motion.hpp"
 
 namespace liana::simulate {
@@ -15,9 +16,10 @@ constexpr double kEnoughSelf_m = 0.05;  // distances of the arm from itself beyo
 // The arm's axis at every pose of a way, and how far the arm has gone since the first.
 class Way {
  public:
-  void clear();
-  // The next pose, reached from the one before it with angles that run evenly.
-  void add(const ArmModel& model, const Chain& chain, const ThetaVector& theta_rad);
+  // A new way of an arm of this length.
+  void begin(double length_m);
+  // The next pose, reached from the one before it with angles that run evenly and turn by `turned_rad` together.
+  void add(clearance::AxisPoints axis_m, double turned_rad);
 
   std::size_t size() const { return gone_m_.size(); }
   std::span<const Vec3> axis(std::size_t pose) const { return {&points_[pose * points_per_pose_], points_per_pose_}; }
@@ -25,12 +27,10 @@ class Way {
   std::span<const double> gone_m() const { return gone_m_; }
 
  private:
-  double turned_rad(const ArmModel& model, const ThetaVector& theta_rad) const;
-
+  double length_m_ = 0.0;
   std::size_t points_per_pose_ = 0;
   std::vector<Vec3> points_;
   std::vector<double> gone_m_;
-  ThetaVector theta_rad_{};
 };
 
 // The scene's bodies, and where in the arm's base their drawing stands.
@@ -39,12 +39,17 @@ struct StandingScene {
   Pose drawing_in_base{};
 };
 
-// Distances beyond `enough_m` need not be told apart. About 13,000 instructions a pose that is measured: two poses
-// where the arm stays far away, at most all of them. `step_s` is from pose to pose.
-Nearest least_to_scene(const ArmModel& model, const StandingScene& standing, const Way& way, double enough_m,
-                       double step_s);
-Nearest least_to_itself(const ArmModel& model, const Way& way, double step_s);
-// At one pose.
-double to_scene_m(const ArmModel& model, const StandingScene& standing, const Way& way, std::size_t pose);
+// Distances of an arm of this radius to the scene; those beyond `enough_m` need not be told apart. About 13,000
+// instructions a pose that is measured: two poses where the arm stays far away, at most all of them. `step_s` is from
+// pose to pose.
+void measure_to_scene(double radius_m, const StandingScene& standing, const Way& way, double enough_m, double step_s,
+                      Distances& out);
+
+// Of an arm from itself; `look(pose)` finds the least at one pose (clearance::SelfClearance).
+template <class Look>
+Nearest least_to_itself(const Way& way, double step_s, Look look) {
+  const auto along = clearance::least_along({way.gone_m(), 2.0, kEnoughSelf_m, kUnseen_m}, look);
+  return {along.at_least_m, along.nearest.link, along.nearest.other, along.pose * step_s};
+}
 
 }  // namespace liana::simulate

@@ -15,12 +15,14 @@ struct StartState {
   Pose drawing_in_base{};    // where the scene stands: of the frame that its table is drawn in
 };
 
-// What the drives are told, one row of angles every `interval_s` (T_c): the first one when the sequence begins, the
-// last one when the stop after the command is over. Two rows at least.
-struct JointSequence {
+// What the drives are told, one row of angles [rad] every `interval_s` (T_c): the first one when the sequence begins,
+// the last one when the stop after the command is over. Two rows at least.
+template <class Joints>
+struct ToldRows {
   double interval_s = 0.0;
-  std::vector<ThetaVector> theta_rad;
+  std::vector<Joints> rows_rad;
 };
+using JointSequence = ToldRows<ThetaVector>;
 
 // The arm at one moment.
 struct Moment {
@@ -41,6 +43,13 @@ struct Nearest {
   double time_s = 0.0;
 };
 
+// How near the arm comes to bodies and to itself.
+struct Distances {
+  Nearest scene;  // to the scene, body included
+  double scene_at_start_m = 0.0, scene_at_end_m = 0.0;
+  Nearest self;  // between links that no joint connects
+};
+
 // The whole way: T_d apart, the sequence and what the arm swings after it.
 struct Motion {
   bool solved = false;  // false: the table's arm has no dynamics, and there are no moments
@@ -48,9 +57,7 @@ struct Motion {
   std::vector<Vec3> told_tip_in_base_m;  // where the tip would be at every row of the sequence if all followed at once
   ThetaVector friction_band_rad{};       // friction at either end of its band moves every angle by at most this
   CableVector least_passed_share{};      // tension at the anchor over tension at the motor, friction at its upper end
-  Nearest scene;                         // to the scene, body included
-  double scene_at_start_m = 0.0, scene_at_end_m = 0.0;
-  Nearest self;  // between links that no joint connects
+  Distances distances;
 };
 
 }  // namespace liana::simulate

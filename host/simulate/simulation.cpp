@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/clearance/self_clearance.hpp"
+
 namespace liana::simulate {
 
 namespace {
@@ -25,6 +27,28 @@ ThetaVector vector(const ThetaColumn& theta) {
 
 double largest_change(const ThetaColumn& a, const ThetaVector& b) {
   return (a - view(b, a.size())).cwiseAbs().maxCoeff();
+}
+
+double length_m(const RobotTable& table) {
+  double sum_m = 0.0;
+  for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m)
+    sum_m += table.segment[m].modules * table.segment[m].module_length_m;
+  return sum_m;
+}
+
+double largest_joint_limit_rad(const RobotTable& table) {
+  double largest_rad = 0.0;
+  for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m)
+    largest_rad = std::max(largest_rad, table.segment[m].theta_limit_rad);
+  return largest_rad;
+}
+
+// What all joints of all modules together turn by between two poses.
+double all_turns_rad(const ArmModel& model, const ThetaVector& from_rad, const ThetaVector& to_rad) {
+  double sum_rad = 0.0;
+  for (Index i = 0; i < static_cast<Index>(model.table.theta_count()); ++i)
+    sum_rad += model.table.segment[i / 2].modules * std::fabs(to_rad[i] - from_rad[i]);
+  return sum_rad;
 }
 
 double turn_between_rad(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
@@ -62,6 +86,15 @@ void Simulation::plan_tensions(const StartState* start) {
   }
 }
 
+void Simulation::add_to_way(const ThetaVector& theta_rad) {
+  std::array<Vec3, kMaxLinks + 1> axis_m;
+  const std::size_t points = static_cast<Index>(chain_.links) + 1;
+  for (Index i = 0; i < points; ++i)
+    axis_m[i] = {chain_.point_m[i].x(), chain_.point_m[i].y(), chain_.point_m[i].z()};
+  const double turned_rad = motion_.moments.empty() ? 0.0 : all_turns_rad(model_, motion_.moments.back().theta_rad, theta_rad);
+  way_.add({axis_m.data(), points}, turned_rad);
+}
+
 void Simulation::note(const Swing& swing) {
   const std::vector<Moment>& so_far = motion_.moments;
   const Eigen::Matrix3d tip_before = chain_.rotation[static_cast<Index>(chain_.links)];
@@ -70,7 +103,7 @@ void Simulation::note(const Swing& swing) {
   now.theta_rad = vector(swing.theta_rad);
   now.rate_rad_s = vector(swing.rate_rad_s);
   place(model_, now.theta_rad, chain_);
-  way_.add(model_, chain_, now.theta_rad);
+  add_to_way(now.theta_rad);
   Index link = 0;
   for (Index m = 0; m < static_cast<Index>(model_.table.segment_count); ++m) {
     link += static_cast<Index>(model_.table.segment[m].modules);
@@ -97,7 +130,7 @@ void Simulation::step(DrumLag& lag, const ThetaColumn& told_rad, Swing& swing) {
 
 void Simulation::place_told(const JointSequence& sequence) {
   motion_.told_tip_in_base_m.clear();
-  for (const ThetaVector& row : sequence.theta_rad) {
+  for (const ThetaVector& row : sequence.rows_rad) {
     place(model_, row, chain_);
     const Eigen::Vector3d& tip_m = chain_.tip_m();
     motion_.told_tip_in_base_m.push_back({tip_m.x(), tip_m.y(), tip_m.z()});
@@ -105,11 +138,11 @@ void Simulation::place_told(const JointSequence& sequence) {
 }
 
 void Simulation::measure_distances(const Pose& drawing_in_base) {
-  const StandingScene standing{scene_, drawing_in_base};
-  motion_.scene = least_to_scene(model_, standing, way_, enough_m_, step_s_);
-  motion_.self = least_to_itself(model_, way_, step_s_);
-  motion_.scene_at_start_m = to_scene_m(model_, standing, way_, 0);
-  motion_.scene_at_end_m = to_scene_m(model_, standing, way_, way_.size() - 1);
+  measure_to_scene(model_.link_radius_m, {scene_, drawing_in_base}, way_, enough_m_, step_s_, motion_.distances);
+  const std::int32_t apart = clearance::least_apart(largest_joint_limit_rad(model_.table));
+  motion_.distances.self = least_to_itself(way_, step_s_, [&](std::int32_t pose) {
+    return clearance::self_clearance(way_.axis(static_cast<std::size_t>(pose)), model_.link_radius_m, apart);
+  });
 }
 
 const Motion& Simulation::run(const StartState& start, const JointSequence& sequence) {
@@ -119,22 +152,22 @@ const Motion& Simulation::run(const StartState& start, const JointSequence& sequ
   place_told(sequence);
   motion_.friction_band_rad.fill(0.0);
   motion_.least_passed_share.fill(1.0);
-  way_.clear();
+  way_.begin(length_m(model_.table));
   motion_.solved = solve(start.theta_rad);
   if (!motion_.solved) return motion_;
   plan_tensions(&start);
 
-  const auto told = [&](Index row) { return column(sequence.theta_rad[row], thetas); };
+  const auto told = [&](Index row) { return column(sequence.rows_rad[row], thetas); };
   DrumLag lag(model_.table.servo_time_constant_s, step_s_, told(0), (told(1) - told(0)) / sequence.interval_s);
   // The arm is where it is measured: where it stands beside the drums' angles it is held by friction, and stays so.
   Swing swing{column(start.theta_rad, thetas), column(start.rate_rad_s, thetas), column(start.theta_rad, thetas)};
   note(swing);
-  for (Index row = 1; row < sequence.theta_rad.size() && motion_.solved; ++row) {
+  for (Index row = 1; row < sequence.rows_rad.size() && motion_.solved; ++row) {
     for (int i = 1; i <= kStepsPerInterval; ++i)
       step(lag, told(row - 1) + (told(row) - told(row - 1)) * (static_cast<double>(i) / kStepsPerInterval), swing);
   }
   const int after = static_cast<int>(std::ceil(kSwingOut_s / step_s_));
-  for (int i = 0; i < after && motion_.solved; ++i) step(lag, told(sequence.theta_rad.size() - 1), swing);
+  for (int i = 0; i < after && motion_.solved; ++i) step(lag, told(sequence.rows_rad.size() - 1), swing);
   measure_distances(start.drawing_in_base);
   return motion_;
 }

@@ -28,6 +28,7 @@ class Simulation {
   void plan_tensions(const StartState* start);
   void step(DrumLag& lag, const algebra::ThetaColumn& told_rad, Swing& swing);
   void note(const Swing& swing);
+  void add_to_way(const ThetaVector& theta_rad);
   void place_told(const JointSequence& sequence);
   void measure_distances(const Pose& drawing_in_base);
 

@@ -24,14 +24,15 @@ constexpr double kAtStart_deg = 1.0;  // as lua/liana/plan_step.lua
 std::vector<double> angles(const Json& list) { return list.get<std::vector<double>>(); }
 
 // The angles that a step goes to, as far as they are known; empty where they are not.
-std::vector<double> goal_of(const Json& step, const config::RobotConfig& robot) {
+template <class Robot>
+std::vector<double> goal_of(const Json& step, const Robot& robot) {
   if (step.contains("goal_deg")) return angles(step.at("goal_deg"));
   const auto pose = robot.named_poses_deg.find(step.value("goal_pose", ""));
   return pose == robot.named_poses_deg.end() ? std::vector<double>() : pose->second;
 }
 
-void check_goal(const Json& mission, std::size_t i, const config::RobotConfig& robot,
-                const config::SceneConfig& scene) {
+template <class Robot>
+void check_goal(const Json& mission, std::size_t i, const Robot& robot, const config::SceneConfig& scene) {
   const Json& step = mission.at("steps")[i];
   const std::vector<double> goal_deg = goal_of(step, robot);
   const std::string inside = goal_deg.empty() ? "" : inside_body(robot, scene, goal_deg);
@@ -105,6 +106,10 @@ void check_steps(const Json& mission, const config::RobotConfig& robot, const co
     check_goal(mission, i, robot, scene);
   }
   if (start != nullptr) check_start(mission, *start);
+}
+
+void check_steps(const Json& mission, const config::SerialRobotConfig& robot, const config::SceneConfig& scene) {
+  for (std::size_t i = 0; i < mission.at("steps").size(); ++i) check_goal(mission, i, robot, scene);
 }
 
 void check_scene_parts(const Json& mission, const config::SceneConfig& scene) {

@@ -15,6 +15,8 @@ namespace liana::system {
 // drives). Cost: about 5 ms for each pose, 0.1 s for each plan.
 void check_steps(const Json& mission, const config::RobotConfig& robot, const config::SceneConfig& scene,
                  const StartPose* start);
+// Of a serial arm: the poses that steps go to.
+void check_steps(const Json& mission, const config::SerialRobotConfig& robot, const config::SceneConfig& scene);
 
 // What a mission's conditions look at (a rod, a slit), and the fixtures that its steps name, have to be in the scene.
 // Throws BadInput naming line, step and field.

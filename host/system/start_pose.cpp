@@ -10,6 +10,7 @@
 #include "host/config/field.hpp"
 #include "host/config/robot_parts.hpp"
 #include "host/plan/check/plan_check.hpp"
+#include "host/simulate/serial_simulation.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/tables.hpp"
 
@@ -135,8 +136,24 @@ std::string inside_body(const config::RobotConfig& robot, const config::SceneCon
   return text + check.nearest;
 }
 
-void check_start_is_free(const config::RobotConfig& robot, const config::SceneConfig& scene, const StartPose& start) {
-  const std::string inside = inside_body(robot, scene, start.angles_deg);
+// Of all that is too near the nearest: a body of the scene, or the arm itself.
+std::string inside_body(const config::SerialRobotConfig& robot, const config::SceneConfig& scene,
+                        const std::vector<double>& angles_deg) {
+  serial::JointVector joint_rad{};
+  for (std::size_t i = 0; i < angles_deg.size(); ++i) joint_rad[i] = kDegree * angles_deg[i];
+  simulate::SerialSimulation simulation(simulate::serial_model(robot), scene);
+  const simulate::Distances near = simulation.run(joint_rad, {1.0, {joint_rad, joint_rad}}).distances;
+  const bool in_scene = near.scene.distance_m < near.self.distance_m;
+  const simulate::Nearest& nearest = in_scene ? near.scene : near.self;
+  if (nearest.distance_m > 0.0) return "";
+  const std::string other = in_scene ? "body " + clearance::obstacle_name(scene, nearest.other)
+                                     : simulation.contact().link_name(nearest.other);
+  char depth[32];
+  std::snprintf(depth, sizeof depth, "%.1f", -1000.0 * nearest.distance_m);
+  return simulation.contact().link_name(nearest.link) + " stands " + depth + " mm inside " + other;
+}
+
+void check_start_is_free(const std::string& inside, const config::SceneConfig& scene, const StartPose& start) {
   if (inside.empty()) return;
   throw BadInput("--scene: '" + scene.name + "': at the start pose " + start.text + " " + inside +
                  "; move the body, or give another --start-pose");

@@ -32,12 +32,14 @@ std::string bent_pose(const std::string& robot);
 Json nearest_body(const config::RobotConfig& robot, const config::SceneConfig& scene,
                   const std::vector<double>& angles_deg);
 
-// "link 3 stands 1.2 mm inside body box" where the arm at these angles [deg] is in one; empty where it is free. Cost:
-// about 5 ms.
+// "link 3 stands 1.2 mm inside body box" where the arm at these angles [deg] is in one, of a serial arm also "inside
+// link 1"; empty where it is free. Cost: about 5 ms.
 std::string inside_body(const config::RobotConfig& robot, const config::SceneConfig& scene,
                         const std::vector<double>& angles_deg);
+std::string inside_body(const config::SerialRobotConfig& robot, const config::SceneConfig& scene,
+                        const std::vector<double>& angles_deg);
 
-// Throws BadInput naming body and link when the arm would begin inside a body of the scene.
-void check_start_is_free(const config::RobotConfig& robot, const config::SceneConfig& scene, const StartPose& start);
+// Throws BadInput with what inside_body says of the start pose, where it says anything.
+void check_start_is_free(const std::string& inside, const config::SceneConfig& scene, const StartPose& start);
 
 }  // namespace liana::system

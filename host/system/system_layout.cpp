@@ -261,7 +261,8 @@ std::string check_options_of_cable_robot(const RunOptions& options, const std::s
   if (is_plan(options)) check_plan_file(options.mission, robot, plan.scene);
   const StartPose start = start_pose_of(
       robot, is_plan(options) && options.start_pose.empty() ? start_of_plan(options.mission) : options.start_pose);
-  if (options.simulated_arm) check_start_is_free(robot, plan.scene, start);
+  if (options.simulated_arm)
+    check_start_is_free(inside_body(robot, plan.scene, start.angles_deg), plan.scene, start);
   if (plan.mission.is_object()) {
     check_steps(plan.mission, robot, plan.scene, options.simulated_arm ? &start : nullptr);
     for (const std::string& text : look_at_tip_goals(plan.mission, robot, start.angles_deg)) note(text);
@@ -270,9 +271,9 @@ std::string check_options_of_cable_robot(const RunOptions& options, const std::s
 }
 
 std::string check_options_of_serial_robot(const RunOptions& options, const std::string& text,
-                                          const config::BusesConfig& buses) {
+                                          const SystemLayout& plan) {
   const config::SerialRobotConfig robot =
-      checked([&] { return config::parse_serial_robot(text, options.robot, buses); });
+      checked([&] { return config::parse_serial_robot(text, options.robot, plan.buses); });
   const auto refuse = [&](const char* option, bool given, const char* why) {
     if (given) throw BadInput(std::string(option) + ": robot " + options.robot + " has a serial arm: " + why);
   };
@@ -287,13 +288,17 @@ std::string check_options_of_serial_robot(const RunOptions& options, const std::
   refuse("--true-physics", is_unknown(options.true_physics), "its bench knows nominal only; leave it out");
   refuse("--operator", options.people.who == "human", "no hand steers it yet; leave it out");
   refuse("mission", is_plan(options), "plans are for cable arms; give a mission");
-  return start_pose_of(robot, options.start_pose).text;
+  const StartPose start = start_pose_of(robot, options.start_pose);
+  if (options.simulated_arm)
+    check_start_is_free(inside_body(robot, plan.scene, start.angles_deg), plan.scene, start);
+  return start.text;
 }
 
-void look_at_goals_of_serial_robot(const Json& mission, const RunOptions& options, const std::string& text) {
+void look_at_goals_of_serial_robot(const SystemLayout& plan, const RunOptions& options, const std::string& text) {
   const auto robot = checked([&] { return config::parse_serial_robot(text, options.robot); });
+  check_steps(plan.mission, robot, plan.scene);
   const StartPose start = start_pose_of(robot, options.start_pose);
-  for (const std::string& each : look_at_tip_goals(mission, robot, start.angles_deg)) note(each);
+  for (const std::string& each : look_at_tip_goals(plan.mission, robot, start.angles_deg)) note(each);
 }
 
 void write_tables(const SystemLayout& plan, const std::string& robot, const std::string& scene,
@@ -364,11 +369,11 @@ SystemLayout make_layout(const RunOptions& given) {
                    ", which the bench needs; add it (docs/formats.md)");
   const bool has_mission = !options.mission.empty();
   if (has_mission && !plan.is_serial) plan.mission = mission_checked_with(robot.json, options.mission);
-  options.start_pose = plan.is_serial ? check_options_of_serial_robot(options, robot.json, plan.buses)
+  options.start_pose = plan.is_serial ? check_options_of_serial_robot(options, robot.json, plan)
                                       : check_options_of_cable_robot(options, robot.json, plan);
   if (has_mission && plan.is_serial) {
     plan.mission = mission_checked_with(robot.json, options.mission);
-    look_at_goals_of_serial_robot(plan.mission, options, robot.json);
+    look_at_goals_of_serial_robot(plan, options, robot.json);
   }
   if (plan.mission.is_object()) look_at_mission(plan.mission, plan.scene);
   if (!options.fault.empty()) options.faults = fault_file(plan.mission, options.fault);

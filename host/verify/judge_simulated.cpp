@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "firmware_like/math/trig.hpp"
-#include "host/clearance/clearance.hpp"
 #include "host/fixture/forbidden.hpp"
 #include "host/verify/judge.hpp"
 #include "host/verify/tick_time.hpp"
@@ -18,7 +17,6 @@ using simulate::Moment;
 
 constexpr double kEvenRate = 1.01;     // rates of the sequence are means over an interval of what the twin did in ticks
 constexpr double kTipLead = 1.05;      // the same allowance as the execution end's
-constexpr double kGivenAway_m = 1e-3;  // what the bound between poses and the noise of a measured pose may give away
 
 std::string numbered(const char* what, Index index) { return what + std::string(" ") + std::to_string(index + 1); }
 
@@ -29,9 +27,9 @@ class MomentJudge {
       : table_(rules.table), zone_(rules.zone), verdict_(verdict), judge_(verdict) {}
 
   void told(const simulate::JointSequence& sequence) {
-    for (Index row = 0; row < sequence.theta_rad.size(); ++row) {
-      const cable::ThetaVector& now = sequence.theta_rad[row];
-      const cable::ThetaVector& before = sequence.theta_rad[row > 0 ? row - 1 : 0];
+    for (Index row = 0; row < sequence.rows_rad.size(); ++row) {
+      const cable::ThetaVector& now = sequence.rows_rad[row];
+      const cable::ThetaVector& before = sequence.rows_rad[row > 0 ? row - 1 : 0];
       for (Index k = 0; k < thetas(); ++k) {
         const double limit_rad = table_.segment[k / 2].theta_limit_rad;
         const double rate_rad_s = (now[k] - before[k]) / sequence.interval_s;
@@ -122,62 +120,6 @@ class MomentJudge {
   Judge judge_;
 };
 
-std::string millimetres(double distance_m) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f mm", 1000.0 * distance_m);
-  return text;
-}
-
-First at_scene(const config::SceneConfig& scene, const simulate::Nearest& nearest) {
-  if (nearest.link < 0) return {};
-  return {
-      clearance::obstacle_name(scene, nearest.other) + " (" + numbered("link", static_cast<Index>(nearest.link)) + ")",
-      nearest.time_s};
-}
-
-First at_itself(const simulate::Nearest& nearest) {
-  return {numbered("link", static_cast<Index>(nearest.other)) + " (" +
-              numbered("link", static_cast<Index>(nearest.link)) + ")",
-          nearest.time_s};
-}
-
-void refuse(SimulationVerdict& verdict, Refusal code, const std::string& text, const First& first) {
-  verdict.code = code;
-  verdict.text = text;
-  verdict.first = first;
-}
-
-// An arm that is too near already may go away; the way back out may need it to go along beside a body first.
-bool leads_away(const simulate::Motion& motion, const TooNear& too_near) {
-  const double start_m = motion.scene_at_start_m;
-  const std::optional<double> farthest_m = too_near.farthest_m();
-  const double end_m = farthest_m ? std::min(start_m, *farthest_m - kGivenAway_m) : start_m;
-  return motion.scene_at_end_m >= end_m && motion.scene.distance_m >= start_m - kGivenAway_m;
-}
-
-// Before anything else: a contact is what a command is stopped for.
-void judge_distances(const MotionRules& rules, const simulate::Motion& motion, TooNear& too_near,
-                     SimulationVerdict& verdict) {
-  const config::SceneMargins& levels = rules.scene.margins;
-  const double claimed_m = motion.scene.distance_m - levels.prediction_m;
-  const First first = at_scene(rules.scene, motion.scene);
-  verdict.margins.clearance_m = claimed_m - levels.refuse_m;
-  verdict.slowly = claimed_m < levels.slow_m;
-  verdict.first = first;
-  const bool stands_too_near = motion.scene_at_start_m - levels.prediction_m < levels.refuse_m;
-  stands_too_near ? too_near.stand(motion.scene_at_start_m) : too_near.forget();
-  if (!std::isfinite(motion.scene.distance_m) || (claimed_m < levels.refuse_m && !leads_away(motion, too_near))) {
-    refuse(verdict, Refusal::kSceneContact,
-           "the arm could touch " + first.body + ": " + millimetres(claimed_m) + " of the simulated " +
-               millimetres(motion.scene.distance_m) + " are certain, " + millimetres(levels.refuse_m) +
-               " have to be left; it stands " + millimetres(motion.scene_at_start_m) + " off",
-           first);
-  } else if (!(motion.self.distance_m > 0.0)) {
-    const First self = at_itself(motion.self);
-    refuse(verdict, Refusal::kSelfContact, "the arm would touch itself: " + self.body, self);
-  }
-}
-
 // When the tip passes a wall of the fixture from between them, and by how much; nothing where it does not. A tip that
 // is beyond a wall already may go back, and by what the noise of a measured pose gives away no farther; one in the room
 // behind a wall, where it came past none, is no concern of theirs.
@@ -195,8 +137,8 @@ void judge_walls(const MotionRules& rules, const config::SceneFixture& walls, co
     if (&moment == &motion.moments.front() && beyond->depth_m > 0.0) allowed_m = beyond->depth_m + kGivenAway_m;
     if (beyond->depth_m <= allowed_m) continue;
     return refuse(verdict, Refusal::kFixture,
-                  "the tip would pass the walls of fixture " + walls.name + " by " + millimetres(beyond->depth_m) +
-                      ", allowed " + millimetres(allowed_m),
+                  "the tip would pass the walls of fixture " + walls.name + " by " + in_millimetres(beyond->depth_m) +
+                      ", allowed " + in_millimetres(allowed_m),
                   {walls.name, moment.time_s});
   }
 }
@@ -211,7 +153,7 @@ SimulationVerdict judge_simulated(const MotionRules& rules, const simulate::Join
     return verdict;
   }
   verdict.margins = {0.0, 1e3, 1e3, 1e6, 0.0};
-  judge_distances(rules, motion, too_near, verdict);
+  judge_distances(rules.scene, motion.distances, plain_link_name, too_near, verdict);
   const First nearest = verdict.first;
   for (const config::SceneFixture& fixture : rules.scene.fixtures)
     if (verdict.passed()) judge_walls(rules, fixture, motion, verdict);

@@ -1,12 +1,8 @@
 // The second end's verdict: the simulated motion against the limits of robot and scene.
 #pragma once
 
-#include <algorithm>
-#include <optional>
-
 #include "host/arbiter/speed_zone.hpp"
-#include "host/simulate/motion.hpp"
-#include "host/verify/verdict.hpp"
+#include "host/verify/judge_distances.hpp"
 
 namespace liana::verify {
 
@@ -26,20 +22,6 @@ struct MotionRules {
   config::Machine machine;    // that the controller runs on
   double arm_radius_m = 0.0;  // virtual walls are for the arm's surface
   Pose drawing_in_base{};     // where the scene stands
-};
-
-// How far off the scene an arm stands that is nearer than commands may leave it. Motions may lead it away, and else to
-// no nearer than 1 mm less than the farthest it has stood off since: one after the other they bring it no closer.
-class TooNear {
- public:
-  // The next motion begins so far off.
-  void stand(double distance_m) { farthest_m_ = std::max(distance_m, farthest_m_.value_or(distance_m)); }
-  // It is far enough off, or something else than commands has moved it.
-  void forget() { farthest_m_.reset(); }
-  const std::optional<double>& farthest_m() const { return farthest_m_; }
-
- private:
-  std::optional<double> farthest_m_;
 };
 
 // `comes_to_rest`: the sequence ends with the arm told to stand. `too_near`: of all motions of this arm in turn. Cost:

@@ -13,27 +13,33 @@ constexpr double kRateFilter_s = 0.4;
 
 }  // namespace
 
-void read_sequence(const TwinImage<CableArm>& image, const Candidate<CableArm>& candidate,
-                   const Prediction<CableArm>& prediction, simulate::JointSequence& out) {
-  const cable::RobotTable& table = image.controller.table();
+template <class Arm>
+void read_sequence(const TwinImage<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction,
+                   simulate::ToldRows<arbiter::Joints<Arm>>& out) {
+  using Kind = arbiter::ArmKind<Arm>;
+  const auto& table = image.controller.table();
   const auto interval = static_cast<std::size_t>(table.interval_ticks);
   const std::size_t last = prediction.ticks.size() - 1;
   out.interval_s = static_cast<double>(interval) * table.tick_s;
-  out.theta_rad.clear();
-  out.theta_rad.push_back(image.last_outputs.theta_command_rad);
+  out.rows_rad.clear();
+  const auto& now = Kind::command_rad(image.last_outputs);
+  out.rows_rad.push_back(now);
   // Until the candidate's first tick the drives are told what was released before: straight to where that begins.
   const auto rows = (candidate.first_tick() - image.next_tick) / interval;
-  const cable::ThetaVector& now = image.last_outputs.theta_command_rad;
-  const cable::ThetaVector& first = prediction.ticks.front().theta_command_rad;
   for (std::uint64_t row = 1; row <= rows; ++row) {
     const double share = static_cast<double>(row * interval) / static_cast<double>(rows * interval + 1);
-    cable::ThetaVector between{};
-    for (std::size_t k = 0; k < between.size(); ++k) between[k] = now[k] + share * (first[k] - now[k]);
-    out.theta_rad.push_back(between);
+    out.rows_rad.push_back(arbiter::between(now, Kind::command_rad(prediction.ticks.front()), share));
   }
   for (std::size_t tick = interval - 1; tick < last + interval; tick += interval)
-    out.theta_rad.push_back(prediction.ticks[std::min(tick, last)].theta_command_rad);
+    out.rows_rad.push_back(Kind::command_rad(prediction.ticks[std::min(tick, last)]));
 }
+
+#define LIANA_READ_SEQUENCE(Arm)                                                                          \
+  template void read_sequence<Arm>(const TwinImage<Arm>&, const Candidate<Arm>&, const Prediction<Arm>&, \
+                                   simulate::ToldRows<arbiter::Joints<Arm>>&)
+LIANA_READ_SEQUENCE(cable::CableArm);
+LIANA_READ_SEQUENCE(serial::SerialArm);
+#undef LIANA_READ_SEQUENCE
 
 SimulationEnd<CableArm>::SimulationEnd(const simulate::ArmModel& arm, const MotionRules& rules)
     : rules_(rules), worker_(arm, rules.scene, kEnough_m) {}
@@ -88,6 +94,16 @@ SimulationVerdict SimulationEnd<CableArm>::verdict(double patience_s) {
   }
   verdict.sequence = number_;
   return verdict;
+}
+
+void SimulationEnd<serial::SerialArm>::begin(const TwinImage<Arm>& image, const Candidate<Arm>& candidate,
+                                             const Prediction<Arm>& prediction) {
+  verdict_ = judge_motion<Arm>(table_, candidate, prediction);
+  verdict_.margins = margins_unknown();
+  if (!verdict_.passed()) return;
+  read_sequence(image, candidate, prediction, sequence_);
+  const simulate::SerialMotion& motion = simulation_.run(image.last_outputs.joint_measured_rad, sequence_);
+  judge_serial(table_, simulation_, sequence_, motion, too_near_, verdict_);
 }
 
 }  // namespace liana::verify

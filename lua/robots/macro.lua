@@ -29,6 +29,7 @@ return {
     joint(-90, 0, 0.40), -- yaw
     joint(0, 0, 0.50), -- roll, to the tip of the end effector
   },
+  link_radius_m = 0.22, -- assumed: as the joint modules; nothing of a link is farther from the line along it
   mass = { -- assumed, 640 kg in all: the source states only the largest load (25 t)
     module_kg = 60, -- of each joint module, as a sphere
     module_radius_m = 0.22,

@@ -30,6 +30,7 @@ return {
     joint(-90, 0, 0.22), -- yaw
     joint(0, 0, 0.28), -- roll, to the tip of the end effector
   },
+  link_radius_m = 0.15, -- assumed: as the joint modules; nothing of a link is farther from the line along it
   mass = { -- assumed, 300 kg in all: the source states only the largest load (3 t)
     module_kg = 30, -- of each joint module, as a sphere
     module_radius_m = 0.15,

@@ -155,6 +155,7 @@ def micro():
             }
             for alpha, a, d in rows
         ],
+        "link_radius_m": 0.15,
         "mass": {"module_kg": 30, "module_radius_m": 0.15, "boom_kg": 25, "end_effector_kg": 40},
         "friction": {"coulomb_Nm": 8, "viscous_Nms_per_rad": 40, "rotor_inertia_kgm2": 10},
         "drives": {

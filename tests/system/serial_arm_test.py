@@ -129,6 +129,97 @@ class TorqueDrivesAreEnabledAgain(SystemTest):
             self.moves(client)
 
 
+def with_ball(center_m):
+    """The empty scene with a ball of 0.1 m in it."""
+    place = ", ".join(map(str, center_m))
+    ball = f"{{ name = 'ball', center_m = {{ {place} }}, radius_m = 0.1 }}"
+    return f"local t = require 'scenes.none'\nt.spheres = {{ {ball} }}\nreturn t\n"
+
+
+def tip_of(robot, angles_deg):
+    words = ("pose", "--robot", robot, "--theta-deg=" + ",".join(map(str, angles_deg)), "--json")
+    return [row[3] for row in json.loads(run("liana", *words).stdout)["tip_pose"]][:3]
+
+
+class BodiesInTheWayOfASerialArm(SystemTest):
+    """req:C8: both ends of verification, for motion that leads into the scene or into the arm itself."""
+
+    PREPARE_DEG = [0, 60, -30, 100, -40, 60, 0]
+
+    def scene_file(self, scene):
+        file = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())) / "scene.lua"
+        file.write_text(scene)
+        return file
+
+    def beyond(self, turn_deg):
+        """Where the tip comes with joint 1 turned from `prepare`."""
+        return tip_of("micro", [turn_deg, *self.PREPARE_DEG[1:]])
+
+    def held_by(self, client, goal_deg):
+        """The refusal that ends the way to these angles, and the state in which the arm stands then."""
+        client.call("move_jp", goal_deg=goal_deg)
+        state = client.until(lambda s: s["refusals"] and s["at_rest"], limit_s=120.0)
+        return state["verdict"], state
+
+    def test_a_motion_into_a_ball_is_held_before_it_and_leads_back(self):
+        ball_m = self.beyond(12.0)
+        scene = str(self.scene_file(with_ball(ball_m)))
+        with System(robot="micro", scene=scene, bus="embedded_micro", bench=("--start-pose", "prepare")) as system:
+            client = self.enterContext(system.client())
+            client.enable()
+            start_deg = list(client.go_on(0.1)["setpoint_js_deg"])
+            verdict, state = self.held_by(client, [24.0, *start_deg[1:]])
+            self.assertEqual((verdict["name"], state["state"]), ("scene_contact", "ENABLED"), verdict)
+            self.assertIn("ball (link 7)", verdict["text"])
+            off_m = sum((a - b) ** 2 for a, b in zip(state["measured_cp"], ball_m)) ** 0.5 - 0.1 - 0.15
+            self.assertGreater(off_m, 0.008, "what is claimed has to be true")
+            self.assertLess(off_m, 0.05, "and no motion is refused long before the ball")
+            client.call("retract")
+            client.until(lambda s: s["retract"]["phase"] in ("done", "ended"), 300)
+            self.assertEqual(client.state["retract"]["phase"], "done", client.state["retract"])
+            self.assertAlmostEqual(client.state["setpoint_js_deg"][0], start_deg[0], places=3)
+
+    def test_a_motion_that_folds_the_arm_into_itself_is_held(self):
+        with System(robot="micro", scene="none", bus="embedded_micro", bench=("--start-pose", "zero")) as system:
+            client = self.enterContext(system.client())
+            client.enable()
+            verdict, _ = self.held_by(client, [0, 0, 0, 180, 0, 0, 0])
+            self.assertEqual(verdict["name"], "self_contact")
+            self.assertIn("the arm would touch itself: link 3 (link 5)", verdict["text"])
+
+    def test_the_start_pose_and_the_pose_that_a_step_goes_to_are_looked_at_before_anything_starts(self):
+        start = tip_of("micro", [0, 0, 0, 0, 0, 0, 0])
+        for words, center_m, says in (
+            (("--start-pose", "zero"), start, ["at the start pose zero", "inside body ball"]),
+            (("--start-pose", "zero"), self.beyond(0.0), ['step 1 "prepare"', "at pose prepare", "inside body ball"]),
+        ):
+            process = start_run(self, SHORT, "--robot", "micro", "--scene", self.scene_file(with_ball(center_m)), *words)
+            out, error = process.communicate(timeout=PATIENCE_S)
+            self.assertEqual((process.returncode, out), (2, ""), error)
+            for word in says:
+                self.assertIn(word, error)
+
+    def test_verify_says_what_a_motion_would_meet_and_what_it_leaves(self):
+        scene = self.scene_file(with_ball(self.beyond(12.0)))
+        for turn_deg, code, body in ((2.0, None, "ball (link 7)"), (12.0, 208, "ball (link 7)")):
+            ends = [
+                f"--{word}-deg=" + ",".join(map(str, [angle_deg, *self.PREPARE_DEG[1:]]))
+                for word, angle_deg in (("from", 0.0), ("to", turn_deg))
+            ]
+            done = run("liana", "verify", "--robot", "micro", "--scene", scene, *ends, "--duration", "20", "--json")
+            verdict = json.loads(done.stdout)
+            self.assertEqual((verdict["error"] or {}).get("code"), code, verdict)
+            self.assertEqual(verdict["first"]["body"], body)
+            self.assertEqual((verdict["margins"]["tension_N"], verdict["margins"]["time_us"]), (None, None))
+
+    def test_the_arm_below_is_no_way_through(self):
+        ends = [f"--{word}-deg=-137,-117,-97,139,125,107,46" for word in ("from", "to")]
+        words = ("verify", "--robot", "macro_micro", "--scene", "none", *ends, "--duration", "1", "--json")
+        verdict = json.loads(run("liana", *words).stdout)
+        self.assertEqual(verdict["error"]["code"], 209, verdict)
+        self.assertIn("link 4 of macro (link 4)", verdict["error"]["text"])
+
+
 class WhatASerialArmRefuses(SystemTest):
     def test_a_push_where_the_bus_table_has_no_wrist_sensor(self):
         bus = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())) / "own.lua"

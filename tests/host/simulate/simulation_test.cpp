@@ -22,7 +22,7 @@ JointSequence way(const ThetaVector& from_rad, const ThetaVector& to_rad, double
     const double share = s * s * s * (10.0 + s * (6.0 * s - 15.0));
     ThetaVector row{};
     for (std::size_t k = 0; k < row.size(); ++k) row[k] = from_rad[k] + share * (to_rad[k] - from_rad[k]);
-    sequence.theta_rad.push_back(row);
+    sequence.rows_rad.push_back(row);
   }
   return sequence;
 }
@@ -102,12 +102,12 @@ TEST(Simulation, MovesAsTheBenchsFullDynamicsDoes) {
     const Motion& motion = simulation.run(start, told);
     ASSERT_TRUE(motion.solved);
     double worst_rad = 0.0, lag_rad = 0.0, worst_N = 0.0, change_N = 0.0;
-    for (std::size_t row = 1; row < told.theta_rad.size(); ++row) {
-      truth.interval(told.theta_rad[row - 1], told.theta_rad[row], model.table.servo_time_constant_s);
+    for (std::size_t row = 1; row < told.rows_rad.size(); ++row) {
+      truth.interval(told.rows_rad[row - 1], told.rows_rad[row], model.table.servo_time_constant_s);
       const Moment& moment = motion.moments[row * kStepsPerInterval];
       for (std::size_t k = 0; k < 10; ++k) {
         worst_rad = std::max(worst_rad, std::fabs(moment.theta_rad[k] - truth.theta_rad()[k]));
-        lag_rad = std::max(lag_rad, std::fabs(told.theta_rad[row][k] - truth.theta_rad()[k]));
+        lag_rad = std::max(lag_rad, std::fabs(told.rows_rad[row][k] - truth.theta_rad()[k]));
       }
       for (std::size_t c = 0; c < 15; ++c) {
         worst_N = std::max(worst_N, std::fabs(moment.tension_N[c] - truth.tension_N(c)));
@@ -157,14 +157,14 @@ TEST(Simulation, ASceneThatStandsBesideItsDrawingIsMetWhereItStands) {
   const JointSequence told = way(start.theta_rad, turned(start.theta_rad, 1.0, 7), 1.0);
   Simulation simulated(zhu2022_model(), there), as_drawn(zhu2022_model(), drawn), beside(zhu2022_model(), drawn);
   const Motion& expected = simulated.run(start, told);
-  const double drawn_m = as_drawn.run(start, told).scene.distance_m;
+  const double drawn_m = as_drawn.run(start, told).distances.scene.distance_m;
   start.drawing_in_base = stands;
   const Motion& motion = beside.run(start, told);
-  EXPECT_NEAR(motion.scene.distance_m, expected.scene.distance_m, 1e-9);
-  EXPECT_NEAR(motion.scene_at_start_m, expected.scene_at_start_m, 1e-9);
-  EXPECT_NEAR(motion.scene_at_end_m, expected.scene_at_end_m, 1e-9);
-  EXPECT_EQ(motion.scene.link, expected.scene.link);
-  EXPECT_GT(std::fabs(motion.scene.distance_m - drawn_m), 0.003);
+  EXPECT_NEAR(motion.distances.scene.distance_m, expected.scene.distance_m, 1e-9);
+  EXPECT_NEAR(motion.distances.scene_at_start_m, expected.scene_at_start_m, 1e-9);
+  EXPECT_NEAR(motion.distances.scene_at_end_m, expected.scene_at_end_m, 1e-9);
+  EXPECT_EQ(motion.distances.scene.link, expected.scene.link);
+  EXPECT_GT(std::fabs(motion.distances.scene.distance_m - drawn_m), 0.003);
 }
 
 TEST(Simulation, TheDrumsLagBehindARampByTheirTimeConstant) {
@@ -189,10 +189,10 @@ TEST(Simulation, StepsBetweenTwoRowsStayBetweenThem) {
   const JointSequence told = way(start.theta_rad, turned(start.theta_rad, 1.0, 7), 1.0);
   Simulation simulation(stiff, kNothing);
   const Motion& motion = simulation.run(start, told);
-  for (std::size_t row = 1; row < told.theta_rad.size(); ++row) {
+  for (std::size_t row = 1; row < told.rows_rad.size(); ++row) {
     for (std::size_t k = 0; k < 10; ++k) {
       const double middle = motion.moments[row * kStepsPerInterval - 1].theta_rad[k];
-      EXPECT_NEAR(middle, 0.5 * (told.theta_rad[row - 1][k] + told.theta_rad[row][k]), 2e-5);
+      EXPECT_NEAR(middle, 0.5 * (told.rows_rad[row - 1][k] + told.rows_rad[row][k]), 2e-5);
     }
   }
 }

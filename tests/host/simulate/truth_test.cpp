@@ -62,7 +62,7 @@ Off after_a_second(const std::vector<Seen>& seen, std::size_t begin, Simulation&
   for (std::size_t k = 0; k < zhu2022::kThetas; ++k)
     start.rate_rad_s[k] = (seen[begin].measured_rad[k] - seen[begin - 10].measured_rad[k]) / 0.2;
   JointSequence told{0.02, {}};
-  for (std::size_t i = begin; i <= begin + kAhead; ++i) told.theta_rad.push_back(seen[i].told_rad);
+  for (std::size_t i = begin; i <= begin + kAhead; ++i) told.rows_rad.push_back(seen[i].told_rad);
   const Motion& motion = simulation.run(start, told);
   const ThetaVector& simulated_rad = motion.moments[kAhead * kStepsPerInterval].theta_rad;
   const ThetaVector& truth_rad = seen[begin + kAhead].truth_rad;

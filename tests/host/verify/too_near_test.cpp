@@ -17,10 +17,10 @@ class AnArmBesideABody : public testing::Test {
   Refusal goes(double start_m, double least_m, double end_m) {
     simulate::Motion motion;
     motion.solved = true;
-    motion.scene = {least_m, 3, 0, 0.1};
-    motion.scene_at_start_m = start_m;
-    motion.scene_at_end_m = end_m;
-    motion.self.distance_m = 1.0;
+    motion.distances.scene = {least_m, 3, 0, 0.1};
+    motion.distances.scene_at_start_m = start_m;
+    motion.distances.scene_at_end_m = end_m;
+    motion.distances.self.distance_m = 1.0;
     return judge_simulated(rules_, {}, true, motion, too_near_).code;
   }
 

@@ -20,8 +20,8 @@ class ATipBetweenWalls : public testing::Test {
   SimulationVerdict goes(const std::vector<double>& off_m, double x_m = 2.0) {
     simulate::Motion motion;
     motion.solved = true;
-    motion.scene.distance_m = motion.scene_at_start_m = motion.scene_at_end_m = 1.0;
-    motion.self.distance_m = 1.0;
+    motion.distances.scene.distance_m = motion.distances.scene_at_start_m = motion.distances.scene_at_end_m = 1.0;
+    motion.distances.self.distance_m = 1.0;
     for (const double y_m : off_m) {
       simulate::Moment moment;
       moment.time_s = 0.01 * static_cast<double>(motion.moments.size());

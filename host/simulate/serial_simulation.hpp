@@ -1,0 +1,44 @@
+// The 3-D simulation end for a serial arm: where its links go when its drives are told a sequence of angles.
+#pragma once
+
+#include "host/simulate/distances.hpp"
+#include "host/simulate/serial_contact.hpp"
+
+namespace liana::simulate {
+
+// The way that a serial arm goes, a pose at every row of the sequence.
+struct SerialMotion {
+  std::vector<serial::JointVector> joint_rad;
+  std::vector<Vec3> tip_in_base_m;
+  Distances distances;
+};
+
+class SerialSimulation {
+ public:
+  // Distances to the scene beyond `enough_m` are not told apart.
+  SerialSimulation(const SerialModel& model, const config::SceneConfig& scene,
+                   double enough_m = clearance::kNoObstacle_m);
+
+  // The arm begins at the measured angles `start_rad`; joints follow what their drives are told to the first order, and
+  // stay as far beside it as they are at the start. Joints and gears are rigid, the base stands still. The result is
+  // valid until the next run. About 3,000 instructions a row, and the distances.
+  const SerialMotion& run(const serial::JointVector& start_rad, const ToldRows<serial::JointVector>& told);
+
+  const config::SceneConfig& scene() const { return scene_; }
+  const SerialContact& contact() const { return contact_; }
+
+ private:
+  void follow(const serial::JointVector& start_rad, const ToldRows<serial::JointVector>& told);
+  void measure_distances(double interval_s);
+
+  SerialModel model_;
+  config::SceneConfig scene_;
+  double enough_m_;
+  SerialContact contact_;
+  double length_m_;
+  std::vector<SerialAxis> axes_;
+  Way way_;
+  SerialMotion motion_;
+};
+
+}  // namespace liana::simulate

@@ -1,0 +1,69 @@
+#include "host/verify/judge_distances.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "host/clearance/clearance.hpp"
+
+namespace liana::verify {
+
+namespace {
+
+First at_scene(const config::SceneConfig& scene, const simulate::Nearest& nearest, const LinkName& link_name) {
+  if (nearest.link < 0) return {};
+  return {clearance::obstacle_name(scene, nearest.other) + " (" + link_name(nearest.link) + ")", nearest.time_s};
+}
+
+First at_itself(const simulate::Nearest& nearest, const LinkName& link_name) {
+  return {link_name(nearest.other) + " (" + link_name(nearest.link) + ")", nearest.time_s};
+}
+
+// An arm that is too near already may go away; the way back out may need it to go along beside a body first.
+bool leads_away(const simulate::Distances& distances, const TooNear& too_near) {
+  const double start_m = distances.scene_at_start_m;
+  const std::optional<double> farthest_m = too_near.farthest_m();
+  const double end_m = farthest_m ? std::min(start_m, *farthest_m - kGivenAway_m) : start_m;
+  return distances.scene_at_end_m >= end_m && distances.scene.distance_m >= start_m - kGivenAway_m;
+}
+
+}  // namespace
+
+std::string in_millimetres(double distance_m) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f mm", 1000.0 * distance_m);
+  return text;
+}
+
+std::string plain_link_name(std::int32_t link) { return "link " + std::to_string(link + 1); }
+
+void refuse(SimulationVerdict& verdict, Refusal code, const std::string& text, const First& first) {
+  verdict.code = code;
+  verdict.text = text;
+  verdict.first = first;
+}
+
+// Before anything else: a contact is what a command is stopped for.
+void judge_distances(const config::SceneConfig& scene, const simulate::Distances& distances, const LinkName& link_name,
+                     TooNear& too_near, SimulationVerdict& verdict) {
+  const config::SceneMargins& levels = scene.margins;
+  const double least_m = distances.scene.distance_m, start_m = distances.scene_at_start_m;
+  const double claimed_m = least_m - levels.prediction_m;
+  const First first = at_scene(scene, distances.scene, link_name);
+  verdict.margins.clearance_m = claimed_m - levels.refuse_m;
+  verdict.slowly = claimed_m < levels.slow_m;
+  verdict.first = first;
+  const bool stands_too_near = start_m - levels.prediction_m < levels.refuse_m;
+  stands_too_near ? too_near.stand(start_m) : too_near.forget();
+  if (!std::isfinite(least_m) || (claimed_m < levels.refuse_m && !leads_away(distances, too_near))) {
+    refuse(verdict, Refusal::kSceneContact,
+           "the arm could touch " + first.body + ": " + in_millimetres(claimed_m) + " of the simulated " +
+               in_millimetres(least_m) + " are certain, " + in_millimetres(levels.refuse_m) +
+               " have to be left; it stands " + in_millimetres(start_m) + " off",
+           first);
+  } else if (!(distances.self.distance_m > 0.0)) {
+    const First self = at_itself(distances.self, link_name);
+    refuse(verdict, Refusal::kSelfContact, "the arm would touch itself: " + self.body, self);
+  }
+}
+
+}  // namespace liana::verify

@@ -1,0 +1,47 @@
+// The second end's first question, for every kind of arm: does the simulated motion keep off the scene and off itself.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "host/simulate/motion.hpp"
+#include "host/verify/verdict.hpp"
+
+namespace liana::verify {
+
+// What the bound between poses and the noise of a measured pose may give away.
+constexpr double kGivenAway_m = 1e-3;
+
+// How far off the scene an arm stands that is nearer than commands may leave it. Motions may lead it away, and else to
+// no nearer than 1 mm less than the farthest it has stood off since: one after the other they bring it no closer.
+class TooNear {
+ public:
+  // The next motion begins so far off.
+  void stand(double distance_m) { farthest_m_ = std::max(distance_m, farthest_m_.value_or(distance_m)); }
+  // It is far enough off, or something else than commands has moved it.
+  void forget() { farthest_m_.reset(); }
+  const std::optional<double>& farthest_m() const { return farthest_m_; }
+
+ private:
+  std::optional<double> farthest_m_;
+};
+
+// What people call link 0, 1, ...
+using LinkName = std::function<std::string(std::int32_t)>;
+
+// "link 3" for 2.
+std::string plain_link_name(std::int32_t link);
+
+// Refuses contact with the scene (208) and with itself (209); sets `slowly`, margins.clearance_m and where the arm
+// comes nearest. `too_near`: of all motions of this arm in turn.
+void judge_distances(const config::SceneConfig& scene, const simulate::Distances& distances, const LinkName& link_name,
+                     TooNear& too_near, SimulationVerdict& verdict);
+
+// Of what is refused: why, and what comes first.
+void refuse(SimulationVerdict& verdict, Refusal code, const std::string& text, const First& first);
+
+std::string in_millimetres(double distance_m);
+
+}  // namespace liana::verify

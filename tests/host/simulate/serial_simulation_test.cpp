@@ -1,0 +1,171 @@
+// Where the links of a serial arm go: by the core's kinematics, by hand, and between two rows.
+#include "host/simulate/serial_simulation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/firmware_like/micro_arm.hpp"
+
+namespace liana::simulate {
+namespace {
+
+using serial::JointVector;
+using serial::micro::Random;
+using Rows = ToldRows<JointVector>;
+
+constexpr double kRadius_m = 0.15;
+
+SerialModel micro_model() { return {serial::micro::table(), kRadius_m, {}, {}, ""}; }
+
+JointVector joints_deg(const serial::micro::Degrees& joint_deg) { return serial::micro::radians(joint_deg); }
+
+config::SceneConfig scene_with_ball(const Vec3& center_m, double radius_m) {
+  config::SceneConfig scene;
+  scene.spheres.push_back({"ball", center_m, radius_m});
+  return scene;
+}
+
+// The arm standing at one pose.
+Distances standing(const SerialModel& model, const config::SceneConfig& scene, const JointVector& joint_rad) {
+  return SerialSimulation(model, scene).run(joint_rad, {0.02, {joint_rad, joint_rad}}).distances;
+}
+
+// req:C8
+TEST(SerialAxis, EndsWhereTheCoresOwnKinematicsHasJointsAndTip) {
+  Random random(31);
+  for (const serial::RobotTable& table : {serial::micro::table(), serial::micro::six_joint_table()}) {
+    for (int i = 0; i < 200; ++i) {
+      const JointVector joint_rad = serial::micro::random_joints(table, random);
+      const SerialAxis axis = serial_axis(table, joint_rad);
+      const serial::ArmKinematics core = serial::forward_kinematics(table, joint_rad);
+      ASSERT_EQ(axis.count, 2 * table.joints() + 1);
+      for (std::size_t joint = 0; joint <= table.joints(); ++joint)
+        ASSERT_LT(norm(subtract(axis.point_m[2 * joint], core.point_in_base[joint])), 1e-12);
+      ASSERT_LT(norm(subtract(axis.tip_m(), core.tip_in_base.position_m)), 1e-12);
+    }
+  }
+}
+
+TEST(SerialAxis, IsAsLongAsAllPiecesTogether) {
+  EXPECT_NEAR(axis_length_m(serial::micro::table()), 2 * 2.10 + 2 * 0.28 + 2 * 0.22 + 2 * 0.20, 1e-12);
+}
+
+TEST(SerialSimulation, JointsFollowARampByTheDrivesLagAndStayAsFarBesideItAsTheyWere) {
+  const SerialModel model = micro_model();
+  Rows told{0.02, {}};
+  JointVector at = joints_deg(serial::micro::kBent_deg);
+  const double rate_rad_s = 0.05, beside_rad = 0.003;
+  for (int row = 0; row < 50; ++row) {
+    told.rows_rad.push_back(at);
+    at[3] += rate_rad_s * 0.02;
+  }
+  JointVector start = told.rows_rad.front();
+  start[3] += beside_rad - rate_rad_s * model.table.servo_time_constant_s;
+  SerialSimulation simulation(model, {});
+  const SerialMotion& motion = simulation.run(start, told);
+  const double expected_rad =
+      told.rows_rad.back()[3] + beside_rad - rate_rad_s * model.table.servo_time_constant_s;
+  EXPECT_NEAR(motion.joint_rad.back()[3], expected_rad, 1e-12);
+  EXPECT_EQ(motion.joint_rad.back()[2], start[2]);
+}
+
+TEST(SerialSimulation, OnceTheDrivesAreToldToStandTheJointsComeUp) {
+  Rows told{0.02, std::vector<JointVector>(40, joints_deg(serial::micro::kBent_deg))};
+  told.rows_rad.front()[0] -= 0.01;
+  SerialSimulation simulation(micro_model(), {});
+  JointVector start = told.rows_rad.front();
+  start[0] -= 0.01 / 0.02 * 0.03;  // as far behind as drives that have followed so fast for long
+  const SerialMotion& motion = simulation.run(start, told);
+  EXPECT_NEAR(motion.joint_rad.back()[0], told.rows_rad.back()[0], 1e-9);
+}
+
+// The stretched arm lies in a plane; its tip is known by hand.
+TEST(SerialSimulation, ABallBesideTheTipIsAsFarAsByHand) {
+  const JointVector stretched = joints_deg({});
+  const Vec3 tip_m = serial_axis(serial::micro::table(), stretched).tip_m();
+  const Distances near = standing(micro_model(), scene_with_ball(add(tip_m, {0.5, 0.0, 0.0}), 0.1), stretched);
+  EXPECT_NEAR(near.scene.distance_m, 0.5 - 0.1 - kRadius_m, 1e-9);
+  EXPECT_EQ(near.scene.link, 6) << "links are numbered as joints, not as pieces";
+  EXPECT_EQ(near.scene_at_start_m, near.scene_at_end_m);
+}
+
+TEST(SerialSimulation, ABallThatIsOnlyNearInTheMiddleOfAMotionIsSeen) {
+  const SerialModel model = micro_model();
+  JointVector at = joints_deg(serial::micro::kBent_deg), middle = at;
+  middle[0] += 0.02;
+  const Vec3 there_m = serial_axis(model.table, middle).tip_m();
+  Rows told{0.02, {}};
+  for (int row = 0; row <= 40; ++row, at[0] += 0.001) told.rows_rad.push_back(at);
+  SerialSimulation simulation(model, scene_with_ball(there_m, 0.001));
+  const Distances& near = simulation.run(told.rows_rad.front(), told).distances;
+  EXPECT_LT(near.scene.distance_m, 0.0);
+  EXPECT_NEAR(near.scene.time_s, 0.4, 0.2);
+}
+
+TEST(SerialSimulation, APlateThinnerThanTheWayFromRowToRowIsSeen) {
+  const SerialModel model = {serial::micro::table(), 0.001, {}, {}, ""};
+  const JointVector from = joints_deg(serial::micro::kBent_deg);
+  JointVector to = from, middle = from;
+  to[0] += 0.2;
+  middle[0] += 0.1;
+  const Vec3 there_m = serial_axis(model.table, middle).tip_m();
+  SerialSimulation simulation(model, scene_with_ball(there_m, 0.0005));
+  const Distances near = simulation.run(from, {0.02, {from, to, to}}).distances;
+  EXPECT_GT(near.scene_at_start_m, 0.1);
+  EXPECT_LE(near.scene.distance_m, 0.0) << "no row is within 0.1 m of it";
+}
+
+TEST(SerialContact, AnArmThatFoldsItsBoomsAndWristBackTouchesItsFirstLink) {
+  const SerialModel model = micro_model();
+  EXPECT_GT(standing(model, {}, joints_deg(serial::micro::kBent_deg)).self.distance_m, 0.0);
+  // Both booms of 2.1 m folded one on the other: the wrist is back at the base.
+  const Distances folded = standing(model, {}, joints_deg({0, 0, 0, 180, 0, 0, 0}));
+  EXPECT_LT(folded.self.distance_m, 0.0);
+  EXPECT_GE(folded.self.link - folded.self.other, 2);
+}
+
+TEST(SerialContact, LinksThatOneJointConnectsAreLeftToTheRanges) {
+  Random random(5);
+  const SerialModel model = micro_model();
+  for (int i = 0; i < 300; ++i) {
+    const Distances near = standing(model, {}, serial::micro::random_joints(model.table, random));
+    EXPECT_GE(near.self.link - near.self.other, 2);
+  }
+}
+
+// What this arm stands on is in its way as well: a column behind its base, which stands still.
+TEST(SerialContact, TheArmBelowIsPartOfWhatCanBeTouched) {
+  SerialModel model = micro_model();
+  model.base = {{{0.0, 0.0, -4.0}, {0.0, 0.0, 0.0}, 0.2}};
+  model.base_of_link = {3};
+  model.base_name = "macro";
+  Random random(17);
+  double least_m = clearance::kNoObstacle_m;
+  SerialSimulation simulation(model, {});
+  for (int i = 0; i < 500; ++i) {
+    const JointVector joint_rad = serial::micro::random_joints(model.table, random);
+    const Distances near = simulation.run(joint_rad, {0.02, {joint_rad, joint_rad}}).distances;
+    if (near.self.other != 7 || near.self.distance_m > least_m) continue;
+    least_m = near.self.distance_m;
+    // By hand: the nearest of all points of the link's two pieces to the column's axis.
+    const SerialAxis axis = serial_axis(model.table, joint_rad);
+    double by_hand_m = clearance::kNoObstacle_m;
+    for (std::size_t piece : {2 * near.self.link, 2 * near.self.link + 1}) {
+      for (int k = 0; k <= 1000; ++k) {
+        const Vec3 way = subtract(axis.point_m[piece + 1], axis.point_m[piece]);
+        const Vec3 p = add(axis.point_m[piece], scale(way, k / 1000.0));
+        const double beyond_m = std::max({0.0, p[2], -4.0 - p[2]});
+        by_hand_m = std::min(by_hand_m, std::hypot(p[0], p[1], beyond_m) - 0.2 - kRadius_m);
+      }
+    }
+    EXPECT_NEAR(near.self.distance_m, by_hand_m, 2e-3);
+  }
+  EXPECT_LT(least_m, 0.0) << "some of the poses have to be ones that touch it";
+  EXPECT_EQ(simulation.contact().link_name(7), "link 4 of macro");
+  EXPECT_EQ(simulation.contact().link_name(2), "link 3");
+}
+
+}  // namespace
+}  // namespace liana::simulate
