@@ -5,7 +5,7 @@
 
 namespace liana::simulate {
 
-using namespace cable;  // this room serves the cable arm only
+using namespace cable;  // what is a serial arm's says so in this room (serial_model.hpp)
 
 // Assumed: the core moves its motors after what the arm swings by, so that every mode decays like c / 2
 // (docs/verification.md).
