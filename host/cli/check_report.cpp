@@ -131,8 +131,8 @@ std::string margins_text(const Json& margins) {
   return text.empty() ? "without margins" : "leaves " + text;
 }
 
-// What the bench measured; of a serial arm, whose bench knows no bodies, what verification claimed. Null where the scene
-// has none, or the arm never ran.
+// What the bench measured; of a serial arm, whose bench knows no bodies, what verification claimed. Null where the
+// scene has none, or the arm never ran.
 std::string clearance_text(const Json& report, double arm_s, bool is_serial) {
   const Json& least_m = is_serial ? report["margins"]["clearance_m"] : report["min_clearance_m"];
   if (least_m.is_null()) return arm_s > 0.0 ? "clearance: nothing in the scene\n" : "";

@@ -13,6 +13,7 @@
 #include "host/reach/region.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/output.hpp"
+#include "host/system/start_pose.hpp"
 #include "host/system/tables.hpp"
 
 namespace liana::cli {
@@ -246,11 +247,19 @@ void print_parts(const Json& checked) {
   std::printf(checked["problems"].empty() ? "fits\n" : "does NOT fit as it is\n");
 }
 
+// A named pose in which the arm touches itself, or what it stands on, cannot be gone to.
 Json checked_serial_robot(const config::SerialRobotConfig& robot) {
+  Json problems = Json::array();
+  for (const auto& [name, angles_deg] : robot.named_poses_deg) {
+    const std::string inside = system::inside_body(robot, config::SceneConfig{}, angles_deg);
+    if (!inside.empty())
+      problems.push_back("named_poses_deg." + name + ": " + inside +
+                         ": choose other angles, or a thinner link_radius_m");
+  }
   return {{"robot", robot.name},
           {"kind", "serial"},
           {"joints", robot.table.joint_count},
-          {"problems", Json::array()},
+          {"problems", problems},
           {"notes", Json::array()}};
 }
 

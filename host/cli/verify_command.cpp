@@ -139,9 +139,8 @@ void print_summary(const verify::Verdict& verdict) {
 int verify_command(const VerifyOptions& options) {
   const config::SceneConfig scene = system::scene_of(options.scene);
   const std::optional<config::SerialRobotConfig> serial = system::serial_robot_for_kinematics(options.robot);
-  const verify::Verdict verdict = serial
-                                      ? verdict_of(options, *serial, scene)
-                                      : verdict_of(options, system::robot_for_kinematics(options.robot), scene);
+  const verify::Verdict verdict = serial ? verdict_of(options, *serial, scene)
+                                         : verdict_of(options, system::robot_for_kinematics(options.robot), scene);
   if (options.json) {
     std::puts(json_of(verdict).dump().c_str());
   } else {

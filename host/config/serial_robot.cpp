@@ -136,8 +136,8 @@ void read_poses(const Field& field, SerialRobotConfig& out) {
 // The robot without what the buses decide (tick, T_c), and without its base.
 SerialRobotConfig read_arm_alone(const Field& table) {
   check_kind(table, "serial");
-  table.only({"format", "kind", "name", "joints", "link_radius_m", "mass", "friction", "drives", "limits", "named_poses_deg",
-              "start_pose", "base", "force_control"});
+  table.only({"format", "kind", "name", "joints", "link_radius_m", "mass", "friction", "drives", "limits",
+              "named_poses_deg", "start_pose", "base", "force_control"});
   SerialRobotConfig out;
   out.name = table.at("name").name(40);
   read_joints(table.at("joints"), out);

@@ -22,7 +22,7 @@ struct LockedBase {
   serial::JointVector joint_rad{};         // at which its joints are locked
   serial::JointVector stiffness_Nm_rad{};  // of each, about its axis
   double link_radius_m = 0.0;
-  Pose base_in_root{};                     // base of this robot in that of the one that carries, without load
+  Pose base_in_root{};  // base of this robot in that of the one that carries, without load
 };
 
 // What the core needs (table) and what only the host needs.
@@ -31,7 +31,7 @@ struct SerialRobotConfig {
   serial::RobotTable table{};  // tick and T_c included
   serial::MassTable masses{};  // without a load at the tip
   DriveIdentity identity{};
-  double link_radius_m = 0.0;  // of a capsule about every link, with all that is mounted on it
+  double link_radius_m = 0.0;            // of a capsule about every link, with all that is mounted on it
   double rated_torque_Nm = 0.0;          // 6076, at the joint
   double peak_torque_Nm = 0.0;           // that the drives can give for a while, at the joint
   std::vector<double> stiffness_Nm_rad;  // of every joint, about its axis; empty: the table does not say

@@ -1,5 +1,5 @@
-// Kinematics of the simulation for a serial arm: one row of its table after another, as matrices. It shares no code with
-// the core's, so that a mistake in one shows.
+// Kinematics of the simulation for a serial arm: one row of its table after another, as matrices. It shares no code
+// with the core's, so that a mistake in one shows.
 #pragma once
 
 #include <array>

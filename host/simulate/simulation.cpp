@@ -89,9 +89,9 @@ void Simulation::plan_tensions(const StartState* start) {
 void Simulation::add_to_way(const ThetaVector& theta_rad) {
   std::array<Vec3, kMaxLinks + 1> axis_m;
   const std::size_t points = static_cast<Index>(chain_.links) + 1;
-  for (Index i = 0; i < points; ++i)
-    axis_m[i] = {chain_.point_m[i].x(), chain_.point_m[i].y(), chain_.point_m[i].z()};
-  const double turned_rad = motion_.moments.empty() ? 0.0 : all_turns_rad(model_, motion_.moments.back().theta_rad, theta_rad);
+  for (Index i = 0; i < points; ++i) axis_m[i] = {chain_.point_m[i].x(), chain_.point_m[i].y(), chain_.point_m[i].z()};
+  const double turned_rad =
+      motion_.moments.empty() ? 0.0 : all_turns_rad(model_, motion_.moments.back().theta_rad, theta_rad);
   way_.add({axis_m.data(), points}, turned_rad);
 }
 

@@ -45,13 +45,14 @@ class Trial {
     rest_ = {ForceMoment::kStill, norm(push.force_N), std::nullopt};
     move_ = {ForceMoment::kMoving, norm(push.force_N), std::nullopt};
     bool is_sound = true;
-    while (is_sound && now_s_ < begin_s_ + kBlock_s) {
+    // A fault ends the trial, but not the push: the arm holds, feels on, and may find what pushes it.
+    while (now_s_ < begin_s_ + kBlock_s && (is_sound || (push.link == 0 && pushed_N() > 0.0))) {
       const Json state = session_.next_state(false);  // a dither may be refused where a push has loosened a cable
       now_s_ = state.at("time_s").get<double>();
-      look(state);
-      is_sound = state.at("faults").empty() && state.at("state") == "ENABLED";
-      if (!state.at("faults").empty())
+      is_sound ? look(state) : look_for_push(told(state.at("contact")), now_s_ - begin_s_);
+      if (is_sound && !state.at("faults").empty())
         all_.faults.push_back({state.at("faults")[0].at("number").get<int>(), pushed_N()});
+      is_sound = is_sound && state.at("faults").empty() && state.at("state") == "ENABLED";
       if (is_sound) act();
       session_.done(state);
     }
@@ -91,8 +92,7 @@ class Trial {
       return;
     }
     if (push_->link != 0) return;
-    note_found(told_N, passed_s, kAtRest, rest_);
-    note_found(told_N, passed_s, kOnTheMove, move_);
+    look_for_push(told_N, passed_s);
     read_at(kReadStill_s, passed_s, ForceMoment::kStill, contact);
     read_at(kReadDithered_s, passed_s, ForceMoment::kDithered, contact);
     read_at(kReadMoving_s, passed_s, ForceMoment::kMoving, contact);
@@ -103,6 +103,11 @@ class Trial {
     for (const PushTimes& times : {kAtRest, kOnTheMove})
       if (passed_s >= times.begin_s && passed_s < times.end_s + kFading_s) return false;
     return true;
+  }
+
+  void look_for_push(const std::array<std::optional<double>, 3>& told_N, double passed_s) {
+    note_found(told_N, passed_s, kAtRest, rest_);
+    note_found(told_N, passed_s, kOnTheMove, move_);
   }
 
   void note_found(const std::array<std::optional<double>, 3>& told_N, double passed_s, const PushTimes& times,

@@ -90,6 +90,12 @@ plan::PlanCheck check_of(const config::RobotConfig& robot, const config::SceneCo
   return plan::check_plan(robot, scene, {theta_rad}, plan::plain_tip(robot.table, theta_rad));
 }
 
+void refuse_inside(const std::string& inside, const config::SceneConfig& scene, const StartPose& start) {
+  if (inside.empty()) return;
+  throw BadInput("--scene: '" + scene.name + "': at the start pose " + start.text + " " + inside +
+                 "; move the body, or give another --start-pose");
+}
+
 }  // namespace
 
 StartPose start_pose_of(const config::RobotConfig& robot, const std::string& given) {
@@ -153,10 +159,13 @@ std::string inside_body(const config::SerialRobotConfig& robot, const config::Sc
   return simulation.contact().link_name(nearest.link) + " stands " + depth + " mm inside " + other;
 }
 
-void check_start_is_free(const std::string& inside, const config::SceneConfig& scene, const StartPose& start) {
-  if (inside.empty()) return;
-  throw BadInput("--scene: '" + scene.name + "': at the start pose " + start.text + " " + inside +
-                 "; move the body, or give another --start-pose");
+void check_start_is_free(const config::RobotConfig& robot, const config::SceneConfig& scene, const StartPose& start) {
+  refuse_inside(inside_body(robot, scene, start.angles_deg), scene, start);
+}
+
+void check_start_is_free(const config::SerialRobotConfig& robot, const config::SceneConfig& scene,
+                         const StartPose& start) {
+  refuse_inside(inside_body(robot, scene, start.angles_deg), scene, start);
 }
 
 }  // namespace liana::system

@@ -40,6 +40,8 @@ std::string inside_body(const config::SerialRobotConfig& robot, const config::Sc
                         const std::vector<double>& angles_deg);
 
 // Throws BadInput with what inside_body says of the start pose, where it says anything.
-void check_start_is_free(const std::string& inside, const config::SceneConfig& scene, const StartPose& start);
+void check_start_is_free(const config::RobotConfig& robot, const config::SceneConfig& scene, const StartPose& start);
+void check_start_is_free(const config::SerialRobotConfig& robot, const config::SceneConfig& scene,
+                         const StartPose& start);
 
 }  // namespace liana::system

@@ -261,8 +261,7 @@ std::string check_options_of_cable_robot(const RunOptions& options, const std::s
   if (is_plan(options)) check_plan_file(options.mission, robot, plan.scene);
   const StartPose start = start_pose_of(
       robot, is_plan(options) && options.start_pose.empty() ? start_of_plan(options.mission) : options.start_pose);
-  if (options.simulated_arm)
-    check_start_is_free(inside_body(robot, plan.scene, start.angles_deg), plan.scene, start);
+  if (options.simulated_arm) check_start_is_free(robot, plan.scene, start);
   if (plan.mission.is_object()) {
     check_steps(plan.mission, robot, plan.scene, options.simulated_arm ? &start : nullptr);
     for (const std::string& text : look_at_tip_goals(plan.mission, robot, start.angles_deg)) note(text);
@@ -289,8 +288,7 @@ std::string check_options_of_serial_robot(const RunOptions& options, const std::
   refuse("--operator", options.people.who == "human", "no hand steers it yet; leave it out");
   refuse("mission", is_plan(options), "plans are for cable arms; give a mission");
   const StartPose start = start_pose_of(robot, options.start_pose);
-  if (options.simulated_arm)
-    check_start_is_free(inside_body(robot, plan.scene, start.angles_deg), plan.scene, start);
+  if (options.simulated_arm) check_start_is_free(robot, plan.scene, start);
   return start.text;
 }
 

@@ -12,8 +12,8 @@ namespace {
 using Index = std::size_t;
 
 constexpr double kMeanRate = 1.01;   // rates of rows are means over an interval of what the twin did in ticks
-constexpr double kCatchingUp = 1.5;   // times the tip's limit
-constexpr double kMostMargin = 1e3;   // [deg, deg/s] before anything was looked at
+constexpr double kCatchingUp = 1.5;  // times the tip's limit
+constexpr double kMostMargin = 1e3;  // [deg, deg/s] before anything was looked at
 
 // Angles and rates that the drives are told.
 void judge_told(const serial::RobotTable& table, const simulate::ToldRows<serial::JointVector>& told, Judge& judge,
@@ -56,8 +56,9 @@ void judge_serial(const serial::RobotTable& table, const simulate::SerialSimulat
                   const simulate::ToldRows<serial::JointVector>& told, const simulate::SerialMotion& motion,
                   TooNear& too_near, SimulationVerdict& verdict) {
   const double clearance_unknown_m = verdict.margins.clearance_m;
-  judge_distances(simulation.scene(), motion.distances,
-                  [&](std::int32_t link) { return simulation.contact().link_name(link); }, too_near, verdict);
+  judge_distances(
+      simulation.scene(), motion.distances, [&](std::int32_t link) { return simulation.contact().link_name(link); },
+      too_near, verdict);
   if (clearance::obstacle_count(simulation.scene()) == 0) verdict.margins.clearance_m = clearance_unknown_m;
   if (!verdict.passed()) return;
   const First nearest = verdict.first;

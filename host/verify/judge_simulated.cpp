@@ -15,8 +15,8 @@ namespace {
 using Index = std::size_t;
 using simulate::Moment;
 
-constexpr double kEvenRate = 1.01;     // rates of the sequence are means over an interval of what the twin did in ticks
-constexpr double kTipLead = 1.05;      // the same allowance as the execution end's
+constexpr double kEvenRate = 1.01;  // rates of the sequence are means over an interval of what the twin did in ticks
+constexpr double kTipLead = 1.05;   // the same allowance as the execution end's
 
 std::string numbered(const char* what, Index index) { return what + std::string(" ") + std::to_string(index + 1); }
 

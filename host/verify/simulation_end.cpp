@@ -34,7 +34,7 @@ void read_sequence(const TwinImage<Arm>& image, const Candidate<Arm>& candidate,
     out.rows_rad.push_back(Kind::command_rad(prediction.ticks[std::min(tick, last)]));
 }
 
-#define LIANA_READ_SEQUENCE(Arm)                                                                          \
+#define LIANA_READ_SEQUENCE(Arm)                                                                         \
   template void read_sequence<Arm>(const TwinImage<Arm>&, const Candidate<Arm>&, const Prediction<Arm>&, \
                                    simulate::ToldRows<arbiter::Joints<Arm>>&)
 LIANA_READ_SEQUENCE(cable::CableArm);

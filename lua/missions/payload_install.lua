@@ -12,7 +12,7 @@ local step, all, any, condition = liana.step, liana.all, liana.any, liana.condit
 local at_rest, servo_done, servo_failed = liana.at_rest, liana.servo_done, liana.servo_failed
 
 -- Numbers to tune. The way in is the z of tip, payload and adapter.
-local kNearPick_deg, kNearSite_deg = 45, 15 -- of the first joint, from `install`: where joint motion ends and lines begin
+local kNearPick_deg, kNearSite_deg = 30, 10 -- of the first joint, from `install`: where joint motion ends and lines begin
 local kBeforeMechanism_m = 0.2 -- of the tip from the grapple, where the servo takes over
 local kAtGrapple_m = 0.003 -- of the tip before the grapple's face; the end effector takes what is within 20 mm
 local kRetreat_m = 0.5 -- out of the transfer mechanism

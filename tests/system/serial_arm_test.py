@@ -193,7 +193,9 @@ class BodiesInTheWayOfASerialArm(SystemTest):
             (("--start-pose", "zero"), start, ["at the start pose zero", "inside body ball"]),
             (("--start-pose", "zero"), self.beyond(0.0), ['step 1 "prepare"', "at pose prepare", "inside body ball"]),
         ):
-            process = start_run(self, SHORT, "--robot", "micro", "--scene", self.scene_file(with_ball(center_m)), *words)
+            process = start_run(
+                self, SHORT, "--robot", "micro", "--scene", self.scene_file(with_ball(center_m)), *words
+            )
             out, error = process.communicate(timeout=PATIENCE_S)
             self.assertEqual((process.returncode, out), (2, ""), error)
             for word in says:

@@ -160,6 +160,18 @@ class EveryRobot(unittest.TestCase):
     def test_a_robot_with_a_serial_arm_is_checked_for_its_buses(self):
         self.assertEqual(liana_json("robot", "check", "micro")["joints"], 7)
         self.assertEqual(liana("robot", "check", "micro", "--svg", self.folder / "none.svg")[0], 2)
+        for robot in ("micro", "macro", "macro_micro"):
+            self.assertEqual(liana_json("robot", "check", robot)["problems"], [], robot)
+
+    def test_a_named_pose_in_which_a_serial_arm_touches_itself_is_a_problem(self):
+        robot = self.folder / "folded.lua"
+        robot.write_text(
+            "local t = require 'robots.micro'\nt.name = 'folded'\nt.named_poses_deg.folded = { 0, 0, 0, 180, 0, 0, 0 }\n"
+            "return t\n"
+        )
+        code, out, error = liana("robot", "check", robot)
+        self.assertEqual(code, 1, out + error)
+        self.assertIn("problem: named_poses_deg.folded: link 5 stands ", out)
 
     def test_a_plan_is_carried_out_with_its_own_robot_and_scene_from_where_it_begins(self):
         plan = self.folder / "plan.json"

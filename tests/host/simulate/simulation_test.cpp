@@ -160,10 +160,10 @@ TEST(Simulation, ASceneThatStandsBesideItsDrawingIsMetWhereItStands) {
   const double drawn_m = as_drawn.run(start, told).distances.scene.distance_m;
   start.drawing_in_base = stands;
   const Motion& motion = beside.run(start, told);
-  EXPECT_NEAR(motion.distances.scene.distance_m, expected.scene.distance_m, 1e-9);
-  EXPECT_NEAR(motion.distances.scene_at_start_m, expected.scene_at_start_m, 1e-9);
-  EXPECT_NEAR(motion.distances.scene_at_end_m, expected.scene_at_end_m, 1e-9);
-  EXPECT_EQ(motion.distances.scene.link, expected.scene.link);
+  EXPECT_NEAR(motion.distances.scene.distance_m, expected.distances.scene.distance_m, 1e-9);
+  EXPECT_NEAR(motion.distances.scene_at_start_m, expected.distances.scene_at_start_m, 1e-9);
+  EXPECT_NEAR(motion.distances.scene_at_end_m, expected.distances.scene_at_end_m, 1e-9);
+  EXPECT_EQ(motion.distances.scene.link, expected.distances.scene.link);
   EXPECT_GT(std::fabs(motion.distances.scene.distance_m - drawn_m), 0.003);
 }
 

@@ -47,6 +47,20 @@ TEST(StartPose, InsideABodyIsRefusedWithTheBodysNameAndTheLink) {
   EXPECT_NE(refusal.find("link "), std::string::npos) << refusal;
 }
 
+TEST(StartPose, OfASerialArmInsideABodyOrItselfIsRefused) {
+  const config::SerialRobotConfig robot = *serial_robot_for_kinematics("micro");
+  config::SceneConfig scene = scene_of("none");
+  const StartPose prepare = start_pose_of(robot, "prepare");
+  EXPECT_EQ(refusal_of([&] { check_start_is_free(robot, scene, prepare); }), "accepted");
+  scene.spheres.push_back({"ball", {0.0, 0.0, 0.2}, 0.1});
+  const std::string in_ball = refusal_of([&] { check_start_is_free(robot, scene, prepare); });
+  EXPECT_NE(in_ball.find("at the start pose prepare link 1 stands 250.0 mm inside body ball"), std::string::npos)
+      << in_ball;
+  const StartPose folded = start_pose_of(robot, "0,0,0,180,0,0,0");
+  const std::string in_itself = refusal_of([&] { check_start_is_free(robot, scene_of("none"), folded); });
+  EXPECT_NE(in_itself.find("inside link "), std::string::npos) << in_itself;
+}
+
 TEST(StartPose, ABentPoseIsFoundByItsAnglesAndNotByItsName) {
   EXPECT_EQ(bent_pose(""), "fixture");
   EXPECT_EQ(bent_pose("three_segment_lab"), "fixture_a");
