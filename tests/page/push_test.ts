@@ -57,6 +57,22 @@ test('a push is told by its phase, set force, way and whether it touches; the ad
   assert.match(ended.push, /^1 ended: early capture, yielding, set/);
 });
 
+test('numbers that a run of an older version lacks are left out of the words, whether null or missing', () => {
+  const facts = { push: pressing, adapter: open, servo: servoing };
+  const named = (name: string) => Object.fromEntries(Object.entries(kNumbers).filter(([each]) => each !== name));
+  const nulls = Object.fromEntries(Object.entries(kNumbers).map(([name, numbers]) => [name, numbers.map(() => NaN)]));
+  for (const numbers of [{}, nulls]) {
+    const { push, adapter, wrist, servo } = lines(facts, numbers);
+    assert.deepEqual([push, adapter, wrist, servo], ['1 pressing, touches', '', '', 'to the adapter: approaching']);
+  }
+  for (const name of Object.keys(kNumbers)) {
+    for (const numbers of [named(name), { ...kNumbers, [name]: nulls[name] }])
+      assert.ok(!/NaN|undefined|\?/.test(Object.values(lines(facts, numbers)).join('\n')), name);
+  }
+  assert.equal(lines(facts, named('push.set_N')).push, '1 pressing, gives 20.0 N, 12.0 mm on, 0.4 mm aside, touches');
+  assert.match(lines(facts, { ...kNumbers, 'adapter.depth_m': [0.0015, NaN, 0.0021] }).adapter, /pins 1.5, \u2013, 2.1 mm in/);
+});
+
 test('the payload is in the mechanism, then on the tip, then in the adapter', () => {
   const carried = { payload: { mass_kg: 500 } };
   assert.equal(lines(bare).payload, 'in the transfer mechanism');

@@ -1,4 +1,5 @@
-// What payload, servo, push, adapter and wrist tell, in short lines; empty where the arm has no such thing.
+// What payload, servo, push, adapter and wrist tell, in short lines; empty where the arm has no such thing. Runs of older
+// versions lack some of the numbers: what is not known is left out, or a dash among others.
 import { is_known, value, values, type Sample } from '../data/sample';
 import { payload_place } from './payload_place';
 import type { Scene } from './robot';
@@ -9,28 +10,43 @@ function length_of(v: ArrayLike<number>): number {
 }
 
 function triple(v: ArrayLike<number>, digits: number, factor = 1): string {
-  return Array.from(v, (x) => (factor * x).toFixed(digits)).join(', ');
+  return Array.from(v, (x) => (Number.isFinite(x) ? (factor * x).toFixed(digits) : '\u2013')).join(', ');
+}
+
+// The parts that say something.
+function listed(...parts: (string | false | undefined)[]): string {
+  return parts.filter(Boolean).join(', ');
+}
+
+function known(x: number, text: (x: number) => string): string {
+  return Number.isFinite(x) ? text(x) : '';
+}
+
+// Length and parts of a vector.
+function vector_text(v: ArrayLike<number>, unit: string): string {
+  return known(length_of(v), (length) => `${length.toFixed(1)} ${unit} (${triple(v, 1)})`);
 }
 
 function wrist_text(sample: Sample): string {
-  const force_N = values(sample, 'push.felt.force_N');
-  const torque_Nm = values(sample, 'push.felt.torque_Nm');
-  if (!is_known(force_N)) return '';
-  const force = `${length_of(force_N).toFixed(1)} N (${triple(force_N, 1)})`;
-  const torque = `${length_of(torque_Nm).toFixed(1)} N m (${triple(torque_Nm, 1)})`;
-  return `${force}, ${torque}, ${sample.facts.push?.wrist ?? '?'}`;
+  const force = vector_text(values(sample, 'push.felt.force_N'), 'N');
+  const torque = vector_text(values(sample, 'push.felt.torque_Nm'), 'N m');
+  return force && listed(force, torque, sample.facts.push?.wrist);
 }
 
 function push_text(sample: Sample): string {
   const { push } = sample.facts;
   if (!push || push.number === 0) return '';
-  const ended = push.end === 'none' ? '' : ` ended: ${push.end.replaceAll('_', ' ')},`;
-  const law = push.law === 'force' ? '' : ` by ${push.law}`;
-  const given_N = length_of(values(sample, 'push.given.force_N')).toFixed(1);
-  const way = `${length_text(value(sample, 'push.travel_m'))} on, ${length_text(value(sample, 'push.aside_m'))} aside`;
-  const phase = push.phase === 'none' ? '' : ` ${push.phase}${law},`;
-  const force = `set ${value(sample, 'push.set_N').toFixed(1)} N, gives ${given_N} N`;
-  return `${push.number}${ended}${phase} ${force}, ${way}${push.touched ? ', touches' : ''}`;
+  const law = push.law === 'impedance' ? ' by impedance' : '';
+  const said = listed(
+    push.end !== 'none' && `ended: ${push.end.replaceAll('_', ' ')}`,
+    push.phase !== 'none' && `${push.phase}${law}`,
+    known(value(sample, 'push.set_N'), (N) => `set ${N.toFixed(1)} N`),
+    known(length_of(values(sample, 'push.given.force_N')), (N) => `gives ${N.toFixed(1)} N`),
+    known(value(sample, 'push.travel_m'), (m) => `${length_text(m)} on`),
+    known(value(sample, 'push.aside_m'), (m) => `${length_text(m)} aside`),
+    push.touched && 'touches',
+  );
+  return `${push.number} ${said}`;
 }
 
 function adapter_text(sample: Sample): string {
@@ -46,11 +62,15 @@ function servo_text(sample: Sample): string {
   if (!servo?.target) return '';
   const error_m = values(sample, 'servo.error_m');
   const error_deg = values(sample, 'servo.error_deg');
-  const left = is_known(error_m) ? `, ${length_text(length_of(error_m))} and ${length_of(error_deg).toFixed(2)} deg to go` : '';
+  const turn = known(length_of(error_deg), (deg) => ` and ${deg.toFixed(2)} deg`);
   const swing_m = value(sample, 'servo.swing_m');
-  const swing = swing_m > 0 ? `, the target swings by ${length_text(swing_m)}` : '';
-  const why = servo.reason ? `, ${servo.reason}` : '';
-  return `to the ${servo.target}: ${servo.phase.replaceAll('_', ' ')}${left}${swing}${why}`;
+  const said = listed(
+    servo.phase.replaceAll('_', ' '),
+    known(length_of(error_m), (m) => `${length_text(m)}${turn} to go`),
+    swing_m > 0 && `the target swings by ${length_text(swing_m)}`,
+    servo.reason,
+  );
+  return `to the ${servo.target}: ${said}`;
 }
 
 function payload_text({ facts }: Sample, scene: Scene): string {

@@ -56,7 +56,9 @@ export class RunPlots {
 
   private build(): void {
     const { telemetry } = this.run;
-    const groups = groups_of(this.run.head.robot, (field, index) => !!telemetry.columns.get(field)?.[index]);
+    // What never had a number has no curve: runs of older versions lack some.
+    const has = (field: string, index: number) => telemetry.columns.get(field)?.[index]?.some(Number.isFinite) ?? false;
+    const groups = groups_of(this.run.head.robot, has);
     this.shown = groups.map((group) => {
       const strip = new Strip(group.title, group.sources, chart_colours(this.theme), this.width, kStrip_px, this.go_to, group.most);
       const needle = h('div', { class: 'plot-needle' });
