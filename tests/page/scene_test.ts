@@ -5,6 +5,7 @@ import { length_text, sentence_of } from '../../host/page/src/model/sentence';
 import { scale_of, tension_colour } from '../../host/page/src/model/tension_colour';
 import { moved, rotated, turn_between } from '../../host/page/src/model/vector';
 import { FramePace, FrameTurns } from '../../host/page/src/scene/frame_pace';
+import { write_camera_frame } from '../../host/page/src/scene/tip_camera';
 import { push_apart } from '../../host/page/src/scene/push_apart';
 import { kArm, near, sample_of } from './support';
 
@@ -99,6 +100,22 @@ test('every turn of the screen is drawn, every second one for a minute after sta
   assert.ok(near(share_drawn(true, 50), 0.5, 0.02));
   share_drawn(false, 10);
   assert.equal(share_drawn(false, 10), 1);
+});
+
+test('the camera looks ahead along the x of the tip of an arm, and along z where it carries a payload', () => {
+  const angle = 0.3;
+  const [c, s] = [Math.cos(angle), Math.sin(angle)];
+  const tip = [c, s, 0, 0, -s, c, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1]; // turned about z
+  const column = (m: number[], i: number) => m.slice(4 * i, 4 * i + 3);
+  for (const [ahead, forward, up] of [['x', 0, 2], ['z', 2, 0]] as const) {
+    const camera = new Array<number>(16).fill(0);
+    write_camera_frame(tip, ahead, camera);
+    const [right, upright, back] = [0, 1, 2].map((i) => column(camera, i));
+    back.forEach((x, r) => assert.ok(near(x, -column(tip, forward)[r], 1e-12)));
+    assert.deepEqual([upright, column(camera, 3)], [column(tip, up), [1, 2, 3]]);
+    const cross = [0, 1, 2].map((r) => upright[(r + 1) % 3] * back[(r + 2) % 3] - upright[(r + 2) % 3] * back[(r + 1) % 3]);
+    cross.forEach((x, r) => assert.ok(near(x, right[r], 1e-12), 'no mirror'));
+  }
 });
 
 test('a pose moves along the axes of base or tip and turns about them', () => {

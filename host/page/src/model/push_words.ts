@@ -1,5 +1,5 @@
-// What payload, servo, push, adapter and wrist tell, in short lines; empty where the arm has no such thing. Runs of older
-// versions lack some of the numbers: what is not known is left out, or a dash among others.
+// What payload, servo, push, adapter and wrist tell, in short lines; empty where the arm has no such thing. Runs of
+// older versions lack some of the numbers: what is not known is left out, or a dash among others.
 import { is_known, value, values, type Sample } from '../data/sample';
 import { payload_place } from './payload_place';
 import type { Scene } from './robot';

@@ -1,7 +1,7 @@
 // The scene as a part of the page: canvas, tip picture, labels, legend, views; draws when something new is there.
 import * as THREE from 'three';
 import { is_known, value, values, type Sample } from '../data/sample';
-import { payload_place } from '../model/payload_place';
+import { payload_place, type Place } from '../model/payload_place';
 import type { Robot, Scene } from '../model/robot';
 import { length_text } from '../model/sentence';
 import { distance } from '../model/vector';
@@ -73,7 +73,9 @@ export class SceneView {
     this.stage.scene.add(surroundings(scene, robot, this.colours), ...world, this.way.line, this.trail.line);
     this.payload = scene.payload && scene.adapter ? new PayloadBody(scene.payload, scene.adapter, this.colours) : null;
     if (this.payload) this.stage.scene.add(this.payload.mesh);
-    this.stage.hidden_from_tip = [...world.slice(1), ...this.arm.details, this.way.line, this.trail.line];
+    const in_the_way = [...world.slice(1), ...this.arm.details, this.way.line, this.trail.line];
+    for (const object of in_the_way) this.stage.hidden_from_tip.add(object);
+    if (this.payload) this.stage.tip_looks = 'z'; // the way in
     this.labels = new Labels(this.stage);
     this.views = views_of(robot, scene);
     this.view = this.views[0];
@@ -107,7 +109,7 @@ export class SceneView {
   // Something of other parts of the page that stands in the scene, but not in the picture of the tip's camera.
   add_helper(object: THREE.Object3D): void {
     this.stage.scene.add(object);
-    this.stage.hidden_from_tip.push(object);
+    this.stage.hidden_from_tip.add(object);
   }
 
   say_in_corner(text: string): void {
@@ -192,10 +194,19 @@ export class SceneView {
     if (this.predicted.mesh.visible && is_known(predicted)) this.predicted.set(predicted);
     this.nodes.set(this.arm.chain.nodes);
     this.goal.set(values(sample, 'goal_cp'));
-    this.payload?.set(payload_place(sample.facts, this.scene), this.arm.chain.tip);
+    this.move_payload(payload_place(sample.facts, this.scene));
     const link = value(sample, 'clearance.link') - 1;
     const piece = this.arm.chain.pieces[link];
     this.closest.set(values(sample, 'clearance.where_m'), piece ? this.arm.chain.matrices.subarray(16 * link, 16 * link + 16) : null, piece?.length_m ?? 0);
+  }
+
+  // A payload on the tip goes along with the measured arm. The camera then looks past it, as the one that sees the adapter
+  // does.
+  private move_payload(place: Place): void {
+    if (!this.payload) return;
+    this.payload.set(place, this.arm.chain.tip);
+    if (place === 'tip') this.stage.hidden_from_tip.add(this.payload.mesh);
+    else this.stage.hidden_from_tip.delete(this.payload.mesh);
   }
 
   // The commanded arm is what the twin had predicted: the difference is the error of the prediction.

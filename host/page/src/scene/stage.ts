@@ -2,6 +2,7 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { FramePace } from './frame_pace';
+import { write_camera_frame, type Ahead } from './tip_camera';
 import type { View } from './views';
 
 const kField_deg = 38;
@@ -23,7 +24,8 @@ export class Stage {
   readonly pace = new FramePace();
   controls: OrbitControls;
   inset: Inset | null = null;
-  hidden_from_tip: THREE.Object3D[] = []; // what would only be in the way of the tip's camera
+  readonly hidden_from_tip = new Set<THREE.Object3D>(); // what would only be in the way of the tip's camera
+  tip_looks: Ahead = 'x';
   on_moved: () => void = () => {}; // the person moved the camera
   width = 1;
   height = 1;
@@ -84,10 +86,14 @@ export class Stage {
     const bottom = this.height - inset.top - inset.height;
     renderer.setViewport(inset.left, bottom, inset.width, inset.height);
     renderer.setScissor(inset.left, bottom, inset.width, inset.height);
-    const seen = this.hidden_from_tip.map((object) => object.visible);
-    for (const object of this.hidden_from_tip) object.visible = false;
-    renderer.render(this.scene, this.tip_camera);
-    this.hidden_from_tip.forEach((object, i) => (object.visible = seen[i]));
+    this.render_from_tip();
+  }
+
+  private render_from_tip(): void {
+    const hidden = [...this.hidden_from_tip].filter((object) => object.visible);
+    for (const object of hidden) object.visible = false;
+    this.renderer.render(this.scene, this.tip_camera);
+    for (const object of hidden) object.visible = true;
   }
 
   // The tip's picture onto a surface of its own, also while a headset shows the scene.
@@ -95,28 +101,18 @@ export class Stage {
     const { renderer } = this;
     const before = renderer.getRenderTarget();
     const is_xr = renderer.xr.enabled;
-    const seen = this.hidden_from_tip.map((object) => object.visible);
-    for (const object of this.hidden_from_tip) object.visible = false;
     this.place_tip_camera(tip, target);
     renderer.xr.enabled = false;
     renderer.setScissorTest(false);
     renderer.setRenderTarget(target);
-    renderer.render(this.scene, this.tip_camera);
+    this.render_from_tip();
     renderer.setRenderTarget(before);
     renderer.xr.enabled = is_xr;
-    this.hidden_from_tip.forEach((object, i) => (object.visible = seen[i]));
   }
 
-  // The camera looks along the tip's x, its up is the tip's z.
   private place_tip_camera(tip: Float32Array, inset: { width: number; height: number }): void {
     const camera = this.tip_camera;
-    const to = camera.matrix.elements;
-    for (let r = 0; r < 3; ++r) {
-      to[r] = -tip[4 + r];
-      to[4 + r] = tip[8 + r];
-      to[8 + r] = -tip[r];
-      to[12 + r] = tip[12 + r];
-    }
+    write_camera_frame(tip, this.tip_looks, camera.matrix.elements);
     const aspect = inset.width / inset.height;
     if (camera.aspect !== aspect) {
       camera.aspect = aspect;
