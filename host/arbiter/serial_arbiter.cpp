@@ -4,17 +4,13 @@
 
 namespace liana::arbiter {
 
-void SerialArbiter::require_torque(const Now& now) const {
+void SerialArbiter::require_rest(const Now& now) const {
   require_free(now);
-  if (!gives_torque_)
-    throw api::RequestError("refused",
-                            "the drives of this robot follow positions: force control needs a robot whose "
-                            "drives follow torques (drives.mode = \"torque\", as macro_micro)");
   if (now.at_rest == 0) throw api::RequestError("busy", "it starts from rest: wait for it or send hold");
 }
 
 void SerialArbiter::push(const Now& now, const serial::Push& push) {
-  require_torque(now);
+  require_rest(now);
   Base::hold();
   asked_.emplace();
   asked_->kind = CommandKind::kPush;
@@ -23,7 +19,7 @@ void SerialArbiter::push(const Now& now, const serial::Push& push) {
 }
 
 void SerialArbiter::follow(const Now& now) {
-  require_torque(now);
+  require_rest(now);
   Base::hold();
   asked_.emplace();
   asked_->kind = CommandKind::kFollow;

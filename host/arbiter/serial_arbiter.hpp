@@ -14,12 +14,10 @@ class SerialArbiter : public Arbiter<serial::SerialArm> {
  public:
   using Base = Arbiter<serial::SerialArm>;
 
-  explicit SerialArbiter(const Table& table, const SpeedZone& zone = {},
-                         SearchResult taken = SearchResult::kInItsInterval)
-      : Base(table, zone, taken), gives_torque_(table.torque.gives_torque != 0) {}
+  using Base::Base;
 
-  // Begins a push from rest; its number is given here. Throws RequestError: not_enabled, fault, busy; refused when the
-  // arm's drives follow positions.
+  // Begins a push from rest; its number is given here. Throws RequestError: not_enabled, fault, busy. That the arm's
+  // drives follow torques is looked at before (host/force_control).
   void push(const Now& now, const serial::Push& push);
   // From now on the joints give way to what pushes them; throws as push.
   void follow(const Now& now);
@@ -43,9 +41,8 @@ class SerialArbiter : public Arbiter<serial::SerialArm> {
   bool is_forcing() const { return asked_.has_value(); }
 
  private:
-  void require_torque(const Now& now) const;
+  void require_rest(const Now& now) const;
 
-  bool gives_torque_;
   std::optional<Setpoint> asked_;
   serial::LinkMass payload_at_tip_{};
 };

@@ -200,7 +200,10 @@ SerialRobotConfig parse_serial_robot(const std::string& text, const std::string&
   check_drive_modes(out, file, buses);
   out.table.tick_s = buses.tick_s();
   out.table.interval_ticks = buses.interval_ticks();
-  for (const BusConfig& bus : buses.buses) out.has_wrist_sensor |= bus.wrist_sensor != 0;
+  for (const BusConfig& bus : buses.buses) {
+    out.has_wrist_sensor |= bus.wrist_sensor != 0;
+    out.has_adapter |= bus.adapter != 0;
+  }
   return out;
 }
 

@@ -42,6 +42,7 @@ struct SerialRobotConfig {
   std::map<std::string, std::vector<double>> named_poses_deg;  // joint_count angles each
   std::string start_pose;          // which of them a simulated arm begins with; empty: the table does not say
   bool has_wrist_sensor = false;   // on one of its buses
+  bool has_adapter = false;        // the same
   serial::PushGains push_gains{};  // that a push has which says nothing of them; torque drives only
   std::optional<LockedBase> base;  // the arm that this one stands on; none: it stands firm
   std::string canonical_json;

@@ -1,13 +1,7 @@
 #include "host/daemon/push_message.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
-
-#include "firmware_like/math/trig.hpp"
-#include "host/api/request_error.hpp"
-#include "host/config/serial_torque.hpp"
 
 namespace liana::daemon {
 
@@ -28,35 +22,6 @@ const char* name_of(const Names& names, Value value) {
   return names.at(static_cast<std::size_t>(value));
 }
 
-void require(const char* field, double value, double low, double high) {
-  if (value >= low && value <= high) return;
-  throw api::RequestError("out_of_range", std::string(field) + ": " + Json(value).dump() + ": allowed is " +
-                                              Json(low).dump() + " to " + Json(high).dump() +
-                                              ", as force_control of the robot says");
-}
-
-Vec3 axis_of(const api::Arguments& fields) {
-  if (!fields.has("axis")) return {0.0, 0.0, 1.0};
-  const Vec3 axis = fields.point("axis");
-  const double length = norm(axis);
-  if (length < 1e-3)
-    throw api::RequestError("out_of_range", "axis: it has no length: give the direction of the way in");
-  return scale(axis, 1.0 / length);
-}
-
-serial::PushGains gains_of(const config::SerialRobotConfig& robot, const api::Arguments& fields) {
-  serial::PushGains gains = robot.push_gains;
-  if (!fields.has("gains")) return gains;
-  const api::Arguments asked = fields.object("gains");
-  for (std::size_t i = 0; i < gains.size(); ++i) {
-    const char* const name = config::kPushGainNames[i];
-    if (!asked.has(name)) continue;
-    gains[i] = asked.number(name);
-    require(name, gains[i], robot.table.torque.gain_low[i], robot.table.torque.gain_high[i]);
-  }
-  return gains;
-}
-
 Json wrench_json(const serial::Wrench& wrench) {
   return {{"force_N", wrench.force_N}, {"torque_Nm", wrench.torque_Nm}};
 }
@@ -67,52 +32,6 @@ Json age_json(std::uint16_t age_ticks, double tick_s) {
 }
 
 }  // namespace
-
-serial::Push push_of(const config::SerialRobotConfig& robot, const api::Arguments& fields) {
-  const serial::TorqueTable& most = robot.table.torque;
-  serial::Push push;
-  push.law =
-      fields.has("law") && fields.text("law") == "impedance" ? serial::PushLaw::kImpedance : serial::PushLaw::kForce;
-  push.tares = fields.flag("tare") ? 1 : 0;
-  push.axis_in_tip = axis_of(fields);
-  push.force_N = fields.number("force_N");
-  push.travel_m = fields.number("travel_m");
-  push.aside_m = fields.number("aside_m");
-  push.turn_rad = fields.number("turn_deg") * kDegree;
-  push.depth_m = fields.number("depth_m");
-  if (push.law == serial::PushLaw::kForce) push.depth_m = 0.0;
-  push.gains = gains_of(robot, fields);
-  if (most.gives_torque == 0) return push;  // the arbiter says why there is none
-  if (!robot.has_wrist_sensor)
-    throw api::RequestError(
-        "refused",
-        "the bus table has no wrist_sensor, which a push needs: give its node at the bus that it is "
-        "on, as embedded_payload does");
-  require("force_N", push.force_N, 0.0, most.most_force_N);
-  require("travel_m", push.travel_m, 0.0, most.most_travel_m);
-  require("aside_m", push.aside_m, 0.0, most.most_aside_m);
-  require("turn_deg", fields.number("turn_deg"), 0.0, most.most_turn_rad / kDegree);
-  require("depth_m", push.depth_m, 0.0, push.travel_m);
-  push.turn_rad = std::fmin(push.turn_rad, most.most_turn_rad);
-  return push;
-}
-
-serial::LinkMass payload_of(const api::Arguments& fields) {
-  serial::LinkMass payload;
-  payload.mass_kg = fields.number("mass_kg");
-  if (payload.mass_kg == 0.0) return payload;
-  if (fields.has("center_m")) payload.center_m = fields.point("center_m");
-  const auto inertia = fields.has("inertia_kgm2") ? fields.numbers("inertia_kgm2") : std::vector<double>{};
-  if (inertia.size() != payload.inertia_kgm2.size())
-    throw api::RequestError("out_of_range", "inertia_kgm2: " + std::to_string(inertia.size()) +
-                                                " numbers: give six, xx, yy, zz, xy, xz, yz about the centre of mass");
-  std::copy(inertia.begin(), inertia.end(), payload.inertia_kgm2.begin());
-  if (!serial::is_body(payload))
-    throw api::RequestError("out_of_range", "inertia_kgm2: " + Json(inertia).dump() +
-                                                ": no body has it: moments are over 0, none is larger than the other "
-                                                "two together: compute it from the body, about its centre of mass");
-  return payload;
-}
 
 Json payload_json(const serial::LinkMass& payload_at_tip) {
   return {{"mass_kg", payload_at_tip.mass_kg}, {"center_m", payload_at_tip.center_m}};

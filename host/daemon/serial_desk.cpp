@@ -5,6 +5,7 @@
 #include "firmware_like/serial/drive_units.hpp"
 #include "host/daemon/push_message.hpp"
 #include "host/daemon/state_parts.hpp"
+#include "host/force_control/requests.hpp"
 
 namespace liana::daemon {
 
@@ -42,14 +43,20 @@ SerialDesk::SerialDesk(const config::SerialRobotConfig& robot, const config::Sce
               std::make_unique<verify::SimulationEnd<serial::SerialArm>>(simulate::serial_model(robot), scene),
               taken(time_mode)),
       robot_(robot) {
-  handlers_["push"] = [this](const MotionRequest& r) { arbiter_.push(outputs(), push_of(robot_, r.fields)); };
-  handlers_["payload"] = [this](const MotionRequest& r) { arbiter_.carry(payload_of(r.fields)); };
-  handlers_["follow"] = [this](const MotionRequest&) { arbiter_.follow(outputs()); };
+  handlers_["push"] = [this](const MotionRequest& r) {
+    arbiter_.push(outputs(), force_control::push_of(robot_, r.fields));
+  };
+  handlers_["payload"] = [this](const MotionRequest& r) { arbiter_.carry(force_control::payload_of(r.fields)); };
+  handlers_["follow"] = [this](const MotionRequest&) {
+    force_control::require_torque_drives(robot_);
+    arbiter_.follow(outputs());
+  };
   handlers_["adapter"] = [this](const MotionRequest& r) { tell_adapter(r.fields); };
 }
 
 // A sequence of its own for every request, never 0, which is none.
 void SerialDesk::tell_adapter(const api::Arguments& fields) {
+  force_control::require_adapter(robot_);
   if (outputs().push.adapter_age_ticks >= serial::kAdapterSilentTicks)
     throw api::RequestError("refused", "the adapter is not heard: look at its supply and at the bus that it is on");
   if (++adapter_sequence_ == 0) adapter_sequence_ = 1;
