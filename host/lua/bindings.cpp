@@ -6,6 +6,7 @@
 
 #include "host/api/request_check.hpp"
 #include "host/api/request_error.hpp"
+#include "host/force_control/requests.hpp"
 #include "host/json/json.hpp"
 #include "host/lua/activity.hpp"
 #include "host/lua/json_bridge.hpp"
@@ -62,13 +63,15 @@ int send_command(lua_State* state) {
 
 // What is refused is the result and no error; the text is copied so that no C++ object is left when Lua raises one.
 int refusal(lua_State* state) {
-  const auto& bounds = *static_cast<const api::RequestBounds*>(lua_touserdata(state, lua_upvalueindex(1)));
+  const auto& robot = *static_cast<const RobotAtHand*>(lua_touserdata(state, lua_upvalueindex(1)));
   std::array<char, 400> problem{};
   try {
     const char* op = lua_tostring(state, 1);
     const api::RequestRow& row = api::row_of({{"op", op != nullptr ? op : ""}});
-    api::require_may(row, api::Role::kMission, bounds);
-    api::check_fields(row, fields_at(state, 2, row), &bounds, kFirst);
+    api::require_may(row, api::Role::kMission, robot.bounds);
+    const Json fields = fields_at(state, 2, row);
+    api::check_fields(row, fields, &robot.bounds, kFirst);
+    if (robot.serial) force_control::require_possible(*robot.serial, row.op, {fields, row.fields, robot.bounds});
   } catch (const std::exception& error) {
     put_text(problem, error.what());
   }
@@ -107,8 +110,8 @@ std::vector<const api::RequestRow*> commands() {
   return out;
 }
 
-void push_refusal(lua_State* state, const api::RequestBounds& bounds) {
-  lua_pushlightuserdata(state, const_cast<api::RequestBounds*>(&bounds));
+void push_refusal(lua_State* state, const RobotAtHand& robot) {
+  lua_pushlightuserdata(state, const_cast<RobotAtHand*>(&robot));
   lua_pushcclosure(state, refusal, 1);
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <lua.hpp>
+#include <optional>
 #include <vector>
 
 #include "host/api/request_table.hpp"
+#include "host/config/serial_robot.hpp"
 #include "host/json/json_fwd.hpp"
 
 namespace liana::script {
@@ -29,8 +31,14 @@ class RequestSink {
 // the state.
 void push_native(lua_State* state, RequestSink& sink);
 
-// Pushes a function (command, fields) -> what lianad would refuse about them with a robot of these bounds, or nil;
-// `bounds` must outlive the state.
-void push_refusal(lua_State* state, const api::RequestBounds& bounds);
+// The robot that shall do what a mission asks for.
+struct RobotAtHand {
+  api::RequestBounds bounds;
+  std::optional<config::SerialRobotConfig> serial;  // where it has a serial arm
+};
+
+// Pushes a function (command, fields) -> what lianad would refuse about them with this robot, or nil; `robot` must
+// outlive the state.
+void push_refusal(lua_State* state, const RobotAtHand& robot);
 
 }  // namespace liana::script

@@ -1,6 +1,7 @@
 #include "host/lua/evaluate.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "host/config/canonical.hpp"
 #include "host/config/config.hpp"
 #include "host/config/field.hpp"
+#include "host/config/serial_robot.hpp"
 #include "host/config/sha256.hpp"
 #include "host/json/json.hpp"
 #include "host/lua/bindings.hpp"
@@ -40,8 +42,18 @@ void naming_file(const std::string& display, const Action& action) {
 }
 
 int push_refusal_protected(lua_State* state) {
-  push_refusal(state, *static_cast<const api::RequestBounds*>(lua_touserdata(state, 1)));
+  push_refusal(state, *static_cast<const RobotAtHand*>(lua_touserdata(state, 1)));
   return 1;
+}
+
+std::optional<config::SerialRobotConfig> serial_arm(const Against& tables) {
+  if (config::kind_of(tables.robot) != "serial") return std::nullopt;
+  const std::string robot = tables.robot.dump(), name = tables.robot.value("name", "");
+  if (tables.buses.is_object())
+    return config::parse_serial_robot(robot, name, config::parse_buses(tables.buses.dump(), "buses"));
+  config::SerialRobotConfig arm = config::parse_serial_robot(robot, name);
+  arm.has_wrist_sensor = arm.has_adapter = true;  // for all that is known
+  return arm;
 }
 
 // Replaces the mission on the stack by what liana.check says of it (`describe`, `tables`); refuses anything that is no
@@ -142,14 +154,14 @@ Json described_files(const Loaded& loaded) {
 
 }  // namespace
 
-void check_against_robot(Script& script, const Json& robot, Looks looks) {
+void check_against_robot(Script& script, const Against& against, Looks looks) {
   lua_State* state = script.state();
-  api::RequestBounds bounds = api::request_bounds(robot);
+  RobotAtHand robot{api::request_bounds(against.robot), serial_arm(against)};
   script.require("liana.against");
   lua_pushvalue(state, -2);
-  push_in_protection(script, robot);
+  push_in_protection(script, against.robot);
   lua_pushcfunction(state, push_refusal_protected);
-  lua_pushlightuserdata(state, &bounds);
+  lua_pushlightuserdata(state, &robot);
   script.call(1, 1);
   if (looks == Looks::kIntoFunctions) {
     lua_pushcfunction(state, attempt);
@@ -190,14 +202,13 @@ std::string evaluate_mission_tables(Script& script, const LuaFolders& lua_folder
 }
 
 std::string evaluate_mission(Script& script, const LuaFolders& lua_folders, const std::string& name,
-                             const std::string& robot_json) {
+                             const Against& against) {
   const ScriptFile file = find_script(lua_folders, "mission", name);
   Json result;
   naming_file(file.display, [&] {
-    const Json robot = Json::parse(robot_json);
     const Loaded loaded = push_mission(script, file);
-    for (const Loaded::Plan& plan : loaded.plans) check_robot_of_plan(plan, robot);
-    check_against_robot(script, robot, Looks::kIntoFunctions);
+    for (const Loaded::Plan& plan : loaded.plans) check_robot_of_plan(plan, against.robot);
+    check_against_robot(script, against, Looks::kIntoFunctions);
     result = told(script, "describe", file.display);
     const std::vector<std::string> folders = recording_folders(lua_folders, file.folder);
     check_recordings(result, folders);

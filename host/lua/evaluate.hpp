@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "host/json/json_fwd.hpp"
+#include "host/json/json.hpp"
 #include "host/lua/script.hpp"
 
 namespace liana::script {
@@ -16,10 +16,15 @@ std::string evaluate(Script& script, const LuaFolders& lua_folders, const std::s
 // Throws as evaluate does.
 std::string evaluate_mission_tables(Script& script, const LuaFolders& lua_folders, const std::string& name);
 
-// Canonical JSON of a mission's structure, after a check that the robot (canonical JSON) can do it. Throws as evaluate
-// does.
+// Tables that a mission is checked against, as canonical JSON. Of `buses` that are null nothing is known, and nothing
+// that they may lack is refused.
+struct Against {
+  Json robot, buses;
+};
+
+// Canonical JSON of a mission's structure, after a check that the robot can do it. Throws as evaluate does.
 std::string evaluate_mission(Script& script, const LuaFolders& lua_folders, const std::string& name,
-                             const std::string& robot_json);
+                             const Against& against);
 
 // Runs a mission file and leaves the checked mission on the stack. Throws as evaluate does.
 void load_mission(Script& script, const LuaFolders& lua_folders, const std::string& name);
@@ -28,8 +33,7 @@ void load_mission(Script& script, const LuaFolders& lua_folders, const std::stri
 // once for that and may change what the script remembers: in a script that runs nothing afterwards.
 enum class Looks : std::uint8_t { kAtValues, kIntoFunctions };
 
-// Refuses the checked mission on the stack, which stays there, when the robot (canonical JSON) cannot do it. Throws as
-// evaluate does.
-void check_against_robot(Script& script, const Json& robot, Looks looks);
+// Refuses the checked mission on the stack, which stays there, when the robot cannot do it. Throws as evaluate does.
+void check_against_robot(Script& script, const Against& against, Looks looks);
 
 }  // namespace liana::script

@@ -33,7 +33,7 @@ int with_message(const std::function<int()>& body) {
 
 struct EvalOptions {
   LuaFolders lua_folders;
-  std::string kind, name, robot;
+  std::string kind, name, robot, bus;
 };
 
 std::string tables_of_mission(const EvalOptions& options, Activity& activity) {
@@ -41,19 +41,29 @@ std::string tables_of_mission(const EvalOptions& options, Activity& activity) {
   return evaluate_mission_tables(script, options.lua_folders, options.name);
 }
 
-std::string robot_json(const EvalOptions& options, Activity& activity) {
-  if (options.robot.ends_with(".json")) return liana::config::read_text_file(options.robot);
-  std::string robot = options.robot;
-  if (robot.empty()) robot = liana::Json::parse(tables_of_mission(options, activity)).value("robot", kDefaultRobot);
+liana::Json table(const EvalOptions& options, Activity& activity, const std::string& kind, const std::string& name) {
+  if (name.ends_with(".json")) return liana::Json::parse(liana::config::read_text_file(name));
   Script script(ScriptLimits{}, options.lua_folders, activity);
-  return evaluate(script, options.lua_folders, "robot", robot);
+  return liana::Json::parse(evaluate(script, options.lua_folders, kind, name));
+}
+
+// What is named, else what the mission names itself: its buses beside its own robot only.
+Against tables_against(const EvalOptions& options, Activity& activity) {
+  std::string robot = options.robot, bus = options.bus;
+  if (robot.empty() || bus.empty()) {
+    const liana::Json own = liana::Json::parse(tables_of_mission(options, activity));
+    if (robot.empty()) robot = own.value("robot", kDefaultRobot);
+    if (bus.empty() && robot == own.value("robot", "")) bus = own.value("bus", "");
+  }
+  return {table(options, activity, "robot", robot),
+          bus.empty() ? liana::Json() : table(options, activity, "buses", bus)};
 }
 
 std::string evaluated(const EvalOptions& options, Activity& activity) {
   if (options.kind == kMissionTables) return tables_of_mission(options, activity);
-  const std::string robot = options.kind == "mission" ? robot_json(options, activity) : "";
+  const Against against = options.kind == "mission" ? tables_against(options, activity) : Against{};
   Script script(ScriptLimits{}, options.lua_folders, activity);
-  return options.kind == "mission" ? evaluate_mission(script, options.lua_folders, options.name, robot)
+  return options.kind == "mission" ? evaluate_mission(script, options.lua_folders, options.name, against)
                                    : evaluate(script, options.lua_folders, options.kind, options.name);
 }
 
@@ -127,6 +137,8 @@ int main(int argc, char** argv) {
   eval.option("name", evaluated.name, "a name in the Lua folder or a file").required();
   eval.option("--robot", evaluated.robot,
               "robot a mission is checked against: a name or exported JSON; where not given its own, else zhu2022");
+  eval.option("--bus", evaluated.bus,
+              "buses a mission is checked against: as --robot; where not given those that it names with its robot");
   eval.option("--lua-dir", lua_dir, kLuaDirAbout);
   liana::command_line::Command run = line.command(
       "run", "run a mission; exit 0 on success, 1 when not or when its process was killed, 2 for bad input");

@@ -79,7 +79,8 @@ void finish(const MissionOptions& options, const std::string& report) {
 
 int run_connected(const MissionOptions& options, Activity& activity, Script& script) {
   MissionSession session(options, activity);
-  check_against_robot(script, session.welcome().at("robot"), Looks::kAtValues);
+  const Json& welcome = session.welcome();
+  check_against_robot(script, {welcome.at("robot"), welcome.member_or_null("buses")}, Looks::kAtValues);
   try {
     start_engine(script, session);
     converse(script, session);

@@ -124,6 +124,17 @@ void check_scene_parts(const Json& mission, const config::SceneConfig& scene) {
   }
 }
 
+void check_adapter_is_simulated(const Json& mission, const config::SceneConfig& scene) {
+  if (scene.adapter) return;
+  for (std::size_t i = 0; i < mission.at("steps").size(); ++i) {
+    for (const Json& ask : mission.at("steps")[i].at("asks")) {
+      if (ask.text() != "adapter") continue;
+      throw BadInput(step_where(mission, i) + ": run: adapter: scene " + scene.name +
+                     " has none, so none is simulated: run in another --scene, as payload_adapter");
+    }
+  }
+}
+
 void keep_mission_files(const Json& mission, const std::string& directory) {
   for (const Json& file : mission.at("files")) {
     const std::string path = file.value("path", ""), text = checked([&] { return config::read_text_file(path); });

@@ -22,6 +22,10 @@ void check_steps(const Json& mission, const config::SerialRobotConfig& robot, co
 // Throws BadInput naming line, step and field.
 void check_scene_parts(const Json& mission, const config::SceneConfig& scene);
 
+// A simulated adapter is there where the scene has one. Throws BadInput naming line and step that tells it something
+// where there is none.
+void check_adapter_is_simulated(const Json& mission, const config::SceneConfig& scene);
+
 // Copies the files that a mission is made of to the folder `mission_files` of a run. Throws BadInput where one has
 // changed since it was checked.
 void keep_mission_files(const Json& mission, const std::string& directory);

@@ -230,11 +230,13 @@ TableText scene_of(const RunOptions& options, bool is_serial) {
   return {name, evaluate_table("scene", name)};
 }
 
-Json mission_checked_with(const std::string& robot, const std::string& mission) {
-  const std::string scratch = temporary_directory(), file = scratch + "/robot.json";
+Json mission_checked_with(const std::string& robot, const std::string& buses, const std::string& mission) {
+  const std::string scratch = temporary_directory(), robot_file = scratch + "/robot.json",
+                    bus_file = scratch + "/buses.json";
   try {
-    write_output(file, robot);
-    Json description = check_mission(mission, file);
+    write_output(robot_file, robot);
+    write_output(bus_file, buses);
+    Json description = check_mission(mission, robot_file, bus_file);
     fs::remove_all(scratch);
     return description;
   } catch (...) {
@@ -245,8 +247,9 @@ Json mission_checked_with(const std::string& robot, const std::string& mission) 
 
 void note(const std::string& text) { std::fprintf(stderr, "note: %s\n", text.c_str()); }
 
-void look_at_mission(const Json& mission, const config::SceneConfig& scene) {
+void look_at_mission(const Json& mission, const config::SceneConfig& scene, bool is_simulated) {
   check_scene_parts(mission, scene);
+  if (is_simulated) check_adapter_is_simulated(mission, scene);
   for (const Json& each : mission.value("notes", Json::array())) note(each.text());
 }
 
@@ -366,14 +369,14 @@ SystemLayout make_layout(const RunOptions& given) {
     throw BadInput("--scene: '" + options.scene + "': has no " + (plan.scene.camera ? "contact" : "camera") +
                    ", which the bench needs; add it (docs/formats.md)");
   const bool has_mission = !options.mission.empty();
-  if (has_mission && !plan.is_serial) plan.mission = mission_checked_with(robot.json, options.mission);
+  if (has_mission && !plan.is_serial) plan.mission = mission_checked_with(robot.json, buses.json, options.mission);
   options.start_pose = plan.is_serial ? check_options_of_serial_robot(options, robot.json, plan)
                                       : check_options_of_cable_robot(options, robot.json, plan);
   if (has_mission && plan.is_serial) {
-    plan.mission = mission_checked_with(robot.json, options.mission);
+    plan.mission = mission_checked_with(robot.json, buses.json, options.mission);
     look_at_goals_of_serial_robot(plan, options, robot.json);
   }
-  if (plan.mission.is_object()) look_at_mission(plan.mission, plan.scene);
+  if (plan.mission.is_object()) look_at_mission(plan.mission, plan.scene, options.simulated_arm);
   if (!options.fault.empty()) options.faults = fault_file(plan.mission, options.fault);
   if (options.is_dry_run) check_virtual(plan.buses);
   check_interfaces(plan.buses);

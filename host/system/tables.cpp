@@ -57,9 +57,9 @@ std::string evaluate_table(const std::string& kind, const std::string& name) {
   return name.ends_with(".json") ? read_file(name) : evaluate({"--", kind, name});
 }
 
-Json check_mission(const std::string& name, const std::string& robot) {
+Json check_mission(const std::string& name, const std::string& robot, const std::string& bus) {
   refuse_directory("mission", name);
-  return Json::parse(evaluate({"--robot=" + robot, "--", "mission", name}));
+  return Json::parse(evaluate({"--robot=" + robot, "--bus=" + bus, "--", "mission", name}));
 }
 
 MissionTables tables_of_mission(const std::string& name) {

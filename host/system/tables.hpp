@@ -16,9 +16,9 @@ namespace liana::system {
 // exported). Throws BadInput with the evaluator's one message.
 std::string evaluate_table(const std::string& kind, const std::string& name);
 
-// Checks a mission script against a robot (a name, or exported JSON) without running it, and returns its description
-// (lua/liana/check.lua); throws BadInput with the evaluator's one message.
-Json check_mission(const std::string& name, const std::string& robot);
+// Checks a mission script against robot and buses (names, or exported JSON) without running it, and returns its
+// description (lua/liana/check.lua); throws BadInput with the evaluator's one message.
+Json check_mission(const std::string& name, const std::string& robot, const std::string& bus);
 
 // The tables that a mission script says it runs with; empty: it says none. Throws as check_mission does.
 struct MissionTables {

@@ -5,6 +5,11 @@ local uses = require "liana.uses"
 
 local actions = {}
 
+-- An action that gives one command; `at` is the line that asks for it.
+local function giving(command, fields, at)
+  return uses.noted(function(arm) arm[command](fields) end, { action = command, command = command, fields = fields, at = at })
+end
+
 -- Joint motion to a named pose of the robot, at most rate_deg_s (default: the robot's limit).
 function actions.move_to(name, rate_deg_s)
   need("move_to", "name", name, "string")
@@ -17,13 +22,13 @@ end
 -- Joint motion to angles; fields of `move_jp` (docs/api.md): { goal_deg = { 0, 5, ... }, rate_deg_s = 1 }.
 function actions.move_jp(fields)
   need("move_jp", "fields", fields, "table")
-  return uses.noted(function(arm) arm.move_jp(fields) end, { action = "move_jp", command = "move_jp", fields = fields, at = position(1) })
+  return giving("move_jp", fields, position(1))
 end
 
 -- The tip along a straight line to a pose in the base frame; fields of `move_cp` (docs/api.md): { goal = { x, y, z, qw, qx, qy, qz } }.
 function actions.move_cp(fields)
   need("move_cp", "fields", fields, "table")
-  return uses.noted(function(arm) arm.move_cp(fields) end, { action = "move_cp", command = "move_cp", fields = fields, at = position(1) })
+  return giving("move_cp", fields, position(1))
 end
 
 -- Steers nodes by null-space targets { { node = 3, position_m = {x, y, z}, weight = 1, threshold_m = 0.01 }, ... } and pushes
@@ -33,16 +38,37 @@ function actions.shape(nodes, keep_clear, search)
   need("shape", "nodes", nodes, "table")
   if keep_clear ~= nil then need("shape", "keep_clear", keep_clear, "table") end
   if search ~= nil then need("shape", "search", search, "boolean") end
-  local fields = { nodes = nodes, keep_clear = keep_clear, search = search }
-  return uses.noted(function(arm) arm.shape(fields) end, { action = "shape", command = "shape", fields = fields, at = position(1) })
+  return giving("shape", { nodes = nodes, keep_clear = keep_clear, search = search }, position(1))
 end
 
 -- The tip goes to `offset` beside a target that the tip camera sees and stays there for the dwell; fields of `servo_target` (docs/api.md):
 -- { target = "adapter", offset = { x, y, z, qw, qx, qy, qz }, ... }.
 function actions.servo_target(fields)
   need("servo_target", "fields", fields, "table")
-  return uses.noted(function(arm) arm.servo_target(fields) end,
-    { action = "servo_target", command = "servo_target", fields = fields, at = position(1) })
+  return giving("servo_target", fields, position(1))
+end
+
+-- Pushes along an axis of the tip by force control, from rest; fields of `push` (docs/api.md): { force_N = 30, ... }. How it
+-- goes is `push` of the state. For serial arms only.
+function actions.push(fields)
+  need("push", "fields", fields, "table")
+  return giving("push", fields, position(1))
+end
+
+-- From rest, the joints give way to what pushes them, until something else is asked for. For serial arms only.
+function actions.follow() return giving("follow", {}, position(1)) end
+
+-- What the arm carries from now on; fields of `payload` (docs/api.md): { mass_kg = 500, center_m = {x, y, z}, inertia_kgm2 = {...} }.
+-- For serial arms only.
+function actions.payload(fields)
+  need("payload", "fields", fields, "table")
+  return giving("payload", fields, position(1))
+end
+
+-- Tells the adapter to "lock" or to "release" the payload. For serial arms only.
+function actions.adapter(command)
+  need("adapter", "command", command, "string")
+  return giving("adapter", { command = command }, position(1))
 end
 
 -- A command to the tool at the tip.

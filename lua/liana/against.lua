@@ -1,6 +1,6 @@
 -- Checks a mission against the robot that shall do it, before anything moves.
+local asked = require "liana.asked"
 local check = require "liana.check"
-local goals = require "liana.goals"
 local plan_step = require "liana.plan_step"
 local refuse = require "liana.refuse"
 local uses = require "liana.uses"
@@ -63,13 +63,16 @@ local function held_on_the_way_fit(where, list, robot)
 end
 
 -- What a function of the script's own asks for without looking at the arm is looked at like an action's.
-local function goal_suits(where, step, robot, refusal_of, attempt)
-  step.goal = goals.of(step.run, robot, attempt)
-  if step.goal == nil then return end
-  where = at_call(where, step.goal.at, step.at)
-  where = ("%s: run: %s"):format(where, step.goal.action)
-  if not uses.of(step.run).command then accepted(where, robot, refusal_of, step.goal.command, step.goal.fields) end
-  if step.goal.fields.hold then held_on_the_way_fit(where, step.goal.fields.hold, robot) end
+local function what_is_asked_suits(where, step, robot, refusal_of, attempt)
+  step.asks = asked.of(step.run, robot, attempt)
+  for _, ask in ipairs(step.asks) do
+    local where_asked = ("%s: run: %s"):format(at_call(where, ask.at, step.at), ask.action)
+    accepted(where_asked, robot, refusal_of, ask.command, ask.fields)
+    if asked.is_goal(ask) then
+      step.goal = ask
+      held_on_the_way_fit(where_asked, ask.fields.hold or {}, robot)
+    end
+  end
 end
 
 local function step_suits(where, step, robot, refusal_of, attempt)
@@ -82,7 +85,7 @@ local function step_suits(where, step, robot, refusal_of, attempt)
     accepted(where .. ": steer", robot, refusal_of, "use_device", check.use_of(step))
   end
   action_suits(where, "run", step.run, step.at, robot, refusal_of)
-  if step.plan == nil then goal_suits(where, step, robot, refusal_of, attempt) end
+  if step.plan == nil then what_is_asked_suits(where, step, robot, refusal_of, attempt) end
   for _, field in ipairs { "enter", "fail_when", "exit" } do condition_suits(where, field, step[field], step.at, robot) end
   for _, way in ipairs(step.ways) do
     if way.when then condition_suits(where, "next", way.when, step.at, robot) end
@@ -112,8 +115,8 @@ end
 
 -- Refuses what this robot (docs/formats.md) cannot do: angles and nodes it does not have, targets beyond its limits, poses
 -- it does not know. refusal_of(command, fields) says what lianad would refuse, or nothing. With `attempt`
--- (pcall with a budget of its own) functions of steps are called once to find the goals that they ask for, in a script that runs
--- nothing afterwards. `goal` of a step is what is found.
+-- (pcall with a budget of its own) functions of steps are called once to find what they ask for, in a script that runs
+-- nothing afterwards. `asks` of a step is what is found, `goal` the goal among it.
 return function(mission, robot, refusal_of, attempt)
   check.require_mission(mission)
   local called = "mission " .. mission.name

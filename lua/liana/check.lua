@@ -237,6 +237,13 @@ local function described_parts(step)
   return out
 end
 
+-- The commands that a step is known to give, as liana.against has found them.
+local function described_asks(step)
+  local out = {}
+  for i, ask in ipairs(step.asks or {}) do out[i] = ask.command end
+  return out
+end
+
 -- A list of { theta, target_deg } as commands have it, of what a step holds.
 local function held_list(hold)
   local held = {}
@@ -276,6 +283,7 @@ function check.describe(mission)
       fail_when = step.fail_when.text, next = described_ways(step), plan = step.plan, start_deg = step.start_deg,
       goal_deg = step.goal_deg or goal.fields.goal_deg, goal_pose = uses.of(step.run).pose, goal_tip = goal.fields.goal,
       goal_hold = goal.fields.hold or held_list(step.hold), goal_at = goal.at, parts = described_parts(step),
+      asks = described_asks(step),
       fixtures = type(step.fixtures) == "table" and #step.fixtures > 0 and step.fixtures or nil,
     }
   end

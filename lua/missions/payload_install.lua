@@ -296,7 +296,7 @@ return liana.mission "payload_install" {
   step "3 push" {
     device = "none",
     -- No tare: on a base that swings, what the payload's mass gives on the sensor is far more than the sensor's bias.
-    run = function(arm) arm.push { force_N = kForce_N, tare = false } end,
+    run = liana.push { force_N = kForce_N, tare = false },
     exit = captured,
     fail_when = push_failed,
     time_limit_s = kPushLimit_s,

@@ -623,6 +623,75 @@ TEST(Eval, WhatIsForCableArmsOnlyIsRefusedForOthersByName) {
   }
 }
 
+// What is in an action, or asked for by a function before it looks at the arm.
+TEST(Eval, WhatAPushNeedsOfRobotAndBusesIsRefusedBeforeTheStartByLineAndField) {
+  const TemporaryFolder folder;
+  const auto bus_without = [&](const std::string& what) {
+    return "--robot macro_micro --bus " +
+           folder.write("no_" + what + ".lua",
+                        "local t = require 'buses.embedded_payload'\nt.buses[2]." + what + " = nil\nreturn t\n") +
+           " ";
+  };
+  const std::string torque = "--robot macro_micro --bus embedded_payload ",
+                    position = "--robot micro --bus embedded_micro ", deaf = bus_without("wrist_sensor"),
+                    alone = bus_without("adapter");
+  const auto eval = [&](const std::string& options, const std::string& run) {
+    return error_of_step(folder, options, "device = 'none', run = " + run);
+  };
+  for (const auto& [options, run, message] : std::vector<std::array<std::string, 3>>{
+           {position, "liana.push {}", "push: the drives of this robot follow positions"},
+           {position, "function(arm) arm.push {} end", "push: the drives of this robot follow positions"},
+           {position, "liana.follow()", "follow: the drives of this robot follow positions"},
+           {position, "liana.adapter 'lock'", "adapter: the bus table has no adapter"},
+           {"", "liana.push {}", "push: push: for serial arms only; robot zhu2022 has a cable arm"},
+           {deaf, "liana.push {}", "push: the bus table has no wrist_sensor, which a push needs: give its node"},
+           {alone, "function(arm) arm.follow() arm.adapter { command = 'lock' } end", "adapter: the bus table has no"},
+           {torque, "liana.push { force_N = 61 }",
+            "push: force_N = 61: allowed 0 to 60, as force_control of the robot says: choose another value (robot "
+            "macro_micro)"},
+           {torque, "function(arm) arm.push { force_N = 61 } end", "push: force_N = 61: allowed 0 to 60"},
+           {torque, "liana.push { force_N = 2000 }", "push: force_N = 2000: allowed 0 to 1000"},
+           {torque, "liana.push { forec_N = 20 }", "push: unknown field forec_N = 20: allowed axis, force_N"},
+           {torque, "liana.push { travel_m = 0.3 }", "push: travel_m = 0.3: allowed 0 to 0.2 m"},
+           {torque, "liana.push { turn_deg = 4 }", "push: turn_deg = 4: allowed 0 to 3 deg"},
+           {torque, "liana.push { axis = { 0, 0, 0 } }", "push: axis = [0.0,0.0,0.0]: allowed a length of 0.001"},
+           {torque, "liana.push { gains = { mass_kg = 1 } }", "push: gains.mass_kg = 1: allowed 50 to 5000, as"},
+           {torque, "liana.push { law = 'impedance', depth_m = 0.1 }",
+            "push: depth_m = 0.1: allowed 0 to 0.06 m, which is travel_m"},
+           {torque, "liana.payload { mass_kg = 5 }", "payload: inertia_kgm2: 0 numbers: give six"},
+           {torque, "liana.payload { mass_kg = 5, inertia_kgm2 = { 1, 1, 9, 0, 0, 0 } }",
+            "payload: inertia_kgm2: [1.0,1.0,9.0,0.0,0.0,0.0]: no body has it"},
+           {torque, "liana.adapter 'open'", "adapter: command = \"open\": allowed lock, release"}}) {
+    const std::string error = eval(options, run);
+    EXPECT_NE(error.find("given.lua:3: mission m: step 1 \"a\": run: " + message), std::string::npos)
+        << run << ": " << error;
+  }
+  for (const std::string run :
+       {"liana.push { force_N = 60 }", "liana.follow()", "liana.payload { mass_kg = 0 }", "liana.adapter 'release'",
+        "function(arm) if arm.state.tick > 3 then arm.push { force_N = 99 } end end",
+        "function(arm) arm.payload { mass_kg = later, inertia_kgm2 = later } arm.adapter { command = later } end"})
+    EXPECT_EQ(eval(torque, run), "") << "nothing to refuse, or not known yet";
+  EXPECT_EQ(eval("--robot macro_micro ", "liana.push {}"), "") << "buses that nobody names may have the sensor";
+}
+
+TEST(Eval, AMissionIsCheckedAgainstTheBusesThatItNamesWithItsRobot) {
+  const TemporaryFolder folder;
+  const std::string mission = folder.write(
+      "given.lua",
+      "local liana = require 'liana'\nreturn liana.mission 'm' { robot = 'micro', bus = 'embedded_micro',\n"
+      "liana.step 'a' { device = 'none', run = liana.adapter 'lock', exit = liana.at_rest(), time_limit_s = 1,\n"
+      "on_fail = 'hold' } }\n");
+  const std::string other =
+      folder.write("other.lua", "local t = require 'buses.embedded_micro'\nt.buses[1].adapter = 48\nreturn t\n");
+  const std::string error = run_program("eval mission " + mission).error;
+  EXPECT_NE(error.find("given.lua:3: mission m: step 1 \"a\": run: adapter: the bus table has no adapter"),
+            std::string::npos)
+      << error;
+  const Ended ended = run_program("eval mission " + mission + " --bus " + other);
+  ASSERT_EQ(ended.code, 0) << ended.error;
+  EXPECT_EQ(Json::parse(ended.out)["steps"][0]["asks"], Json::parse(R"(["adapter"])"));
+}
+
 TEST(Eval, RefusesAMissionFileThatReturnsSomethingElse) {
   const TemporaryFolder folder;
   const Ended ended = run_program("eval mission " + folder.write("given.lua", "return {}"));

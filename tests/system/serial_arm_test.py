@@ -254,6 +254,27 @@ class WhatASerialArmRefuses(SystemTest):
     def test_the_payload_mission_in_a_scene_without_a_payload(self):
         self.refused("payload_install", "--scene", "none", says=["looks at a payload: scene none has none"])
 
+    def test_a_push_that_the_tables_do_not_have_before_the_start_by_run_and_check(self):
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        mission = folder / "pushes.lua"
+        tables = ("--robot", "macro_micro", "--bus", "embedded_payload", "--scene")
+        for action, words, says in (
+            ("push { force_N = 20 }", ("--robot", "micro"), "the drives of this robot follow positions"),
+            ("push { force_N = 80 }", (*tables, "none"), "force_N = 80: allowed 0 to 60"),
+            ("adapter 'lock'", (*tables, "none"), "scene none has none, so none is simulated"),
+        ):
+            mission.write_text(
+                "local liana = require 'liana'\nreturn liana.mission 'pushes' {\nliana.step 'push' { device = 'none',"
+                f" run = liana.{action}, exit = liana.at_rest(), time_limit_s = 9, on_fail = 'hold' }} }}\n"
+            )
+            where = 'pushes.lua:3: mission pushes: step 1 "push": run: '
+            with self.subTest(action):
+                self.refused(mission, *words, says=[where, says])
+                done = run("liana", "check", mission, *words, cwd=folder)
+                self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+                self.assertIn(where, done.stderr)
+                self.assertIn(says, done.stderr)
+
     def test_a_plan_for_a_cable_arm(self):
         with tempfile.TemporaryDirectory() as folder:
             plan = pathlib.Path(folder) / "plan.json"

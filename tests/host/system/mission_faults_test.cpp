@@ -24,7 +24,7 @@ std::string refusal_of(const Json& mission, const std::string& name) {
 
 // req:B26
 TEST(MissionFaults, AreFilesBesideTheMissionAndAnUnknownNameIsToldAllThatThereAre) {
-  const Json mission = check_mission("payload_install", "macro_micro");
+  const Json mission = check_mission("payload_install", "macro_micro", "embedded_payload");
   const std::string file = fault_file(mission, "jam");
   EXPECT_TRUE(file.ends_with("missions/payload_install/faults/jam.json")) << file;
   EXPECT_TRUE(std::filesystem::exists(file));
@@ -37,7 +37,7 @@ TEST(MissionFaults, AreFilesBesideTheMissionAndAnUnknownNameIsToldAllThatThereAr
 }
 
 TEST(MissionFaults, OfAMissionWithoutAnyAreRefused) {
-  EXPECT_NE(refusal_of(check_mission("slit_crossing", "zhu2022"), "jam").find("has no faults of its own"),
+  EXPECT_NE(refusal_of(check_mission("slit_crossing", "zhu2022", "embedded"), "jam").find("has no faults of its own"),
             std::string::npos);
   EXPECT_NE(refusal_of(Json(), "jam").find("has no faults of its own"), std::string::npos);
 }
