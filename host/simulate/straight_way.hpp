@@ -1,9 +1,8 @@
 // A straight motion in joint space as a sequence: gathers way as the table allows, goes on evenly, and stops.
 #pragma once
 
-#include "firmware_like/serial/joint_vector.hpp"
-#include "firmware_like/serial/robot_table.hpp"
 #include "host/simulate/motion.hpp"
+#include "host/simulate/serial_model.hpp"
 
 namespace liana::simulate {
 

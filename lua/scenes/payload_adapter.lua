@@ -6,7 +6,7 @@ local robot = require "robots.macro_micro"
 local kLength_m = 1.0 -- of the payload, from its grapple to the tips of its pins
 local kMass_kg = 500
 local kBefore_m = 0.005 -- the pins' tips before the adapter's face with the arm at `install`: within the funnels, where force takes over
-local kPickTurn_deg = 40 -- from `install` about the small arm's first joint: there the mechanism hands the payload over; on the other side the booms meet
+local kPickTurn_deg = 40 -- from `install` about the small arm's first joint: there the mechanism hands it over; on the other side booms meet
 
 local function at(pose, z_m)
   return { position_m = geometry.add(pose.position, geometry.axis(pose.rotation, 3), z_m),

@@ -142,7 +142,7 @@ def tip_of(robot, angles_deg):
 
 
 class BodiesInTheWayOfASerialArm(SystemTest):
-    """req:C8: both ends of verification, for motion that leads into the scene or into the arm itself."""
+    """Both ends of verification, for motion that leads into the scene or into the arm itself."""
 
     PREPARE_DEG = [0, 60, -30, 100, -40, 60, 0]
 
@@ -161,6 +161,7 @@ class BodiesInTheWayOfASerialArm(SystemTest):
         state = client.until(lambda s: s["refusals"] and s["at_rest"], limit_s=120.0)
         return state["verdict"], state
 
+    # req:C8
     def test_a_motion_into_a_ball_is_held_before_it_and_leads_back(self):
         ball_m = self.beyond(12.0)
         scene = str(self.scene_file(with_ball(ball_m)))
