@@ -170,7 +170,7 @@ Json workspace_of(const cable::RobotTable& table) {
   reach::RegionRequest request;
   request.point.node = table.segment_count;
   request.samples = kSamples;
-  const reach::Region region = reach::explore_region(table, request);
+  const reach::Region region = reach::explore_region(reach::arm_of(table), request);
   return {{"length_m", region.length_m},
           {"nearest_m", region.nearest_m},
           {"farthest_m", region.farthest_m},

@@ -11,13 +11,6 @@
 namespace liana::cli {
 namespace {
 
-void refuse_cable_option(const char* option, bool given, const config::SerialRobotConfig& robot) {
-  if (given) {
-    throw system::BadInput(std::string(option) + ": allowed with cable arms only: robot " + robot.name +
-                           " has a serial arm; leave it out");
-  }
-}
-
 Json pose_of(const serial::RobotTable& table, const serial::JointVector& joint_rad) {
   const serial::ArmKinematics arm = forward_kinematics(table, joint_rad);
   Json points = Json::array();
@@ -55,8 +48,15 @@ void print_ik(const Json& answer) {
 
 }  // namespace
 
+void refuse_cable_option(const char* option, const std::string& value, const config::SerialRobotConfig& robot,
+                         const char* what_to_do) {
+  if (value.empty()) return;
+  throw system::BadInput(std::string(option) + ": '" + value + "': allowed with cable arms only: robot " + robot.name +
+                         " has a serial arm; " + what_to_do);
+}
+
 int serial_pose_command(const config::SerialRobotConfig& robot, const PoseOptions& options) {
-  refuse_cable_option("--scene", !options.scene.empty(), robot);
+  refuse_cable_option("--scene", options.scene, robot);
   const Json pose = pose_of(robot.table, parse_joint_deg("--theta-deg", options.theta_deg, robot.table));
   if (options.json) {
     std::puts(pose.dump().c_str());
@@ -67,8 +67,8 @@ int serial_pose_command(const config::SerialRobotConfig& robot, const PoseOption
 }
 
 int serial_ik_command(const config::SerialRobotConfig& robot, const IkOptions& options) {
-  refuse_cable_option("--hold", !options.hold.empty(), robot);
-  refuse_cable_option("--control-point", !options.control_points.empty(), robot);
+  refuse_cable_option("--hold", options.hold, robot);
+  for (const std::string& point : options.control_points) refuse_cable_option("--control-point", point, robot);
   const solve::SerialGoal goal{parse_pose("--tip", options.tip),
                                parse_joint_deg("--from-deg", options.from_deg, robot.table)};
   const solve::SerialGoalResult result = solve_goal(robot.table, goal);

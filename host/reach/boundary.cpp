@@ -23,27 +23,31 @@ std::vector<DirectionBin> empty_bins() {
   return bins;
 }
 
-// The end of the region along the ray of one sample, sign +1 outwards, -1 inwards.
-BoundaryPoint end_of_ray(const RaySearch& search, double sign, const ReachSample& start) {
+// The end of the region along the ray of one pose, sign +1 outwards, -1 inwards.
+BoundaryPoint end_of_ray(const RaySearch& search, double sign, const AngleVector& start_rad) {
   BoundaryPoint end;
-  end.theta_rad = start.theta_rad;
-  push_along_ray(search.table, search.point, search.origin_in_base_m, sign, end.theta_rad);
-  end.point_in_base_m = point_motion(search.table, search.point, end.theta_rad).point_in_base_m;
+  end.angle_rad = start_rad;
+  push_along_ray(search.arm, search.point, search.origin_in_base_m, sign, end.angle_rad);
+  end.point_in_base_m = point_motion(search.arm, search.point, end.angle_rad).point_in_base_m;
   end.distance_m = norm(subtract(end.point_in_base_m, search.origin_in_base_m));
   return end;
+}
+
+// Names what holds an end back; nothing does at the origin.
+void find_binding(const RaySearch& search, double sign, BoundaryPoint& end) {
+  if (end.distance_m <= kPushResolution_m) return;
+  const Vec3 outwards = scale(subtract(end.point_in_base_m, search.origin_in_base_m), sign / end.distance_m);
+  end.binding = binding_limits(search.arm, search.point, outwards, end.angle_rad);
 }
 
 // The end furthest out (sign +1) or in (-1) over the pushes of the first members.
 BoundaryPoint furthest_end(const RaySearch& search, double sign, const Members& members) {
   BoundaryPoint best;
   for (std::size_t i = 0; i < std::min(members.size(), kPushStarts); ++i) {
-    const BoundaryPoint end = end_of_ray(search, sign, *members[i]);
+    const BoundaryPoint end = end_of_ray(search, sign, members[i]->angle_rad);
     if (i == 0 || sign * (end.distance_m - best.distance_m) > 0.0) best = end;
   }
-  if (best.distance_m > kPushResolution_m) {
-    const Vec3 outwards = scale(subtract(best.point_in_base_m, search.origin_in_base_m), sign / best.distance_m);
-    best.binding = binding_limits(search.table, search.point, outwards, best.theta_rad);
-  }
+  find_binding(search, sign, best);
   return best;
 }
 
@@ -60,6 +64,33 @@ Ends find_ends(const RaySearch& search, Members& members, const Distance& distan
   std::reverse(members.begin(), members.end());
   ends.inner = furthest_end(search, -1.0, members);
   return ends;
+}
+
+// Where the neighbour's end goes further, its pose is taken over to the ray of `end` and pushed from there: starts of a
+// bin may all lead to a fold that the neighbour's did not meet.
+void learn_from(const RaySearch& search, double sign, const BoundaryPoint& neighbour, BoundaryPoint& end) {
+  if (end.distance_m <= kPushResolution_m || sign * (neighbour.distance_m - end.distance_m) <= kPushResolution_m)
+    return;
+  const Vec3 along_m = scale(subtract(end.point_in_base_m, search.origin_in_base_m),
+                             std::max(neighbour.distance_m, kPushResolution_m) / end.distance_m);
+  AngleVector angle_rad = neighbour.angle_rad;
+  if (!reach_position(search.arm, search.point, add(search.origin_in_base_m, along_m), angle_rad)) return;
+  BoundaryPoint found = end_of_ray(search, sign, angle_rad);
+  if (sign * (found.distance_m - end.distance_m) <= 0.0) return;
+  find_binding(search, sign, found);
+  end = found;
+}
+
+// Every bin learns from the bin before it, then from the one behind it: two ways over all bins, so that what one start
+// has found goes all around.
+void learn_from_neighbours(const RaySearch& search, std::vector<DirectionBin>& bins) {
+  const auto learn = [&](const DirectionBin& from, DirectionBin& to) {
+    if (from.samples == 0 || to.samples == 0) return;
+    learn_from(search, 1.0, from.outer, to.outer);
+    learn_from(search, -1.0, from.inner, to.inner);
+  };
+  for (std::size_t i = 1; i < bins.size(); ++i) learn(bins[i - 1], bins[i]);
+  for (std::size_t i = bins.size() - 1; i > 0; --i) learn(bins[i], bins[i - 1]);
 }
 
 }  // namespace
@@ -94,6 +125,7 @@ std::vector<DirectionBin> find_boundary(const RaySearch& search, const std::vect
     bins[i].outer = ends.outer;
     bins[i].inner = ends.inner;
   }
+  learn_from_neighbours(search, bins);
   return bins;
 }
 

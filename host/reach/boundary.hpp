@@ -10,15 +10,13 @@
 
 namespace liana::reach {
 
-using namespace cable;  // this room serves the cable arm only
-
 constexpr std::int32_t kPolarBins = 12;      // rings of 15 deg
 constexpr std::size_t kOutlineSectors = 72;  // of 5 deg
 constexpr std::size_t kPushStarts = 6;       // samples of each bin or sector that are pushed outwards, and inwards
 
 // One pose that was drawn.
 struct ReachSample {
-  ThetaVector theta_rad{};
+  AngleVector angle_rad{};
   Vec3 point_in_base_m{};
   double distance_m = 0.0;                   // from the origin
   std::array<double, 3> travel_m_per_rad{};  // singular values of the point's Jacobian, falling
@@ -26,7 +24,7 @@ struct ReachSample {
 
 // What is searched: the point, and where rays start.
 struct RaySearch {
-  const RobotTable& table;
+  const ReachArm& arm;
   PointOnArm point{};
   Vec3 origin_in_base_m{};
 };
@@ -35,8 +33,8 @@ struct RaySearch {
 struct BoundaryPoint {
   double distance_m = 0.0;  // from the origin
   Vec3 point_in_base_m{};
-  ThetaVector theta_rad{};    // reaches it
-  std::uint32_t binding = 0;  // binding_limits(): bit i = theta i; 0 = stretched or folded
+  AngleVector angle_rad{};    // reaches it
+  std::uint32_t binding = 0;  // binding_limits(): bit i = angle i; 0 = stretched or folded
 };
 
 // One range of directions from the origin.
@@ -57,7 +55,7 @@ struct OutlineSector {
   bool seen = false;
   std::array<double, 2> outer_m{};  // along the two axes of the view, in the order x, y, z
   std::array<double, 2> inner_m{};
-  std::uint32_t outer_binding = 0;  // binding_limits() of the outer end: bit i = theta i
+  std::uint32_t outer_binding = 0;  // binding_limits() of the outer end: bit i = angle i
 };
 using Outline = std::array<OutlineSector, kOutlineSectors>;
 

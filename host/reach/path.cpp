@@ -12,11 +12,11 @@ namespace {
 
 bool is_held(std::uint32_t held_mask, std::size_t theta) { return (held_mask >> theta & 1u) != 0; }
 
-void find_singular_values(const RobotTable& table, std::uint32_t held_mask, PathPoint& point) {
-  const ArmKinematics arm = forward_kinematics(table, point.theta_rad);
+void find_singular_values(const cable::RobotTable& table, std::uint32_t held_mask, PathPoint& point) {
+  const cable::ArmKinematics arm = forward_kinematics(table, point.theta_rad);
   point.tip_in_base_m = arm.tip_in_base.position_m;
   const Eigen::Index n = algebra::theta_count(table);
-  Eigen::Matrix<double, 6, kMaxTheta> J = Eigen::Matrix<double, 6, kMaxTheta>::Zero();
+  Eigen::Matrix<double, 6, cable::kMaxTheta> J = Eigen::Matrix<double, 6, cable::kMaxTheta>::Zero();
   J.topLeftCorner(3, n) = algebra::view(arm.tip_jacobian.linear, n);
   J.bottomLeftCorner(3, n) = algebra::view(arm.tip_jacobian.angular, n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -27,7 +27,7 @@ void find_singular_values(const RobotTable& table, std::uint32_t held_mask, Path
   point.least_singular_value = values[5];
 }
 
-void find_nearest_limit(const RobotTable& table, std::uint32_t held_mask, PathPoint& point) {
+void find_nearest_limit(const cable::RobotTable& table, std::uint32_t held_mask, PathPoint& point) {
   point.limit_margin_rad = std::numeric_limits<double>::infinity();
   for (std::int32_t i = 0; i < table.theta_count(); ++i) {
     const auto index = static_cast<std::size_t>(i);
@@ -39,7 +39,8 @@ void find_nearest_limit(const RobotTable& table, std::uint32_t held_mask, PathPo
   }
 }
 
-PathPoint examine(const RobotTable& table, std::uint32_t held_mask, double travel_rad, const ThetaVector& theta_rad) {
+PathPoint examine(const cable::RobotTable& table, std::uint32_t held_mask, double travel_rad,
+                  const cable::ThetaVector& theta_rad) {
   PathPoint point;
   point.way = travel_rad;
   point.theta_rad = theta_rad;
@@ -48,15 +49,15 @@ PathPoint examine(const RobotTable& table, std::uint32_t held_mask, double trave
   return point;
 }
 
-double largest_change_rad(const ThetaVector& a, const ThetaVector& b) {
+double largest_change_rad(const cable::ThetaVector& a, const cable::ThetaVector& b) {
   double largest = 0.0;
-  for (std::size_t i = 0; i < kMaxTheta; ++i) largest = std::max(largest, std::fabs(b[i] - a[i]));
+  for (std::size_t i = 0; i < cable::kMaxTheta; ++i) largest = std::max(largest, std::fabs(b[i] - a[i]));
   return largest;
 }
 
-ThetaVector between(const ThetaVector& a, const ThetaVector& b, double share) {
-  ThetaVector theta{};
-  for (std::size_t i = 0; i < kMaxTheta; ++i) theta[i] = a[i] + share * (b[i] - a[i]);
+cable::ThetaVector between(const cable::ThetaVector& a, const cable::ThetaVector& b, double share) {
+  cable::ThetaVector theta{};
+  for (std::size_t i = 0; i < cable::kMaxTheta; ++i) theta[i] = a[i] + share * (b[i] - a[i]);
   return theta;
 }
 
@@ -73,13 +74,13 @@ double condition_number(const PathPoint& point) {
   return point.largest_singular_value / point.least_singular_value;
 }
 
-PathReport examine_path(const RobotTable& table, const std::vector<ThetaVector>& waypoints_rad,
+PathReport examine_path(const cable::RobotTable& table, const std::vector<cable::ThetaVector>& waypoints_rad,
                         std::uint32_t held_mask) {
   PathReport report;
   report.points.push_back(examine(table, held_mask, 0.0, waypoints_rad.front()));
   report.waypoint_way.push_back(0.0);
   for (std::size_t leg = 1; leg < waypoints_rad.size(); ++leg) {
-    const ThetaVector &from = waypoints_rad[leg - 1], &to = waypoints_rad[leg];
+    const cable::ThetaVector &from = waypoints_rad[leg - 1], &to = waypoints_rad[leg];
     const double change_rad = largest_change_rad(from, to);
     const int steps = std::max(1, static_cast<int>(std::ceil(change_rad / kPathStep_rad - 1e-9)));
     for (int k = 1; k < steps; ++k) {

@@ -1,4 +1,4 @@
-// How well conditioned the arm is along a path of joint angles, and how near its limits.
+// How well conditioned a cable arm is along a path of joint angles, and how near its limits.
 //
 // Between two waypoints all angles move in proportion; points lie so close that no angle changes by more than
 // kPathStep_rad.
@@ -11,8 +11,6 @@
 
 namespace liana::reach {
 
-using namespace cable;  // this room serves the cable arm only
-
 constexpr double kPathStep_rad = 0.25 * 3.14159265358979323846 / 180.0;  // resolution of a path
 constexpr std::size_t kMaxWaypoints = 2000;
 
@@ -20,7 +18,7 @@ constexpr std::size_t kMaxWaypoints = 2000;
 // rows in rad/rad, that is attitude weighed by a length of 1 m; all 0 beyond the number of free thetas.
 struct PathPoint {
   double way = 0.0;  // 0..1: share of the joint travel (largest change of any angle, summed) up to here
-  ThetaVector theta_rad{};
+  cable::ThetaVector theta_rad{};
   Vec3 tip_in_base_m{};
   double least_singular_value = 0.0;
   double largest_singular_value = 0.0;
@@ -41,7 +39,7 @@ double condition_number(const PathPoint& point);
 
 // Examines a path of 1..kMaxWaypoints waypoints; thetas in `held_mask` are not free (at least one must be). Cost: about
 // 10 us a point.
-PathReport examine_path(const RobotTable& table, const std::vector<ThetaVector>& waypoints_rad,
+PathReport examine_path(const cable::RobotTable& table, const std::vector<cable::ThetaVector>& waypoints_rad,
                         std::uint32_t held_mask);
 
 }  // namespace liana::reach

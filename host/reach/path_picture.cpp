@@ -115,7 +115,7 @@ void draw_strip(draw::Svg& svg, const draw::Axes& axes, const PathReport& report
   }
 }
 
-void draw_margins(draw::Svg& svg, const RobotTable& table, const PathReport& report, std::uint32_t held_mask) {
+void draw_margins(draw::Svg& svg, const cable::RobotTable& table, const PathReport& report, std::uint32_t held_mask) {
   double limit_deg = 0.0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
     limit_deg = std::max(limit_deg, table.segment[i / 2].theta_limit_rad * kPerDegree);
@@ -140,7 +140,7 @@ void draw_margins(draw::Svg& svg, const RobotTable& table, const PathReport& rep
                  " deg left" + percent(worst));
 }
 
-void draw_theta_legend(draw::Svg& svg, const RobotTable& table, std::uint32_t held_mask) {
+void draw_theta_legend(draw::Svg& svg, const cable::RobotTable& table, std::uint32_t held_mask) {
   double x = kLeft_px;
   const double y = kHeight_px - 16.0;
   for (std::int32_t theta = 1; theta <= table.theta_count(); ++theta) {
@@ -153,7 +153,7 @@ void draw_theta_legend(draw::Svg& svg, const RobotTable& table, std::uint32_t he
   svg.text({x + 20.0, y}, "least of the free thetas; the strip says which one", {.size = 11.0});
 }
 
-std::string free_text(const RobotTable& table, std::uint32_t held_mask) {
+std::string free_text(const cable::RobotTable& table, std::uint32_t held_mask) {
   std::string held;
   std::int32_t free = 0;
   for (std::int32_t i = 0; i < table.theta_count(); ++i) {

@@ -9,15 +9,20 @@
 
 namespace liana::reach {
 
-using namespace cable;  // this room serves the cable arm only
+// The arm that is drawn over its region.
+struct ArmDrawn {
+  std::string name;         // of the robot
+  double radius_m = 0.0;    // of its links; 0: as thin lines
+  AngleVector angle_rad{};  // where it is drawn
+};
 
 // Top (x, y), side (x, z) and front (y, z) view of the region at one scale, in the base frame. The colour of a cell is
-// the mean mobility of the samples in it, over the whole depth of the view; the arm in `pose_rad` and the scene (may be
-// null) are drawn to scale over it.
-std::string region_picture(const config::RobotConfig& robot, const config::SceneConfig* scene,
-                           const RegionRequest& request, const Region& region, const ThetaVector& pose_rad);
+// the mean mobility of the samples in it, over the whole depth of the view; the arm and the scene (may be null) are
+// drawn to scale over it.
+std::string region_picture(const ReachArm& arm, const ArmDrawn& drawn, const config::SceneConfig* scene,
+                           const RegionRequest& request, const Region& region);
 
-// Least singular value, condition number and limit margins over the way, the worst places marked.
+// Least singular value, condition number and limit margins over the way of a cable arm, the worst places marked.
 std::string path_picture(const config::RobotConfig& robot, const PathReport& report, std::uint32_t held_mask);
 
 // The holes of a disc, and every cable from the root to the disc that it ends at; cables are numbered as their drives,
@@ -25,6 +30,6 @@ std::string path_picture(const config::RobotConfig& robot, const PathReport& rep
 std::string routing_picture(const config::RobotConfig& robot);
 
 // "theta 7 = 0.5, theta 9 = 0 deg", or "none".
-std::string held_text(const RobotTable& table, std::uint32_t held_mask, const ThetaVector& held_rad);
+std::string held_text(const ReachArm& arm, std::uint32_t held_mask, const AngleVector& held_rad);
 
 }  // namespace liana::reach

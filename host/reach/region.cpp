@@ -15,23 +15,27 @@ constexpr std::uint64_t kSampleStream = 1;
 
 using Samples = std::vector<ReachSample>;
 
-ReachSample sample_at(const RaySearch& search, const ThetaVector& theta_rad) {
-  const PointMotion motion = point_motion(search.table, search.point, theta_rad);
-  using ThetaJacobian = Eigen::Matrix<double, 3, kMaxTheta>;
+ReachSample sample_at(const RaySearch& search, const AngleVector& angle_rad) {
+  const PointMotion motion = point_motion(search.arm, search.point, angle_rad);
+  using AngleJacobian = Eigen::Matrix<double, 3, kMaxAngles>;
   const Eigen::Vector3d travel =
-      Eigen::JacobiSVD<ThetaJacobian>(algebra::view(motion.column, kMaxTheta)).singularValues();
+      Eigen::JacobiSVD<AngleJacobian>(algebra::view(motion.column, kMaxAngles)).singularValues();
   const double distance_m = norm(subtract(motion.point_in_base_m, search.origin_in_base_m));
-  return {theta_rad, motion.point_in_base_m, distance_m, {travel[0], travel[1], travel[2]}};
+  return {angle_rad, motion.point_in_base_m, distance_m, {travel[0], travel[1], travel[2]}};
 }
 
-ThetaVector draw(const RobotTable& table, const RegionRequest& request, std::int32_t index,
+AngleVector draw(const ReachArm& arm, const RegionRequest& request, std::int32_t index,
                  operator_side::RandomStream& random) {
-  const double factor = index == 0 ? 0.0 : index % 2 == 1 ? 1.0 : random.uniform(0.0, 1.0);
-  ThetaVector theta_rad = request.held_rad;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
-    if (is_free(request.point, i)) theta_rad[i] = factor * theta_limit_rad(table, i) * random.uniform(-1.0, 1.0);
+  const double factor = !arm.is_straight_at_0 ? 1.0
+                        : index == 0          ? 0.0
+                        : index % 2 == 1      ? 1.0
+                                              : random.uniform(0.0, 1.0);
+  AngleVector angle_rad = request.held_rad;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(arm.angle_count); ++i) {
+    if (is_free(arm, request.point, i))
+      angle_rad[i] = middle_rad(arm.range[i]) + factor * drawn_half_rad(arm.range[i]) * random.uniform(-1.0, 1.0);
   }
-  return theta_rad;
+  return angle_rad;
 }
 
 Samples draw_samples(const RaySearch& search, const RegionRequest& request) {
@@ -39,25 +43,26 @@ Samples draw_samples(const RaySearch& search, const RegionRequest& request) {
   Samples samples;
   samples.reserve(static_cast<std::size_t>(request.samples));
   for (std::int32_t i = 0; i < request.samples; ++i)
-    samples.push_back(sample_at(search, draw(search.table, request, i, random)));
+    samples.push_back(sample_at(search, draw(search.arm, request, i, random)));
   return samples;
 }
 
-// Segments at the root whose thetas are all held.
-std::int32_t still_segments(const PointOnArm& point) {
-  std::int32_t count = 0;
-  while (count + 1 < point.node && !is_free(point, static_cast<std::size_t>(2 * count)) &&
-         !is_free(point, static_cast<std::size_t>(2 * count + 1)))
-    ++count;
-  return count;
+// The last point at the root that nothing moves because all angles before it are held.
+std::int32_t still_node(const ReachArm& arm, const PointOnArm& point) {
+  const auto is_held_until = [&](std::int32_t node) {
+    for (std::int32_t i = 0; i < arm.angles_to[static_cast<std::size_t>(node)]; ++i) {
+      if (is_free(arm, point, static_cast<std::size_t>(i))) return false;
+    }
+    return true;
+  };
+  std::int32_t node = 0;
+  while (node + 1 < point.node && is_held_until(node + 1)) ++node;
+  return node;
 }
 
-double length_between(const RobotTable& table, std::int32_t first_segment, std::int32_t node) {
+double length_between(const ReachArm& arm, std::int32_t from_node, std::int32_t to_node) {
   double length_m = 0.0;
-  for (std::int32_t m = first_segment; m < node; ++m) {
-    const SegmentTable& segment = table.segment[static_cast<std::size_t>(m)];
-    length_m += segment.modules * segment.module_length_m;
-  }
+  for (std::int32_t m = from_node + 1; m <= to_node; ++m) length_m += arm.link_m[static_cast<std::size_t>(m)];
   return length_m;
 }
 
@@ -83,9 +88,9 @@ Samples climb_from_best(const RaySearch& search, const Samples& samples, std::si
   direction[axis] = sign;
   Samples found;
   for (std::size_t i = 0; i < starts; ++i) {
-    ThetaVector theta_rad = order[i]->theta_rad;
-    climb(search.table, search.point, direction, theta_rad);
-    found.push_back(sample_at(search, theta_rad));
+    AngleVector angle_rad = order[i]->angle_rad;
+    climb(search.arm, search.point, direction, angle_rad);
+    found.push_back(sample_at(search, angle_rad));
   }
   return found;
 }
@@ -134,13 +139,13 @@ void describe_distances(const Samples& samples, Region& region) {
   }
 }
 
-void count_binding(const RobotTable& table, Region& region) {
+void count_binding(const ReachArm& arm, Region& region) {
   double ends = 0.0;
   for (const DirectionBin& bin : region.bins) {
     if (bin.samples == 0) continue;
     ends += 1.0;
     region.outer_stretched_share += bin.outer.binding == 0 ? 1.0 : 0.0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(arm.angle_count); ++i) {
       region.outer_binding_share[i] += bin.outer.binding >> i & 1u ? 1.0 : 0.0;
     }
   }
@@ -151,13 +156,12 @@ void count_binding(const RobotTable& table, Region& region) {
 
 }  // namespace
 
-Region explore_region(const RobotTable& table, const RegionRequest& request) {
+Region explore_region(const ReachArm& arm, const RegionRequest& request) {
   Region region;
-  const std::int32_t still = still_segments(request.point);
-  region.origin_in_base_m =
-      forward_kinematics(table, request.held_rad).node_in_base[static_cast<std::size_t>(still)].position_m;
-  region.length_m = length_between(table, still, request.point.node);
-  const RaySearch search{table, request.point, region.origin_in_base_m};
+  const std::int32_t still = still_node(arm, request.point);
+  region.origin_in_base_m = arm.motion(still, request.held_rad).point_in_base_m;
+  region.length_m = length_between(arm, still, request.point.node);
+  const RaySearch search{arm, request.point, region.origin_in_base_m};
   Samples samples = draw_samples(search, request);
   describe_samples(samples, region);
   region.extent_m = find_extent(search, samples);
@@ -165,7 +169,7 @@ Region explore_region(const RobotTable& table, const RegionRequest& request) {
   for (std::int32_t axis = 0; axis < 3; ++axis)
     region.outline[static_cast<std::size_t>(axis)] = find_outline(search, axis, samples);
   describe_distances(samples, region);
-  count_binding(table, region);
+  count_binding(arm, region);
   return region;
 }
 

@@ -25,16 +25,11 @@ void include(Space& space, const Vec3& low_m, const Vec3& high_m) {
 }
 
 // What the views must show: base, region, arm and scene.
-Space shown_space(const config::RobotConfig& robot, const config::SceneConfig* scene, const Region& region,
-                  const ThetaVector& pose_rad) {
+Space shown_space(const ReachArm& arm, const ArmDrawn& drawn, const config::SceneConfig* scene, const Region& region) {
   Space space;
   space.fill({-kBorder_m, kBorder_m});
   include(space, region.extent_m[0], region.extent_m[1]);
-  const LinkPoints links = link_points(robot.table, pose_rad);
-  for (std::int32_t i = 0; i < links.count; ++i) {
-    const Vec3& point = links.point_in_base[static_cast<std::size_t>(i)];
-    include(space, point, point);
-  }
+  for (const Vec3& point : arm.centre_line(drawn.angle_rad)) include(space, point, point);
   if (scene == nullptr) return space;
   for (const config::SceneBox& box : scene->boxes) {
     for (const Vec3& corner : box_corners(box)) include(space, corner, corner);
@@ -73,8 +68,12 @@ Layout lay_out(const Space& space) {
   return layout;
 }
 
-std::string point_name(const RobotTable& table, const PointOnArm& point) {
-  return point.node == table.segment_count ? "the tip" : "node " + std::to_string(point.node);
+std::string numbered(std::string_view name, std::size_t number) {
+  return std::string(name) + " " + std::to_string(number);
+}
+
+std::string point_name(const ReachArm& arm, const PointOnArm& point) {
+  return point.node == arm.node_count ? "the tip" : numbered(arm.node_name, static_cast<std::size_t>(point.node));
 }
 
 std::string metres(double value_m) { return draw::short_number(value_m, 3); }
@@ -95,9 +94,9 @@ std::string extent_text(const Region& region) {
 }
 
 // "theta 2 38 %, theta 1 35 %, ...": the limits that bind most often at the outer boundary.
-std::string binding_text(const RobotTable& table, const Region& region) {
+std::string binding_text(const ReachArm& arm, const Region& region) {
   std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(arm.angle_count); ++i) {
     if (region.outer_binding_share[i] > 0.0) order.push_back(i);
   }
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -105,7 +104,7 @@ std::string binding_text(const RobotTable& table, const Region& region) {
   });
   std::string text;
   for (std::size_t k = 0; k < std::min<std::size_t>(order.size(), 3); ++k) {
-    text += "theta " + std::to_string(order[k] + 1) + " " +
+    text += numbered(arm.angle_name, order[k] + 1) + " " +
             draw::short_number(100.0 * region.outer_binding_share[order[k]], 0) + " %, ";
   }
   return text + "no limit " + draw::short_number(100.0 * region.outer_stretched_share, 0) + " %";
@@ -154,21 +153,22 @@ void describe_heat(Legend& legend, double top) {
 }
 
 // The limits that the outlines are coloured by.
-void describe_binding(Legend& legend, const Region& region) {
+void describe_binding(Legend& legend, const ReachArm& arm, const Region& region) {
   std::uint32_t seen = 0;
   for (const Outline& outline : region.outline) {
     for (const OutlineSector& sector : outline) seen |= sector.outer_binding;
   }
   if (seen == 0) return;
   legend.words("colour on the outline: limit that binds there; none: stretched arm");
-  for (std::int32_t theta = 1; theta <= kMaxTheta; ++theta) {
-    if (seen >> (theta - 1) & 1u) legend.swatch({.fill = theta_colour(theta)}, "theta " + std::to_string(theta));
+  for (std::int32_t angle = 1; angle <= arm.angle_count; ++angle) {
+    if (seen >> (angle - 1) & 1u)
+      legend.swatch({.fill = theta_colour(angle)}, numbered(arm.angle_name, static_cast<std::size_t>(angle)));
   }
 }
 
-void describe_objects(Legend& legend, const config::SceneConfig* scene, const std::string& point) {
+void describe_objects(Legend& legend, const ReachArm& arm, const config::SceneConfig* scene, const std::string& point) {
   legend.heading("Drawn to scale");
-  legend.swatch({.fill = kArmColour}, "arm, nodes as dots; black square: base");
+  legend.swatch({.fill = kArmColour}, "arm, " + std::string(arm.node_name) + "s as dots; black square: base");
   legend.dot({.fill = kMarkColour}, 4.5, point);
   if (scene == nullptr) return;
   for (std::size_t i = 0; i < scene->boxes.size(); ++i) {
@@ -186,37 +186,38 @@ void describe_objects(Legend& legend, const config::SceneConfig* scene, const st
   if (scene->rod) legend.dot({.stroke = kRodColour, .width = 2.0}, 7.0, "press rod, inside the ring");
 }
 
-void describe_region(Legend& legend, const RobotTable& table, const RegionRequest& request, const Region& region) {
+void describe_region(Legend& legend, const ReachArm& arm, const RegionRequest& request, const Region& region) {
   legend.heading("In figures");
   legend.words("extent: " + extent_text(region));
   legend.words("distance from " + origin_text(region) + ": " + metres(region.nearest_m) + " .. " +
-               metres(region.farthest_m) + " m (straight arm " + metres(region.length_m) + " m)");
-  legend.words("binds at the outer boundary: " + binding_text(table, region));
+               metres(region.farthest_m) + " m (" + std::string(arm.length_name) + " " + metres(region.length_m) +
+               " m)");
+  legend.words("binds at the outer boundary: " + binding_text(arm, region));
   legend.words("joint limits only: obstacles take nothing away");
   legend.words(std::to_string(request.samples) + " samples, seed " + std::to_string(request.seed));
 }
 
 }  // namespace
 
-std::string held_text(const RobotTable& table, std::uint32_t held_mask, const ThetaVector& held_rad) {
+std::string held_text(const ReachArm& arm, std::uint32_t held_mask, const AngleVector& held_rad) {
   std::string text;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(arm.angle_count); ++i) {
     if ((held_mask >> i & 1u) == 0) continue;
-    text += (text.empty() ? "" : ", ") + ("theta " + std::to_string(i + 1)) + " = " +
+    text += (text.empty() ? "" : ", ") + numbered(arm.angle_name, i + 1) + " = " +
             draw::short_number(held_rad[i] * kDegPerRad, 3);
   }
   return text.empty() ? "none" : text + " deg";
 }
 
-std::string region_picture(const config::RobotConfig& robot, const config::SceneConfig* scene,
-                           const RegionRequest& request, const Region& region, const ThetaVector& pose_rad) {
-  const Space space = shown_space(robot, scene, region, pose_rad);
+std::string region_picture(const ReachArm& arm, const ArmDrawn& drawn, const config::SceneConfig* scene,
+                           const RegionRequest& request, const Region& region) {
+  const Space space = shown_space(arm, drawn, scene, region);
   const Layout layout = lay_out(space);
-  const std::string point = point_name(robot.table, request.point);
-  const std::string title = "Where " + point + " of " + robot.name + " can go";
+  const std::string point = point_name(arm, request.point);
+  const std::string title = "Where " + point + " of " + drawn.name + " can go";
   draw::Svg svg(layout.width_px, layout.height_px, title);
   svg.text({kPlaneLeft_px - 40.0, 34.0}, title, {.size = 20.0, .bold = true});
-  svg.text({kPlaneLeft_px - 40.0, 56.0}, "held: " + held_text(robot.table, request.point.held_mask, request.held_rad),
+  svg.text({kPlaneLeft_px - 40.0, 56.0}, "held: " + held_text(arm, request.point.held_mask, request.held_rad),
            {.size = 13.0});
 
   constexpr std::array kAxisTitles{"x (m)", "y (m)", "z (m)"};
@@ -237,15 +238,15 @@ std::string region_picture(const config::RobotConfig& robot, const config::Scene
     draw_outline(svg, view, region.outline[i], {.stroke = kOutlineColour, .width = 1.6});
     draw_binding(svg, view, region.outline[i]);
     if (scene != nullptr) draw_scene(svg, view, *scene);
-    draw_arm(svg, view, robot, pose_rad, request.point.node);
+    draw_arm(svg, view, arm, drawn, request.point.node);
     svg.text({view.axes.corner.x + 8.0, view.axes.corner.y + 18.0}, kViewNames[i],
              {.size = 13.0, .bold = true, .halo = true});
   }
   Legend legend(svg, layout.legend);
   describe_heat(legend, top);
-  describe_binding(legend, region);
-  describe_objects(legend, scene, point);
-  describe_region(legend, robot.table, request, region);
+  describe_binding(legend, arm, region);
+  describe_objects(legend, arm, scene, point);
+  describe_region(legend, arm, request, region);
   return svg.document();
 }
 

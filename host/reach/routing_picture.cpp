@@ -12,12 +12,12 @@ constexpr draw::Pixel kDiscCentre_px{190.0, 225.0};
 constexpr double kDiscRadius_px = 140.0, kHole_px = 6.0;
 constexpr double kRoutingLeft_px = 430.0, kAlong_px = 600.0;  // of the arm, unrolled
 constexpr double kRoutingTop_px = 85.0, kAcross_px = 280.0;
-constexpr std::string_view kColours[kMaxSegments] = {"#1f65a3", "#d6771e", "#2a8a4a", "#b0304a",
-                                                     "#6b4fa0", "#8a6a3a", "#c060a0", "#4a4a4a"};
+constexpr std::string_view kColours[cable::kMaxSegments] = {"#1f65a3", "#d6771e", "#2a8a4a", "#b0304a",
+                                                            "#6b4fa0", "#8a6a3a", "#c060a0", "#4a4a4a"};
 
 using Index = std::size_t;
 
-double arm_length_m(const RobotTable& table, std::int32_t segments) {
+double arm_length_m(const cable::RobotTable& table, std::int32_t segments) {
   double length_m = 0.0;
   for (Index j = 0; j < static_cast<Index>(segments); ++j)
     length_m += table.segment[j].modules * table.segment[j].module_length_m;
@@ -25,7 +25,7 @@ double arm_length_m(const RobotTable& table, std::int32_t segments) {
 }
 
 // The disc as seen from the tip: where every cable's hole is, and which segment the cable ends in.
-void draw_disc(draw::Svg& svg, const config::RobotConfig& robot, const CableLayout& layout) {
+void draw_disc(draw::Svg& svg, const config::RobotConfig& robot, const cable::CableLayout& layout) {
   const double px_per_m = kDiscRadius_px / robot.module_radius_m;
   svg.text({kDiscCentre_px.x, 40.0}, "holes of a disc: y to the right, z up", {.anchor = "middle", .bold = true});
   svg.circle(kDiscCentre_px, kDiscRadius_px, {.fill = "#f2f2f2", .stroke = "#888888"});
@@ -40,7 +40,7 @@ void draw_disc(draw::Svg& svg, const config::RobotConfig& robot, const CableLayo
 }
 
 // The straight arm with its discs' surface unrolled: every cable from the root to the disc that it ends at.
-void draw_routing(draw::Svg& svg, const RobotTable& table, const CableLayout& layout) {
+void draw_routing(draw::Svg& svg, const cable::RobotTable& table, const cable::CableLayout& layout) {
   const double whole_m = arm_length_m(table, table.segment_count);
   const auto x_px = [&](double along_m) { return kRoutingLeft_px + kAlong_px * along_m / whole_m; };
   const double row_px = kAcross_px / layout.cable_count;
@@ -72,7 +72,7 @@ void draw_routing(draw::Svg& svg, const RobotTable& table, const CableLayout& la
 }  // namespace
 
 std::string routing_picture(const config::RobotConfig& robot) {
-  const CableLayout layout = cable_layout(robot.table);
+  const cable::CableLayout layout = cable_layout(robot.table);
   draw::Svg svg(kRoutingWidth_px, kRoutingHeight_px, "Cable routing of " + robot.name);
   draw_disc(svg, robot, layout);
   draw_routing(svg, robot.table, layout);

@@ -139,7 +139,7 @@ void draw_binding(draw::Svg& svg, const View& view, const Outline& outline) {
     const OutlineSector &here = outline[k], &next = outline[(k + 1) % kOutlineSectors];
     if (!here.seen || !next.seen) continue;
     double width_px = kBinding_px;
-    for (std::int32_t theta = 1; theta <= kMaxTheta && width_px > 0.0; ++theta) {
+    for (std::int32_t theta = 1; theta <= kMaxAngles && width_px > 0.0; ++theta) {
       if ((here.outer_binding & next.outer_binding) >> (theta - 1) & 1u) {
         svg.polyline({pixel(here), pixel(next)}, {.stroke = theta_colour(theta), .width = width_px});
         width_px -= 3.0;
@@ -171,17 +171,13 @@ void draw_scene(draw::Svg& svg, const View& view, const config::SceneConfig& sce
   svg.circle(rod, kRing_px, {.stroke = kRodColour, .width = 2.0});
 }
 
-void draw_arm(draw::Svg& svg, const View& view, const config::RobotConfig& robot, const ThetaVector& theta_rad,
-              std::int32_t marked_node) {
-  const LinkPoints links = link_points(robot.table, theta_rad);
+void draw_arm(draw::Svg& svg, const View& view, const ReachArm& arm, const ArmDrawn& drawn, std::int32_t marked_node) {
   std::vector<draw::Pixel> line;
-  for (std::int32_t i = 0; i < links.count; ++i)
-    line.push_back(view.at(links.point_in_base[static_cast<std::size_t>(i)]));
-  const double width_px = std::max(kLeastArm_px, 2.0 * robot.module_radius_m * pixels_per_m(view));
+  for (const Vec3& point : arm.centre_line(drawn.angle_rad)) line.push_back(view.at(point));
+  const double width_px = std::max(kLeastArm_px, 2.0 * drawn.radius_m * pixels_per_m(view));
   svg.polyline(line, {.stroke = kArmColour, .width = width_px});
-  const ArmKinematics arm = forward_kinematics(robot.table, theta_rad);
-  for (std::int32_t m = 1; m <= robot.table.segment_count; ++m) {
-    const draw::Pixel node = view.at(arm.node_in_base[static_cast<std::size_t>(m)].position_m);
+  for (std::int32_t m = 1; m <= arm.node_count; ++m) {
+    const draw::Pixel node = view.at(arm.motion(m, drawn.angle_rad).point_in_base_m);
     svg.circle(node, m == marked_node ? 4.5 : 2.5, {.fill = m == marked_node ? kMarkColour : kNodeColour});
   }
   const draw::Pixel base = view.at({0.0, 0.0, 0.0});

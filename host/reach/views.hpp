@@ -8,11 +8,10 @@
 
 #include "host/config/config.hpp"
 #include "host/draw/axes.hpp"
+#include "host/reach/picture.hpp"
 #include "host/reach/region.hpp"
 
 namespace liana::reach {
-
-using namespace cable;  // this room serves the cable arm only
 
 // Looking along one base axis: coordinate `right` of the base frame to the right, `up` upwards.
 struct View {
@@ -43,8 +42,7 @@ void draw_outline(draw::Svg& svg, const View& view, const Outline& outline, cons
 // Boxes (first, second, ... in fixed colours), spheres, convex bodies, and the rod with a ring around it.
 void draw_scene(draw::Svg& svg, const View& view, const config::SceneConfig& scene);
 // Links as one thick line, nodes as dots, base and tip marked.
-void draw_arm(draw::Svg& svg, const View& view, const config::RobotConfig& robot, const ThetaVector& theta_rad,
-              std::int32_t marked_node);
+void draw_arm(draw::Svg& svg, const View& view, const ReachArm& arm, const ArmDrawn& drawn, std::int32_t marked_node);
 
 constexpr std::string_view kRegionColour = "#eef4fa";
 constexpr std::string_view kOutlineColour = "#17436b";

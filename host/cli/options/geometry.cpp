@@ -27,17 +27,18 @@ void add_ik(CLI::App& app, Action& action) {
 }
 
 void add_reach(CLI::App& app, Action& action) {
-  auto [sub, reach] = add<ReachOptions>(
-      app, action, "reach", "where tip or node can go; conditioning and limits along a path", reach_command);
+  auto [sub, reach] =
+      add<ReachOptions>(app, action, "reach",
+                        "where tip or node can go; conditioning and limits along a path (cable arms)", reach_command);
   add_robot(sub, reach.robot);
   sub.add_option("--scene", reach.scene, "scene table drawn to scale; takes nothing away from the region");
   sub.add_option("--hold", reach.hold,
-                 "joint angles held still, e.g. 7,9 or 7=0.5,9 (deg; at --from-deg or 0 where no value is given)");
+                 "cable arms: joint angles held still, e.g. 7,9 or 7=0.5,9 (deg; at --from-deg or 0 without a value)");
   sub.add_option("--from-deg", reach.from_deg, "joint angles that are drawn, or where the path begins");
-  sub.add_option("--to-deg", reach.to_deg, "joint angles where the path ends");
-  sub.add_option("--path", reach.path, "JSON file with waypoints_deg, as plan --json prints it");
+  sub.add_option("--to-deg", reach.to_deg, "cable arms: joint angles where the path ends");
+  sub.add_option("--path", reach.path, "cable arms: JSON file with waypoints_deg, as plan --json prints it");
   sub.add_option("--node", reach.node,
-                 "node (the end of that segment) whose region is wanted; the tip where not given");
+                 "the end of that segment, or of that joint's link, whose region is wanted; the tip where not given");
   sub.add_option("--samples", reach.samples, "poses drawn")->capture_default_str();
   add_seed(sub, reach.seed, "of the poses drawn");
   sub.add_option("--svg", reach.svg_file, "write the picture to this file");
