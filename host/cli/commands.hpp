@@ -38,7 +38,7 @@ int ik_command(const IkOptions& options);
 struct ReachOptions {
   std::string robot = "zhu2022";
   std::string scene;     // empty: none is drawn
-  std::string hold;      // empty: nothing is held
+  std::string hold;      // empty: nothing is held; cable arms only, as to_deg and path
   std::string from_deg;  // region: where held thetas are and the arm is drawn, zero pose where empty; path: its begin
   std::string to_deg;    // path: its end
   std::string path;      // path: a file with waypoints_deg
@@ -48,7 +48,7 @@ struct ReachOptions {
   std::string svg_file;  // empty: no picture
   bool json = false;
 };
-// Where the tip or a node can go, or how well the arm is conditioned along a path.
+// Where the tip or a node of either kind of arm can go, or how well a cable arm is conditioned along a path.
 int reach_command(const ReachOptions& options);
 
 struct BudgetOptions {

@@ -82,6 +82,18 @@ Vec3 wall_normal(const ReachArm& arm, const PointMotion& motion, Eigen::Index di
   return std::fabs(side) < 0.1 ? direction : scale({across[0], across[1], across[2]}, side > 0.0 ? 1.0 : -1.0);
 }
 
+// Damped Gauss-Newton towards a position, from and to `angle_rad`; true when it is reached within 30 iterations.
+bool approach(const ReachArm& arm, const PointOnArm& point, const Vec3& target_in_base_m, AngleVector& angle_rad) {
+  const AngleMask active = free_mask(arm, point);
+  for (int iteration = 0; iteration < kReachIterations; ++iteration) {
+    const PointMotion motion = point_motion(arm, point, angle_rad);
+    const Vec3 error_m = subtract(target_in_base_m, motion.point_in_base_m);
+    if (norm(error_m) <= kReachTolerance_m) return true;
+    step_towards(arm, motion, active, error_m, angle_rad);
+  }
+  return false;
+}
+
 }  // namespace
 
 bool is_free(const ReachArm& arm, const PointOnArm& point, std::size_t angle) {
@@ -103,18 +115,10 @@ PointMotion point_motion(const ReachArm& arm, const PointOnArm& point, const Ang
 
 bool reach_position(const ReachArm& arm, const PointOnArm& point, const Vec3& target_in_base_m,
                     AngleVector& angle_rad) {
-  const AngleMask active = free_mask(arm, point);
   AngleVector trial = angle_rad;
-  for (int iteration = 0; iteration < kReachIterations; ++iteration) {
-    const PointMotion motion = point_motion(arm, point, trial);
-    const Vec3 error_m = subtract(target_in_base_m, motion.point_in_base_m);
-    if (norm(error_m) <= kReachTolerance_m) {
-      angle_rad = trial;
-      return true;
-    }
-    step_towards(arm, motion, active, error_m, trial);
-  }
-  return false;
+  if (!approach(arm, point, target_in_base_m, trial)) return false;
+  angle_rad = trial;
+  return true;
 }
 
 void push_along_ray(const ReachArm& arm, const PointOnArm& point, const Vec3& origin_in_base_m, double sign,
@@ -161,11 +165,14 @@ void climb(const ReachArm& arm, const PointOnArm& point, const Vec3& direction, 
 
 std::uint32_t binding_limits(const ReachArm& arm, const PointOnArm& point, const Vec3& direction,
                              const AngleVector& angle_rad) {
-  const PointMotion motion = point_motion(arm, point, angle_rad);
-  const Vec3 normal = wall_normal(arm, motion, point.flat_axis < 0 ? 3 : 2, direction, angle_rad);
+  AngleVector pressed = angle_rad;
+  const Vec3 ahead_m = scale(direction, kPushResolution_m);
+  approach(arm, point, add(point_motion(arm, point, angle_rad).point_in_base_m, ahead_m), pressed);
+  const PointMotion motion = point_motion(arm, point, pressed);
+  const Vec3 normal = wall_normal(arm, motion, point.flat_axis < 0 ? 3 : 2, direction, pressed);
   std::uint32_t mask = 0;
   for (std::size_t i = 0; i < kMaxAngles; ++i) {
-    const double side = is_free(arm, point, i) ? limit_side(arm, angle_rad, i) : 0.0;
+    const double side = is_free(arm, point, i) ? limit_side(arm, pressed, i) : 0.0;
     if (side * dot(motion.column[i], normal) > 1e-9) mask |= 1u << i;
   }
   return mask;

@@ -7,6 +7,7 @@
 namespace liana::reach {
 namespace {
 
+namespace zhu2022 = cable::zhu2022;
 using zhu2022::radians;
 
 PathReport at(const zhu2022::Degrees& theta_deg, std::uint32_t held_mask = 0) {
@@ -31,10 +32,10 @@ TEST(Conditioning, TheStraightArmIsSingular) {
 }
 
 TEST(Conditioning, HoldingAnAngleNeverHelps) {
-  const RobotTable table = zhu2022::table();
+  const cable::RobotTable table = zhu2022::table();
   zhu2022::Random random(4);
   for (int trial = 0; trial < 200; ++trial) {
-    const ThetaVector theta = random.theta(table, 20.0);
+    const cable::ThetaVector theta = random.theta(table, 20.0);
     double before = 1e9;
     for (const std::uint32_t held : {0u, 0b0100000000u, 0b0101000000u}) {
       const double now = examine_path(table, {theta}, held).points.front().least_singular_value;
@@ -65,8 +66,8 @@ TEST(Path, HeldAnglesDoNotCountAsNearALimit) {
 }
 
 TEST(Path, IsExaminedFromEndToEndInStepsWithinItsResolution) {
-  const std::vector<ThetaVector> waypoints{radians(zhu2022::kPrepare_deg), radians(zhu2022::kPanelEdge_deg),
-                                           radians(zhu2022::kPressRod_deg)};
+  const std::vector<cable::ThetaVector> waypoints{radians(zhu2022::kPrepare_deg), radians(zhu2022::kPanelEdge_deg),
+                                                  radians(zhu2022::kPressRod_deg)};
   const PathReport report = examine_path(zhu2022::table(), waypoints, 0);
   EXPECT_EQ(report.points.front().theta_rad, waypoints.front());
   EXPECT_EQ(report.points.back().theta_rad, waypoints.back());

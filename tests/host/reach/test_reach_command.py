@@ -49,6 +49,55 @@ class Region(unittest.TestCase):
         self.assertEqual(liana("reach", FEW, "--json"), liana("reach", FEW, "--json"))
 
 
+class SerialArm(unittest.TestCase):
+    def test_the_answer_has_the_fields_of_a_cable_arm(self):
+        answer = liana_json("reach", "--robot=micro", FEW)
+        self.assertEqual(set(answer), set(liana_json("reach", FEW)))
+        self.assertEqual((answer["robot"], answer["node"], answer["dimension"]), ("micro", 7, 3))
+        self.assertEqual((answer["origin_m"], answer["held_deg"]), ([0, 0, 0], {}))
+        self.assertAlmostEqual(answer["farthest_m"], 4.93, delta=0.005)
+        self.assertEqual(answer["outer_binding"], {"theta_share": [0] * 7, "no_limit_share": 1})
+
+    def test_the_places_it_names_are_those_that_pose_gives_for_its_angles(self):
+        answer = liana_json("reach", "--robot=macro_micro", FEW, "--node=5")
+        for found in answer["boundary"][::40]:
+            angles = found["outer"]["theta_deg"]
+            self.assertTrue(all(abs(angle) <= 270 for angle in angles))
+            pose = liana_json("pose", "--robot=macro_micro", f"--theta-deg={','.join(map(str, angles))}")
+            for there, here in zip(pose["joint_points_m"][5], found["outer"]["point_m"]):
+                self.assertAlmostEqual(there, here, delta=1e-9)
+
+    def test_ranges_of_its_joints_are_what_binds(self):
+        robot = json.loads(liana("robot", "export", "micro")[1])
+        for joint in robot["joints"][2:6]:
+            joint["low_deg"], joint["high_deg"] = 30, 80  # booms that never stretch
+        robot["named_poses_deg"] = {"zero": [0, 0, 40, 40, 40, 40, 0]}
+        robot.pop("start_pose", None)
+        with tempfile.TemporaryDirectory() as directory:
+            file = pathlib.Path(directory) / "robot.json"
+            file.write_text(json.dumps(robot))
+            answer = liana_json("reach", "--robot", file, FEW)
+        self.assertLess(answer["farthest_m"], 4.8)
+        self.assertGreater(max(answer["outer_binding"]["theta_share"]), 0.9)
+        self.assertEqual([answer["outer_binding"]["theta_share"][i] for i in (0, 1, 6)], [0, 0, 0])
+
+    def test_the_same_call_prints_the_same_bytes(self):
+        call = ("reach", "--robot=micro", FEW, "--json")
+        self.assertEqual(liana(*call), liana(*call))
+
+    def test_a_summary_speaks_of_joints_and_points(self):
+        code, out, _ = liana("reach", "--robot=macro", FEW)
+        self.assertEqual(code, 0)
+        self.assertIn("point 7, held: none", out)
+        self.assertIn("links end to end 10.764 m", out)
+
+    def test_its_region_is_drawn_with_arm_and_scene(self):
+        words = texts(picture(FEW, "--robot=micro", "--scene=target_ahead", "--from-deg=0,60,-30,100,-40,60,0"))
+        for needed in ["Where the tip of micro can go", "top view, from +z", "arm, points as dots; black square: base"]:
+            self.assertIn(needed, words)
+        self.assertIn("Where point 4 of macro can go", texts(picture(FEW, "--robot=macro", "--node=4")))
+
+
 class Path(unittest.TestCase):
     def test_the_worst_places_are_those_of_the_points(self):
         answer = liana_json("reach", f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}")
@@ -176,6 +225,24 @@ class BadInput(unittest.TestCase):
             (["--path=x.json", f"--from-deg={PREPARE}"], "--from-deg"),
         ]:
             self.expect_refusal(options, named)
+
+    def test_what_a_serial_arm_does_not_have_is_refused_with_option_value_and_what_to_do(self):
+        only = "allowed with cable arms only: robot micro has a serial arm; leave it out"
+        zero = "0,0,0,0,0,0,0"
+        for options, named in [
+            (["--hold=7"], f"--hold: '7': {only}"),
+            (["--path=x.json"], f"--path: 'x.json': {only}; liana sweep"),
+            ([f"--from-deg={zero}", f"--to-deg={zero}"], f"--to-deg: '{zero}': {only}; liana sweep"),
+            (["--node=8"], "--node: '8': allowed: a whole number from 1 to 7: a joint"),
+            (["--node=0"], "1 to 7"),
+            (["--node=1"], "--node: '1': no joint moves it"),
+            (["--from-deg=0"], "7 numbers"),
+            ([f"--from-deg=271,{zero[2:]}"], "-270 to 270"),
+            (["--samples=999"], "1000 to 1000000"),
+            (["--scene=nowhere"], "nowhere"),
+            ([FEW, "--svg=/no/such/directory/x.svg"], "--svg"),
+        ]:
+            self.expect_refusal(["--robot=micro", *options], named)
 
     def test_every_wrong_file_of_waypoints_ends_with_2_and_one_message(self):
         with tempfile.TemporaryDirectory() as directory:
