@@ -23,7 +23,8 @@ def put_bench_first(process):
             try:
                 if (folder / "comm").read_text().strip() != "liana-bench":
                     continue
-                if b"--check" in (folder / "cmdline").read_bytes().split(b"\0"):
+                words = (folder / "cmdline").read_bytes().split(b"\0")
+                if len(words) < 2 or b"--check" in words:  # none yet: it is just about to begin
                     continue
                 os.sched_setscheduler(int(folder.name), os.SCHED_FIFO, os.sched_param(kHardwarePriority))
                 return
