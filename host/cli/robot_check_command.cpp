@@ -11,6 +11,7 @@
 #include "host/json/json.hpp"
 #include "host/reach/picture.hpp"
 #include "host/reach/region.hpp"
+#include "host/simulate/serial_contact.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/output.hpp"
 #include "host/system/start_pose.hpp"
@@ -251,16 +252,20 @@ void print_parts(const Json& checked) {
 Json checked_serial_robot(const config::SerialRobotConfig& robot) {
   Json problems = Json::array();
   for (const auto& [name, angles_deg] : robot.named_poses_deg) {
-    const std::string inside = system::inside_body(robot, config::SceneConfig{}, angles_deg);
+    const std::string inside = system::inside_itself(robot, angles_deg);
     if (!inside.empty())
       problems.push_back("named_poses_deg." + name + ": " + inside +
                          ": choose other angles, or a thinner link_radius_m");
   }
+  Json notes = Json::array();
+  if (simulate::SerialContact(simulate::serial_model(robot)).pairs() == 0)
+    notes.push_back(
+        "link_radius_m: so thick that no two links are far enough apart along the arm: it is not kept off itself");
   return {{"robot", robot.name},
           {"kind", "serial"},
           {"joints", robot.table.joint_count},
           {"problems", problems},
-          {"notes", Json::array()}};
+          {"notes", notes}};
 }
 
 }  // namespace

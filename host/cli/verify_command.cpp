@@ -128,8 +128,9 @@ void print_summary(const verify::Verdict& verdict) {
     text += (text.empty() ? "" : ", ") + report::line("%s %.*f %s", each.what, each.digits, each.value, each.unit);
   }
   std::printf("left: %s\n", text.c_str());
-  if (left.clearance_m < 0.0)
-    std::printf("inside: the arm is in a body on this way; only motion that leads out is let through\n");
+  if (verdict.passed() && left.clearance_m < 0.0)
+    std::printf(
+        "too near: less is left than has to be; only motion that leads away is let through, as this one does\n");
   if (!verdict.first.body.empty())
     std::printf("first: %s at %.2f s\n", verdict.first.body.c_str(), verdict.first.time_s);
 }

@@ -45,11 +45,14 @@ struct StandingScene {
 void measure_to_scene(double radius_m, const StandingScene& standing, const Way& way, double enough_m, double step_s,
                       Distances& out);
 
-// Of an arm from itself; `look(pose)` finds the least at one pose (clearance::SelfClearance).
+// The same of an arm from itself; `look(pose)` finds the least at one pose (clearance::SelfClearance).
 template <class Look>
-Nearest least_to_itself(const Way& way, double step_s, Look look) {
+void measure_to_itself(const Way& way, double step_s, Look look, Distances& out) {
   const auto along = clearance::least_along({way.gone_m(), 2.0, kEnoughSelf_m, kUnseen_m}, look);
-  return {along.at_least_m, along.nearest.link, along.nearest.other, along.pose * step_s};
+  out.self = {along.at_least_m, along.nearest.link, along.nearest.other, along.pose * step_s};
+  if (out.self.distance_m > 0.0) return;
+  out.self_at_start_m = look(0).distance_m();
+  out.self_at_end_m = look(static_cast<std::int32_t>(way.size()) - 1).distance_m();
 }
 
 }  // namespace liana::simulate

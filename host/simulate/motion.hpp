@@ -47,7 +47,8 @@ struct Nearest {
 struct Distances {
   Nearest scene;  // to the scene, body included
   double scene_at_start_m = 0.0, scene_at_end_m = 0.0;
-  Nearest self;  // between links that no joint connects
+  Nearest self;                                       // between links that no joint connects
+  double self_at_start_m = 0.0, self_at_end_m = 0.0;  // where self.distance_m is 0 or less; else not looked at
 };
 
 // The whole way: T_d apart, the sequence and what the arm swings after it.

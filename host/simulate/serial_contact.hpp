@@ -20,6 +20,8 @@ class SerialContact {
   // joint_count or more; both 0-based. About 150 instructions for each of the pairs that count.
   clearance::SelfClearance least(const SerialAxis& axis) const;
 
+  std::size_t pairs() const { return pairs_.size(); }
+
   // "link 3", "link 2 of macro".
   std::string link_name(std::int32_t link) const;
 

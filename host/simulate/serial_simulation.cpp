@@ -27,21 +27,23 @@ void SerialSimulation::follow(const JointVector& start_rad, const ToldRows<Joint
   }
 }
 
+// The first piece, along the axis of joint 1, never moves: it stands on what the arm is bolted to.
 void SerialSimulation::measure_distances(double interval_s) {
+  Distances& out = motion_.distances;
   if (clearance::obstacle_count(scene_) > 0) {
-    measure_to_scene(model_.link_radius_m, {scene_, {}}, way_, enough_m_, interval_s, motion_.distances);
-    if (motion_.distances.scene.link >= 0) motion_.distances.scene.link /= kPiecesPerLink;
+    measure_to_scene(model_.link_radius_m, {scene_, {}}, moving_, enough_m_, interval_s, out);
+    if (out.scene.link >= 0) out.scene.link = (out.scene.link + 1) / kPiecesPerLink;
   } else {
-    motion_.distances.scene = {clearance::kNoObstacle_m, -1, -1, 0.0};
-    motion_.distances.scene_at_start_m = motion_.distances.scene_at_end_m = clearance::kNoObstacle_m;
+    out.scene = {clearance::kNoObstacle_m, -1, -1, 0.0};
+    out.scene_at_start_m = out.scene_at_end_m = clearance::kNoObstacle_m;
   }
-  motion_.distances.self = least_to_itself(
-      way_, interval_s, [&](std::int32_t pose) { return contact_.least(axes_[static_cast<std::size_t>(pose)]); });
+  const auto look = [&](std::int32_t pose) { return contact_.least(axes_[static_cast<std::size_t>(pose)]); };
+  measure_to_itself(moving_, interval_s, look, out);
 }
 
 const SerialMotion& SerialSimulation::run(const JointVector& start_rad, const ToldRows<JointVector>& told) {
   follow(start_rad, told);
-  way_.begin(length_m_);
+  moving_.begin(length_m_);
   axes_.clear();
   motion_.tip_in_base_m.clear();
   for (std::size_t row = 0; row < motion_.joint_rad.size(); ++row) {
@@ -50,7 +52,7 @@ const SerialMotion& SerialSimulation::run(const JointVector& start_rad, const To
     double turned_rad = 0.0;
     for (std::size_t i = 0; i < model_.table.joints(); ++i) turned_rad += std::fabs(now[i] - before[i]);
     axes_.push_back(serial_axis(model_.table, now));
-    way_.add(axes_.back().points(), turned_rad);
+    moving_.add(axes_.back().points().subspan(1), turned_rad);
     motion_.tip_in_base_m.push_back(axes_.back().tip_m());
   }
   measure_distances(told.interval_s);

@@ -20,8 +20,9 @@ class SerialSimulation {
                    double enough_m = clearance::kNoObstacle_m);
 
   // The arm begins at the measured angles `start_rad`; joints follow what their drives are told to the first order, and
-  // stay as far beside it as they are at the start. Joints and gears are rigid, the base stands still. The result is
-  // valid until the next run. About 3,000 instructions a row, and the distances.
+  // stay as far beside it as they are at the start. Joints and gears are rigid, the base stands still, with the
+  // first piece of link 1, which no body of the scene is too near to. The result is valid until the next run. About
+  // 3,000 instructions a row, and the distances.
   const SerialMotion& run(const serial::JointVector& start_rad, const ToldRows<serial::JointVector>& told);
 
   const config::SceneConfig& scene() const { return scene_; }
@@ -37,7 +38,7 @@ class SerialSimulation {
   SerialContact contact_;
   double length_m_;
   std::vector<SerialAxis> axes_;
-  Way way_;
+  Way moving_;  // all pieces but the first
   SerialMotion motion_;
 };
 

@@ -140,9 +140,10 @@ void Simulation::place_told(const JointSequence& sequence) {
 void Simulation::measure_distances(const Pose& drawing_in_base) {
   measure_to_scene(model_.link_radius_m, {scene_, drawing_in_base}, way_, enough_m_, step_s_, motion_.distances);
   const std::int32_t apart = clearance::least_apart(largest_joint_limit_rad(model_.table));
-  motion_.distances.self = least_to_itself(way_, step_s_, [&](std::int32_t pose) {
+  const auto look = [&](std::int32_t pose) {
     return clearance::self_clearance(way_.axis(static_cast<std::size_t>(pose)), model_.link_radius_m, apart);
-  });
+  };
+  measure_to_itself(way_, step_s_, look, motion_.distances);
 }
 
 const Motion& Simulation::run(const StartState& start, const JointSequence& sequence) {

@@ -31,18 +31,27 @@ std::vector<double> goal_of(const Json& step, const Robot& robot) {
   return pose == robot.named_poses_deg.end() ? std::vector<double>() : pose->second;
 }
 
+std::string place_of(const Json& step) {
+  const std::string pose = step.value("goal_pose", "");
+  return !pose.empty() ? "at pose " + pose : step.contains("plan") ? "at the end of its plan" : "at its goal";
+}
+
 template <class Robot>
 void check_goal(const Json& mission, std::size_t i, const Robot& robot, const config::SceneConfig& scene) {
   const Json& step = mission.at("steps")[i];
   const std::vector<double> goal_deg = goal_of(step, robot);
   const std::string inside = goal_deg.empty() ? "" : inside_body(robot, scene, goal_deg);
   if (inside.empty()) return;
-  const std::string pose = step.value("goal_pose", "");
-  const std::string place = !pose.empty()           ? "at pose " + pose
-                            : step.contains("plan") ? "at the end of its plan"
-                                                    : "at its goal";
-  throw BadInput(step_where(mission, i) + ": " + place + " " + inside + " (scene " + scene.name +
+  throw BadInput(step_where(mission, i) + ": " + place_of(step) + " " + inside + " (scene " + scene.name +
                  "): go to another pose, or run in another --scene");
+}
+
+void check_unfolded(const Json& mission, std::size_t i, const config::SerialRobotConfig& robot) {
+  const Json& step = mission.at("steps")[i];
+  const std::vector<double> goal_deg = goal_of(step, robot);
+  const std::string inside = goal_deg.empty() ? "" : inside_itself(robot, goal_deg);
+  if (!inside.empty())
+    throw BadInput(step_where(mission, i) + ": " + place_of(step) + " " + inside + ": go to another pose");
 }
 
 // Where the file of a step's plan lies.
@@ -109,7 +118,10 @@ void check_steps(const Json& mission, const config::RobotConfig& robot, const co
 }
 
 void check_steps(const Json& mission, const config::SerialRobotConfig& robot, const config::SceneConfig& scene) {
-  for (std::size_t i = 0; i < mission.at("steps").size(); ++i) check_goal(mission, i, robot, scene);
+  for (std::size_t i = 0; i < mission.at("steps").size(); ++i) {
+    check_unfolded(mission, i, robot);
+    check_goal(mission, i, robot, scene);
+  }
 }
 
 void check_scene_parts(const Json& mission, const config::SceneConfig& scene) {

@@ -90,6 +90,19 @@ plan::PlanCheck check_of(const config::RobotConfig& robot, const config::SceneCo
   return plan::check_plan(robot, scene, {theta_rad}, plan::plain_tip(robot.table, theta_rad));
 }
 
+std::string stands_inside(const std::string& link, double distance_m, const std::string& other) {
+  char depth[32];
+  std::snprintf(depth, sizeof depth, "%.1f", -1000.0 * distance_m);
+  return link + " stands " + depth + " mm inside " + other;
+}
+
+// The distances of a serial arm at these angles [deg].
+simulate::Distances standing(simulate::SerialSimulation& simulation, const std::vector<double>& angles_deg) {
+  serial::JointVector joint_rad{};
+  for (std::size_t i = 0; i < angles_deg.size(); ++i) joint_rad[i] = kDegree * angles_deg[i];
+  return simulation.run(joint_rad, {1.0, {joint_rad, joint_rad}}).distances;
+}
+
 void refuse_inside(const std::string& inside, const config::SceneConfig& scene, const StartPose& start) {
   if (inside.empty()) return;
   throw BadInput("--scene: '" + scene.name + "': at the start pose " + start.text + " " + inside +
@@ -142,21 +155,21 @@ std::string inside_body(const config::RobotConfig& robot, const config::SceneCon
   return text + check.nearest;
 }
 
-// Of all that is too near the nearest: a body of the scene, or the arm itself.
 std::string inside_body(const config::SerialRobotConfig& robot, const config::SceneConfig& scene,
                         const std::vector<double>& angles_deg) {
-  serial::JointVector joint_rad{};
-  for (std::size_t i = 0; i < angles_deg.size(); ++i) joint_rad[i] = kDegree * angles_deg[i];
   simulate::SerialSimulation simulation(simulate::serial_model(robot), scene);
-  const simulate::Distances near = simulation.run(joint_rad, {1.0, {joint_rad, joint_rad}}).distances;
-  const bool in_scene = near.scene.distance_m < near.self.distance_m;
-  const simulate::Nearest& nearest = in_scene ? near.scene : near.self;
-  if (nearest.distance_m > 0.0) return "";
-  const std::string other = in_scene ? "body " + clearance::obstacle_name(scene, nearest.other)
-                                     : simulation.contact().link_name(nearest.other);
-  char depth[32];
-  std::snprintf(depth, sizeof depth, "%.1f", -1000.0 * nearest.distance_m);
-  return simulation.contact().link_name(nearest.link) + " stands " + depth + " mm inside " + other;
+  const simulate::Nearest near = standing(simulation, angles_deg).scene;
+  if (near.link < 0 || near.distance_m > 0.0) return "";
+  return stands_inside(simulation.contact().link_name(near.link), near.distance_m,
+                       "body " + clearance::obstacle_name(scene, near.other));
+}
+
+std::string inside_itself(const config::SerialRobotConfig& robot, const std::vector<double>& angles_deg) {
+  simulate::SerialSimulation simulation(simulate::serial_model(robot), {});
+  const simulate::Nearest near = standing(simulation, angles_deg).self;
+  if (near.distance_m > 0.0) return "";
+  return stands_inside(simulation.contact().link_name(near.link), near.distance_m,
+                       simulation.contact().link_name(near.other));
 }
 
 void check_start_is_free(const config::RobotConfig& robot, const config::SceneConfig& scene, const StartPose& start) {
@@ -165,6 +178,8 @@ void check_start_is_free(const config::RobotConfig& robot, const config::SceneCo
 
 void check_start_is_free(const config::SerialRobotConfig& robot, const config::SceneConfig& scene,
                          const StartPose& start) {
+  const std::string folded = inside_itself(robot, start.angles_deg);
+  if (!folded.empty()) throw BadInput("--start-pose: '" + start.text + "': " + folded + "; give another");
   refuse_inside(inside_body(robot, scene, start.angles_deg), scene, start);
 }
 

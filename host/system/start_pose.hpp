@@ -32,14 +32,17 @@ std::string bent_pose(const std::string& robot);
 Json nearest_body(const config::RobotConfig& robot, const config::SceneConfig& scene,
                   const std::vector<double>& angles_deg);
 
-// "link 3 stands 1.2 mm inside body box" where the arm at these angles [deg] is in one, of a serial arm also "inside
-// link 1"; empty where it is free. Cost: about 5 ms.
+// "link 3 stands 1.2 mm inside body box" where the arm at these angles [deg] is in one; empty where it is free. Cost:
+// about 5 ms.
 std::string inside_body(const config::RobotConfig& robot, const config::SceneConfig& scene,
                         const std::vector<double>& angles_deg);
 std::string inside_body(const config::SerialRobotConfig& robot, const config::SceneConfig& scene,
                         const std::vector<double>& angles_deg);
 
-// Throws BadInput with what inside_body says of the start pose, where it says anything.
+// "link 5 stands 1.2 mm inside link 1" where a serial arm touches itself, or the arm that it stands on; else empty.
+std::string inside_itself(const config::SerialRobotConfig& robot, const std::vector<double>& angles_deg);
+
+// Throws BadInput with what these say of the start pose, where they say anything.
 void check_start_is_free(const config::RobotConfig& robot, const config::SceneConfig& scene, const StartPose& start);
 void check_start_is_free(const config::SerialRobotConfig& robot, const config::SceneConfig& scene,
                          const StartPose& start);

@@ -9,6 +9,8 @@ namespace liana::verify {
 
 namespace {
 
+constexpr double kRounded_m = 1e-6;
+
 First at_scene(const config::SceneConfig& scene, const simulate::Nearest& nearest, const LinkName& link_name) {
   if (nearest.link < 0) return {};
   return {clearance::obstacle_name(scene, nearest.other) + " (" + link_name(nearest.link) + ")", nearest.time_s};
@@ -24,6 +26,13 @@ bool leads_away(const simulate::Distances& distances, const TooNear& too_near) {
   const std::optional<double> farthest_m = too_near.farthest_m();
   const double end_m = farthest_m ? std::min(start_m, *farthest_m - kGivenAway_m) : start_m;
   return distances.scene_at_end_m >= end_m && distances.scene.distance_m >= start_m - kGivenAway_m;
+}
+
+// An arm that touches itself already may unfold, and no more than rounding the other way.
+bool leads_apart(const simulate::Distances& distances) {
+  const double start_m = distances.self_at_start_m;
+  return start_m <= 0.0 && distances.self_at_end_m >= start_m - kRounded_m &&
+         distances.self.distance_m >= start_m - kGivenAway_m;
 }
 
 }  // namespace
@@ -60,7 +69,7 @@ void judge_distances(const config::SceneConfig& scene, const simulate::Distances
                in_millimetres(least_m) + " are certain, " + in_millimetres(levels.refuse_m) +
                " have to be left; it stands " + in_millimetres(start_m) + " off",
            first);
-  } else if (!(distances.self.distance_m > 0.0)) {
+  } else if (!(distances.self.distance_m > 0.0) && !leads_apart(distances)) {
     const First self = at_itself(distances.self, link_name);
     refuse(verdict, Refusal::kSelfContact, "the arm would touch itself: " + self.body, self);
   }

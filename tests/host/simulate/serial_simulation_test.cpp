@@ -89,6 +89,16 @@ TEST(SerialSimulation, ABallBesideTheTipIsAsFarAsByHand) {
   EXPECT_EQ(near.scene_at_start_m, near.scene_at_end_m);
 }
 
+TEST(SerialSimulation, TheFloorThatTheArmIsBoltedToIsNoBodyForWhatNeverMoves) {
+  config::SceneConfig scene;
+  scene.boxes.push_back({"floor", {0.0, 0.0, -0.5}, {5.0, 5.0, 0.5}, {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}});
+  const Distances up = standing(micro_model(), scene, joints_deg({0, 60, -30, 100, -40, 60, 0}));
+  EXPECT_NEAR(up.scene.distance_m, 0.28 - kRadius_m, 1e-9) << "link 2 is the lowest that moves";
+  EXPECT_EQ(up.scene.link, 1);
+  const Distances down = standing(micro_model(), scene, joints_deg({0, -60, -30, 100, -40, 60, 0}));
+  EXPECT_LT(down.scene.distance_m, 0.0);
+}
+
 TEST(SerialSimulation, ABallThatIsOnlyNearInTheMiddleOfAMotionIsSeen) {
   const SerialModel model = micro_model();
   JointVector at = joints_deg(serial::micro::kBent_deg), middle = at;

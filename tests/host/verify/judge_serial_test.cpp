@@ -98,10 +98,28 @@ TEST_F(ASerialArmBesideABall, WithoutABodyNothingIsSaidOfClearance) {
 
 // req:C8
 TEST_F(ASerialArmBesideABall, MayNotTouchItself) {
-  bent_ = serial::micro::radians({0, 0, 0, 180, 0, 0, 0});
-  const SimulationVerdict verdict = turns(0.0, 0.0);
+  simulate::ToldRows<JointVector> told{0.02, {}};
+  for (int row = 0; row <= 400; ++row)
+    told.rows_rad.push_back(serial::micro::radians({0, 0, 0, 150.0 + 0.075 * row, 0, 0, 0}));
+  const SimulationVerdict verdict = judged(told);
   EXPECT_EQ(verdict.code, Refusal::kSelfContact);
   EXPECT_NE(verdict.text.find("the arm would touch itself: link"), std::string::npos) << verdict.text;
+}
+
+TEST_F(ASerialArmBesideABall, ThatTouchesItselfAlreadyMayUnfoldAndNotFoldOn) {
+  const auto bends = [this](std::size_t joint, double from_deg, double to_deg) {
+    simulate::ToldRows<JointVector> told{0.02, {}};
+    for (int row = 0; row <= 100; ++row) {
+      told.rows_rad.push_back(bent_);
+      told.rows_rad.back()[joint] = (from_deg + (to_deg - from_deg) * row / 100.0) * kDegree;
+    }
+    return judged(told).code;
+  };
+  bent_ = serial::micro::radians({0, 90, 60, 178, 0, 0, 0});
+  EXPECT_EQ(bends(3, 178.0, 178.0), Refusal::kNone) << "it may stand";
+  EXPECT_EQ(bends(3, 178.0, 176.0), Refusal::kNone);
+  EXPECT_EQ(bends(6, 0.0, 2.0), Refusal::kNone) << "a roll of the last link brings nothing nearer";
+  EXPECT_EQ(bends(3, 178.0, 180.0), Refusal::kSelfContact);
 }
 
 TEST_F(ASerialArmBesideABall, AngleAndRateThatDrivesAreToldAreHeldAgainstTheTable) {
