@@ -93,8 +93,8 @@ TEST(SerialSimulation, TheFloorThatTheArmIsBoltedToIsNoBodyForWhatNeverMoves) {
   config::SceneConfig scene;
   scene.boxes.push_back({"floor", {0.0, 0.0, -0.5}, {5.0, 5.0, 0.5}, {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}});
   const Distances up = standing(micro_model(), scene, joints_deg({0, 60, -30, 100, -40, 60, 0}));
-  EXPECT_NEAR(up.scene.distance_m, 0.28 - kRadius_m, 1e-9) << "link 2 is the lowest that moves";
-  EXPECT_EQ(up.scene.link, 1);
+  EXPECT_NEAR(up.scene.distance_m, 0.03, 1e-9) << "link 3 begins 0.18 m above it";
+  EXPECT_EQ(up.scene.link, 2);
   const Distances down = standing(micro_model(), scene, joints_deg({0, -60, -30, 100, -40, 60, 0}));
   EXPECT_LT(down.scene.distance_m, 0.0);
 }
