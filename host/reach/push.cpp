@@ -94,6 +94,18 @@ bool approach(const ReachArm& arm, const PointOnArm& point, const Vec3& target_i
   return false;
 }
 
+// The limits that hold the point back at these very angles.
+AngleMask limits_at(const ReachArm& arm, const PointOnArm& point, const Vec3& direction, const AngleVector& angle_rad) {
+  const PointMotion motion = point_motion(arm, point, angle_rad);
+  const Vec3 normal = wall_normal(arm, motion, point.flat_axis < 0 ? 3 : 2, direction, angle_rad);
+  AngleMask mask = 0;
+  for (std::size_t i = 0; i < kMaxAngles; ++i) {
+    const double side = is_free(arm, point, i) ? limit_side(arm, angle_rad, i) : 0.0;
+    if (side * dot(motion.column[i], normal) > 1e-9) mask |= 1u << i;
+  }
+  return mask;
+}
+
 }  // namespace
 
 bool is_free(const ReachArm& arm, const PointOnArm& point, std::size_t angle) {
@@ -165,17 +177,12 @@ void climb(const ReachArm& arm, const PointOnArm& point, const Vec3& direction, 
 
 std::uint32_t binding_limits(const ReachArm& arm, const PointOnArm& point, const Vec3& direction,
                              const AngleVector& angle_rad) {
+  const std::uint32_t here = limits_at(arm, point, direction, angle_rad);
+  if (here != 0) return here;
   AngleVector pressed = angle_rad;
   const Vec3 ahead_m = scale(direction, kPushResolution_m);
   approach(arm, point, add(point_motion(arm, point, angle_rad).point_in_base_m, ahead_m), pressed);
-  const PointMotion motion = point_motion(arm, point, pressed);
-  const Vec3 normal = wall_normal(arm, motion, point.flat_axis < 0 ? 3 : 2, direction, pressed);
-  std::uint32_t mask = 0;
-  for (std::size_t i = 0; i < kMaxAngles; ++i) {
-    const double side = is_free(arm, point, i) ? limit_side(arm, pressed, i) : 0.0;
-    if (side * dot(motion.column[i], normal) > 1e-9) mask |= 1u << i;
-  }
-  return mask;
+  return limits_at(arm, point, direction, pressed);
 }
 
 }  // namespace liana::reach

@@ -38,11 +38,11 @@ void push_along_ray(const ReachArm& arm, const PointOnArm& point, const Vec3& or
 // gradient, at most 400.
 void climb(const ReachArm& arm, const PointOnArm& point, const Vec3& direction, AngleVector& angle_rad);
 
-// The limits that stop the point from going further in `direction` (unit vector). The point is pressed 1 mm that way,
-// as a push ends before its limits; then angles bind that stand on an end of their range (1e-9 rad) and whose release
-// would let the point pass the wall that the other angles leave. The wall is the direction that those move the point
-// least in. Bit i: angle i; 0: no limit, the arm is stretched out or folded. An angle whose range holds a turn is never
-// among them (holds_a_turn). Cost: at most 31 kinematics.
+// The limits that stop the point from going further in `direction` (unit vector): angles on an end of their range (1e-9
+// rad) whose release would let it pass the wall that the other angles leave. The wall is the direction that those move
+// the point least in. Where there is none the point is pressed 1 mm that way, as a push ends so much before its limits.
+// Bit i: angle i; 0: no limit, the arm is stretched out or folded. An angle whose range holds a turn is never among
+// them (holds_a_turn). Cost: at most 32 kinematics.
 std::uint32_t binding_limits(const ReachArm& arm, const PointOnArm& point, const Vec3& direction,
                              const AngleVector& angle_rad);
 
