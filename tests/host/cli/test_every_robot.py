@@ -171,7 +171,7 @@ class EveryRobot(unittest.TestCase):
         )
         code, out, error = liana("robot", "check", robot)
         self.assertEqual(code, 1, out + error)
-        self.assertIn("problem: named_poses_deg.folded: link 5 stands ", out)
+        self.assertIn("problem: named_poses_deg.folded: link 4 stands 300.0 mm inside link 3", out)
 
     def test_a_plan_is_carried_out_with_its_own_robot_and_scene_from_where_it_begins(self):
         plan = self.folder / "plan.json"
