@@ -40,8 +40,9 @@ template <class Joints, class Table>
 simulate::ToldRows<Joints> way_of(const VerifyOptions& options, const Table& table, std::size_t joints,
                                   double interval_s) {
   const double duration_s = parse_number_in("--duration", options.duration_s, interval_s, kLongest_s, "s");
-  return simulate::straight_way(table, any_angles<Joints>("--from-deg", options.from_deg, joints),
-                                any_angles<Joints>("--to-deg", options.to_deg, joints), duration_s, interval_s);
+  const Joints from_rad = any_angles<Joints>("--from-deg", options.from_deg, joints);
+  const Joints to_rad = any_angles<Joints>("--to-deg", options.to_deg, joints);
+  return simulate::straight_way(table, from_rad, to_rad, duration_s, interval_s);
 }
 
 verify::Verdict verdict_of(const VerifyOptions& options, const config::RobotConfig& robot,

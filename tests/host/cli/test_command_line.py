@@ -236,7 +236,7 @@ class Verify(unittest.TestCase):
             ([good[0], "--to-deg=nan" + ",0" * 9, good[2]], "--to-deg"),
             ([*good[:2], "--duration=0"], "--duration"),
             ([*good, "--scene", "nosuch"], "nosuch"),
-            ([*good, "--robot", "micro"], "cable arm"),
+            ([*good, "--robot", "micro"], "--from-deg"),
         ]:
             code, out, error = liana("verify", *words)
             self.assertEqual((code, out), (2, ""), words)
