@@ -77,7 +77,8 @@ RegionQuestion question_of(const ReachOptions& options, const config::SerialRobo
   const char* instead = "leave it out; liana sweep --json says how well conditioned the arm is";
   refuse_cable_option("--path", options.path, robot, instead);
   refuse_cable_option("--to-deg", options.to_deg, robot, instead);
-  RegionQuestion asked{reach::arm_of(robot.table), {robot.name, robot.link_radius_m, {}}, request_without_node(options)};
+  RegionQuestion asked{
+      reach::arm_of(robot.table), {robot.name, robot.link_radius_m, {}}, request_without_node(options)};
   asked.drawn.angle_rad = options.from_deg.empty()
                               ? nearest_to_zero(asked.arm)
                               : reach::angles_of(parse_joint_deg("--from-deg", options.from_deg, robot.table));
