@@ -73,8 +73,8 @@ int sweep_command(const SweepOptions& options);
 
 struct VerifyOptions {
   std::string robot = "zhu2022";
-  std::string scene = "panel_slit";
-  std::string from_deg;
+  std::string scene;     // empty: panel_slit, for a serial arm none
+  std::string from_deg;  // angles or the name of a pose, as to_deg
   std::string to_deg;
   std::string duration_s;
   bool json = false;

@@ -23,10 +23,22 @@ constexpr double kLongest_s = 600.0;
 constexpr double kMostAngle_deg = 720.0;
 constexpr double kSerialInterval_s = 0.02;
 
+// A word is the name of a pose.
+template <class Robot>
+std::vector<double> angles_deg_of(const char* option, const std::string& text, const Robot& robot, std::size_t count) {
+  const auto named = robot.named_poses_deg.find(text);
+  if (named != robot.named_poses_deg.end()) return named->second;
+  if (text.find(',') != std::string::npos) return parse_numbers(option, text, count);
+  std::string names;
+  for (const auto& [name, angles_deg] : robot.named_poses_deg) names += (names.empty() ? "" : ", ") + name;
+  throw system::BadInput(std::string(option) + ": '" + text + "': allowed " + std::to_string(count) +
+                         " angles, or a pose of robot " + robot.name + ": " + names);
+}
+
 // Whatever the angles are: those beyond their limits are what verification refuses.
-template <class Joints>
-Joints any_angles(const char* option, const std::string& text, std::size_t count) {
-  const std::vector<double> angles_deg = parse_numbers(option, text, count);
+template <class Joints, class Robot>
+Joints any_angles(const char* option, const std::string& text, const Robot& robot, std::size_t count) {
+  const std::vector<double> angles_deg = angles_deg_of(option, text, robot, count);
   Joints joint_rad{};
   for (std::size_t k = 0; k < angles_deg.size(); ++k) {
     if (std::fabs(angles_deg[k]) > kMostAngle_deg)
@@ -36,20 +48,20 @@ Joints any_angles(const char* option, const std::string& text, std::size_t count
   return joint_rad;
 }
 
-template <class Joints, class Table>
-simulate::ToldRows<Joints> way_of(const VerifyOptions& options, const Table& table, std::size_t joints,
+template <class Joints, class Robot>
+simulate::ToldRows<Joints> way_of(const VerifyOptions& options, const Robot& robot, std::size_t joints,
                                   double interval_s) {
   const double duration_s = parse_number_in("--duration", options.duration_s, interval_s, kLongest_s, "s");
-  const Joints from_rad = any_angles<Joints>("--from-deg", options.from_deg, joints);
-  const Joints to_rad = any_angles<Joints>("--to-deg", options.to_deg, joints);
-  return simulate::straight_way(table, from_rad, to_rad, duration_s, interval_s);
+  const Joints from_rad = any_angles<Joints>("--from-deg", options.from_deg, robot, joints);
+  const Joints to_rad = any_angles<Joints>("--to-deg", options.to_deg, robot, joints);
+  return simulate::straight_way(robot.table, from_rad, to_rad, duration_s, interval_s);
 }
 
 verify::Verdict verdict_of(const VerifyOptions& options, const config::RobotConfig& robot,
                            const config::SceneConfig& scene) {
   const double interval_s = robot.table.interval_ticks * robot.table.tick_s;
   const auto thetas = static_cast<std::size_t>(robot.table.theta_count());
-  const simulate::JointSequence way = way_of<cable::ThetaVector>(options, robot.table, thetas, interval_s);
+  const simulate::JointSequence way = way_of<cable::ThetaVector>(options, robot, thetas, interval_s);
   simulate::StartState start;
   start.theta_rad = way.rows_rad.front();
   simulate::Simulation simulation(simulate::arm_model(robot), scene);
@@ -62,7 +74,7 @@ verify::Verdict verdict_of(const VerifyOptions& options, const config::RobotConf
 // No buses say how long a command interval is, and nothing but how finely the motion is looked at hangs on it.
 verify::Verdict verdict_of(const VerifyOptions& options, const config::SerialRobotConfig& robot,
                            const config::SceneConfig& scene) {
-  const auto way = way_of<serial::JointVector>(options, robot.table, robot.table.joints(), kSerialInterval_s);
+  const auto way = way_of<serial::JointVector>(options, robot, robot.table.joints(), kSerialInterval_s);
   simulate::SerialSimulation simulation(simulate::serial_model(robot), scene);
   verify::TooNear too_near;
   verify::SimulationVerdict verdict;
@@ -128,7 +140,7 @@ void print_summary(const verify::Verdict& verdict) {
     if (!std::isfinite(each.value)) continue;
     text += (text.empty() ? "" : ", ") + report::line("%s %.*f %s", each.what, each.digits, each.value, each.unit);
   }
-  std::printf("left: %s\n", text.c_str());
+  if (!text.empty()) std::printf("left: %s\n", text.c_str());
   if (verdict.passed() && left.clearance_m < 0.0)
     std::printf(
         "too near: less is left than has to be; only motion that leads away is let through, as this one does\n");
@@ -139,8 +151,9 @@ void print_summary(const verify::Verdict& verdict) {
 }  // namespace
 
 int verify_command(const VerifyOptions& options) {
-  const config::SceneConfig scene = system::scene_of(options.scene);
   const std::optional<config::SerialRobotConfig> serial = system::serial_robot_for_kinematics(options.robot);
+  const config::SceneConfig scene =
+      system::scene_of(!options.scene.empty() ? options.scene : serial ? "none" : "panel_slit");
   const verify::Verdict verdict = serial ? verdict_of(options, *serial, scene)
                                          : verdict_of(options, system::robot_for_kinematics(options.robot), scene);
   if (options.json) {

@@ -122,10 +122,10 @@ std::string read_text_file(const std::string& path) {
   return text.str();
 }
 
-void check_kind(const Field& table, const std::string& kind) {
+void check_kind(const Field& table, const std::string& kind, const std::string& other) {
   table.at("format").integer(1, 1);
   const Field found = table.at("kind");
-  if (found.json() != kind) found.refuse(kind, "give a table of this kind");
+  if (found.json() != kind) found.refuse(kind + other, "give a table of this kind");
 }
 
 }  // namespace liana::config

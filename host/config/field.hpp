@@ -74,7 +74,7 @@ Json parse_json(const std::string& text, const std::string& file,
 // The whole file as text; throws when it cannot be read.
 std::string read_text_file(const std::string& path);
 
-// Checks `format` = 1 and `kind`, which every table begins with.
-void check_kind(const Field& table, const std::string& kind);
+// Checks `format` = 1 and `kind`, which every table begins with; `other` is added to what the message allows.
+void check_kind(const Field& table, const std::string& kind, const std::string& other = "");
 
 }  // namespace liana::config

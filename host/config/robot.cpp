@@ -11,7 +11,7 @@ namespace {
 // The robot without what the buses decide (tick, T_c).
 RobotConfig read_robot(const Json& json, const std::string& file, const std::string& physics) {
   const Field table(json, file, "");
-  check_kind(table, "robot");
+  check_kind(table, "robot", ", or serial for an arm of joints with their own drives");
   table.only({"format", "kind", "name", "segments", "module", "joint", "cables", "tension", "drives", "limits",
               "named_poses_deg", "start_pose", "fixture_poses"});
   RobotConfig out;

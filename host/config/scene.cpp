@@ -40,7 +40,7 @@ SceneBox read_box(const Field& field) {
   SceneBox box;
   box.name = field.at("name").name(40);
   box.center_m = field.at("center_m").numbers<3>(kPlace);
-  box.half_extent_m = field.at("half_extent_m").numbers<3>(kLength);
+  box.half_extent_m = field.at("half_extent_m").numbers<3>(kThickness);
   const Field rotation = field.at("rotation");
   rotation.size(3, 3, "give the three axes as rows");
   for (std::size_t i = 0; i < 3; ++i) box.rotation[i] = rotation.element(i).numbers<3>(kDirection);
@@ -50,7 +50,7 @@ SceneBox read_box(const Field& field) {
 
 SceneSphere read_sphere(const Field& field) {
   field.only({"name", "center_m", "radius_m"});
-  return {field.at("name").name(40), field.at("center_m").numbers<3>(kPlace), field.at("radius_m").number(kLength)};
+  return {field.at("name").name(40), field.at("center_m").numbers<3>(kPlace), field.at("radius_m").number(kThickness)};
 }
 
 constexpr std::size_t kMostConvex = 64;
@@ -75,13 +75,13 @@ SceneConvex read_cylinder(const Field& field, const std::string& name) {
   const Vec3 from_m = field.at("from_m").numbers<3>(kPlace), to_m = field.at("to_m").numbers<3>(kPlace);
   if (near(from_m, to_m, kLeastThickness_m))
     field.at("to_m").refuse("another point than from_m, by 1e-6 m or more", "give both ends of the cylinder's axis");
-  return cylinder(name, from_m, to_m, field.at("radius_m").number(kLength));
+  return cylinder(name, from_m, to_m, field.at("radius_m").number(kThickness));
 }
 
 void read_chain(const Field& field, const std::string& name, std::vector<SceneConvex>& out) {
   field.only({"points_m", "radius_m"});
   const std::vector<Vec3> points_m = read_points(field.at("points_m"), 2, 64, "divide the chain");
-  const double radius_m = field.at("radius_m").number(kLength);
+  const double radius_m = field.at("radius_m").number(kThickness);
   for (std::size_t i = 0; i + 1 < points_m.size(); ++i)
     out.push_back(capsule(name, points_m[i], points_m[i + 1], radius_m));
 }

@@ -9,6 +9,7 @@ namespace liana::config {
 constexpr double kUnitTolerance = 1e-9;
 constexpr Range kPlace{-100, 100};      // metres from the base
 constexpr Range kLength{0, 100, true};  // metres
+constexpr Range kThickness{1e-4, 100};  // metres; of bodies, half or all of it
 constexpr Range kDirection{-1 - kUnitTolerance, 1 + kUnitTolerance};
 
 // `position_m` and `quaternion_wxyz`; other members are the caller's affair.

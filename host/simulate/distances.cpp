@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/clearance/arm_clearance.hpp"
+#include "host/clearance/obstacles.hpp"
 
 namespace liana::simulate {
 
@@ -26,6 +27,16 @@ class AxisInDrawing {
   std::array<Vec3, kMostPoints> point_m_;
   std::size_t count_;
 };
+
+void add_body(config::SceneConfig& scene, const config::SceneSphere& body) { scene.spheres.push_back(body); }
+void add_body(config::SceneConfig& scene, const config::SceneBox& body) { scene.boxes.push_back(body); }
+void add_body(config::SceneConfig& scene, const config::SceneConvex& body) { scene.convex.push_back(body); }
+
+config::SceneConfig with_only(const config::SceneConfig& scene, std::int32_t obstacle) {
+  config::SceneConfig out;
+  clearance::with_obstacle(scene, obstacle, [&](const auto& body) { add_body(out, body); });
+  return out;
+}
 
 }  // namespace
 
@@ -53,17 +64,45 @@ void Way::add(clearance::AxisPoints axis_m, double turned_rad) {
   gone_m_.push_back(gone_m_.back() + std::sqrt(most2) + 0.25 * length_m_ * turned_rad * turned_rad);
 }
 
-void measure_to_scene(double radius_m, const StandingScene& standing, const Way& way, double enough_m, double step_s,
-                      Distances& out) {
+namespace {
+
+struct OfScene {
+  Nearest nearest;
+  double at_start_m, at_end_m;
+};
+
+OfScene least_of(const config::SceneConfig& scene, double radius_m, const Pose& drawing_in_base, const Way& way,
+                 double enough_m, double step_s) {
   const auto look = [&](std::size_t pose) {
-    const AxisInDrawing axis(way.axis(pose), standing.drawing_in_base);
-    return clearance::arm_clearance(axis.points_m(), radius_m, standing.scene);
+    const AxisInDrawing axis(way.axis(pose), drawing_in_base);
+    return clearance::arm_clearance(axis.points_m(), radius_m, scene);
   };
   const auto along = clearance::least_along({way.gone_m(), 1.0, enough_m, kUnseen_m},
                                             [&](std::int32_t pose) { return look(static_cast<std::size_t>(pose)); });
-  out.scene = {along.at_least_m, along.nearest.link, along.nearest.obstacle, along.pose * step_s};
-  out.scene_at_start_m = look(0).distance_m();
-  out.scene_at_end_m = look(way.size() - 1).distance_m();
+  return {{along.at_least_m, along.nearest.link, along.nearest.obstacle, along.pose * step_s},
+          look(0).distance_m(),
+          look(way.size() - 1).distance_m()};
+}
+
+}  // namespace
+
+// An arm that touches one body has one least distance to the scene, behind which all other bodies hide.
+void measure_to_scene(double radius_m, const StandingScene& standing, const Way& way, double enough_m, double step_s,
+                      Distances& out) {
+  const auto of = [&](const config::SceneConfig& scene) {
+    return least_of(scene, radius_m, standing.drawing_in_base, way, enough_m, step_s);
+  };
+  const OfScene all = of(standing.scene);
+  out.scene = all.nearest;
+  out.scene_at_start_m = all.at_start_m;
+  out.scene_at_end_m = all.at_end_m;
+  out.bodies.clear();
+  if (all.at_start_m >= standing.scene.margins.prediction_m) return;
+  for (std::int32_t body = 0; body < clearance::obstacle_count(standing.scene); ++body) {
+    OfScene one = of(with_only(standing.scene, body));
+    one.nearest.other = body;
+    out.bodies.push_back({one.at_start_m, one.nearest});
+  }
 }
 
 }  // namespace liana::simulate

@@ -40,8 +40,8 @@ struct StandingScene {
 };
 
 // Distances of an arm of this radius to the scene; those beyond `enough_m` need not be told apart. About 13,000
-// instructions a pose that is measured: two poses where the arm stays far away, at most all of them. `step_s` is from
-// pose to pose.
+// instructions a pose that is measured: two poses where the arm stays far away, at most all of them; once more
+// for each body where the arm could touch one at the start. `step_s` is from pose to pose.
 void measure_to_scene(double radius_m, const StandingScene& standing, const Way& way, double enough_m, double step_s,
                       Distances& out);
 

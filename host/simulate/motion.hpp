@@ -43,10 +43,17 @@ struct Nearest {
   double time_s = 0.0;
 };
 
+// One body of the scene beside the way of an arm.
+struct BodyBeside {
+  double at_start_m = 0.0;
+  Nearest nearest;
+};
+
 // How near the arm comes to bodies and to itself.
 struct Distances {
   Nearest scene;  // to the scene, body included
   double scene_at_start_m = 0.0, scene_at_end_m = 0.0;
+  std::vector<BodyBeside> bodies;                     // each of them, where the arm could touch one at the start
   Nearest self;                                       // between links that no joint connects
   double self_at_start_m = 0.0, self_at_end_m = 0.0;  // where self.distance_m is 0 or less; else not looked at
 };

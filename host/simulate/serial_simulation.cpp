@@ -27,12 +27,21 @@ void SerialSimulation::follow(const JointVector& start_rad, const ToldRows<Joint
   }
 }
 
+namespace {
+
+void as_link(Nearest& of_piece) {
+  if (of_piece.link >= 0) of_piece.link = (of_piece.link + 1) / kPiecesPerLink;
+}
+
+}  // namespace
+
 // The first piece, along the axis of joint 1, never moves: it stands on what the arm is bolted to.
 void SerialSimulation::measure_distances(double interval_s) {
   Distances& out = motion_.distances;
   if (clearance::obstacle_count(scene_) > 0) {
     measure_to_scene(model_.link_radius_m, {scene_, {}}, moving_, enough_m_, interval_s, out);
-    if (out.scene.link >= 0) out.scene.link = (out.scene.link + 1) / kPiecesPerLink;
+    as_link(out.scene);
+    for (BodyBeside& body : out.bodies) as_link(body.nearest);
   } else {
     out.scene = {clearance::kNoObstacle_m, -1, -1, 0.0};
     out.scene_at_start_m = out.scene_at_end_m = clearance::kNoObstacle_m;

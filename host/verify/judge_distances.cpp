@@ -28,6 +28,14 @@ bool leads_away(const simulate::Distances& distances, const TooNear& too_near) {
   return distances.scene_at_end_m >= end_m && distances.scene.distance_m >= start_m - kGivenAway_m;
 }
 
+// An arm that touches a body goes into no other one, and out of all that it touches.
+const simulate::BodyBeside* entered(const simulate::Distances& distances, double prediction_m) {
+  for (const simulate::BodyBeside& body : distances.bodies) {
+    if (body.nearest.distance_m < std::min(body.at_start_m, prediction_m) - kGivenAway_m) return &body;
+  }
+  return nullptr;
+}
+
 // An arm that touches itself already may unfold, and no more than rounding the other way.
 bool leads_apart(const simulate::Distances& distances) {
   const double start_m = distances.self_at_start_m;
@@ -63,12 +71,17 @@ void judge_distances(const config::SceneConfig& scene, const simulate::Distances
   verdict.first = first;
   const bool stands_too_near = start_m - levels.prediction_m < levels.refuse_m;
   stands_too_near ? too_near.stand(start_m) : too_near.forget();
-  if (!std::isfinite(least_m) || (claimed_m < levels.refuse_m && !leads_away(distances, too_near))) {
+  const auto refuse_contact = [&](double simulated_m, double stands_m, const First& where) {
     refuse(verdict, Refusal::kSceneContact,
-           "the arm could touch " + first.body + ": " + in_millimetres(claimed_m) + " of the simulated " +
-               in_millimetres(least_m) + " are certain, " + in_millimetres(levels.refuse_m) +
-               " have to be left; it stands " + in_millimetres(start_m) + " off",
-           first);
+           "the arm could touch " + where.body + ": " + in_millimetres(simulated_m - levels.prediction_m) +
+               " of the simulated " + in_millimetres(simulated_m) + " are certain, " +
+               in_millimetres(levels.refuse_m) + " have to be left; it stands " + in_millimetres(stands_m) + " off",
+           where);
+  };
+  if (!std::isfinite(least_m) || (claimed_m < levels.refuse_m && !leads_away(distances, too_near))) {
+    refuse_contact(least_m, start_m, first);
+  } else if (const simulate::BodyBeside* body = entered(distances, levels.prediction_m)) {
+    refuse_contact(body->nearest.distance_m, body->at_start_m, at_scene(scene, body->nearest, link_name));
   } else if (!(distances.self.distance_m > 0.0) && !leads_apart(distances)) {
     const First self = at_itself(distances.self, link_name);
     refuse(verdict, Refusal::kSelfContact, "the arm would touch itself: " + self.body, self);

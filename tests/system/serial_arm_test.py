@@ -216,8 +216,8 @@ class BodiesInTheWayOfASerialArm(SystemTest):
             self.assertEqual((verdict["margins"]["tension_N"], verdict["margins"]["time_us"]), (None, None))
 
     def test_the_arm_below_is_no_way_through(self):
-        ends = [f"--{word}-deg=-137,-117,-97,139,125,107,46" for word in ("from", "to")]
-        words = ("verify", "--robot", "macro_micro", "--scene", "none", *ends, "--duration", "1", "--json")
+        ends = [f"--{word}-deg=-137,{angle},-97,139,125,107,46" for word, angle in (("from", -57), ("to", -117))]
+        words = ("verify", "--robot", "macro_micro", *ends, "--duration", "60", "--json")
         verdict = json.loads(run("liana", *words).stdout)
         self.assertEqual(verdict["error"]["code"], 209, verdict)
         self.assertIn("link 4 of macro (link 4)", verdict["error"]["text"])

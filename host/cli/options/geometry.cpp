@@ -99,9 +99,10 @@ void add_verify(CLI::App& app, Action& action) {
       app, action, "verify", "whether a straight motion of the joints would be released, and what it leaves",
       verify_command);
   add_robot(sub, verify.robot);
-  sub.add_option("--scene", verify.scene, "scene table: a name under lua/scenes or a file")->capture_default_str();
-  sub.add_option("--from-deg", verify.from_deg, "joint angles where the arm stands")->required();
-  sub.add_option("--to-deg", verify.to_deg, "joint angles where it is told to stop")->required();
+  sub.add_option("--scene", verify.scene,
+                 "scene table: a name under lua/scenes or a file; panel_slit where not given, for a serial arm none");
+  sub.add_option("--from-deg", verify.from_deg, "joint angles, or a named pose, where the arm stands")->required();
+  sub.add_option("--to-deg", verify.to_deg, "joint angles, or a named pose, where it is told to stop")->required();
   sub.add_option("--duration", verify.duration_s, "how long that takes, s; T_c to 600")->required();
   add_json(sub, verify.json);
 }

@@ -6,10 +6,14 @@
 namespace liana::cli {
 namespace {
 
+void add_robot_in_either_place(CLI::App& sub, std::string& robot) {
+  CLI::Option* place = sub.add_option("robot", robot, "a name under lua/robots or a file")->capture_default_str();
+  sub.add_option("--robot", robot, "the same as an option")->excludes(place);
+}
+
 void add_robot_export(CLI::App& group, Action& action) {
   auto [sub, exported] = add<ExportOptions>(group, action, "export", "a robot table as canonical JSON", export_command);
-  sub.add_option("robot", exported.robot, "a name under lua/robots or a file")->capture_default_str();
-  sub.add_option("--robot", exported.robot, "the same as an option");
+  add_robot_in_either_place(sub, exported.robot);
   sub.add_option("--out", exported.file, "file to write; standard output where not given");
   sub.add_flag("--json")->description("the output is JSON with or without it");
 }
@@ -18,8 +22,7 @@ void add_robot_check(CLI::App& group, Action& action) {
   auto [sub, checked] = add<RobotCheckOptions>(
       group, action, "check", "what of a robot fits: capacity, bus load, workspace, tensions, holes, fixtures",
       robot_check_command);
-  sub.add_option("robot", checked.robot, "a name under lua/robots or a file")->capture_default_str();
-  sub.add_option("--robot", checked.robot, "the same as an option");
+  add_robot_in_either_place(sub, checked.robot);
   sub.add_option("--bus", checked.bus, "bus table; where not given as for liana run");
   sub.add_option("--svg", checked.svg_file, "draw the discs' holes and the cables' routing to this file");
   add_json(sub, checked.json);

@@ -205,6 +205,14 @@ class Verify(unittest.TestCase):
         self.assertTrue(all(margin > 0 for margin in verdict["margins"].values()), verdict)
         self.assertAlmostEqual(verdict["margins"]["joint_deg"], 20 - 13, delta=1e-6)
 
+    def test_a_pose_may_be_named(self):
+        named, duration = ("--from-deg=prepare", "--to-deg=prepare"), "--duration=5"
+        angles = f"--from-deg={joined(PREPARE)}", f"--to-deg={joined(PREPARE)}"
+        self.assertEqual(liana_json("verify", *named, duration), liana_json("verify", *angles, duration))
+        code, _, error = liana("verify", "--from-deg=prepared", named[1], duration)
+        self.assertEqual(code, 2)
+        self.assertRegex(error, "--from-deg: 'prepared': allowed 10 angles, or a pose of robot zhu2022: .*prepare")
+
     def test_where_nothing_is_around_no_clearance_is_told(self):
         motion = f"--from-deg={joined(PREPARE)}", f"--to-deg={joined(PREPARE)}", "--duration=5"
         self.assertIn("left: angle", liana("verify", "--scene=none", *motion)[1])
@@ -449,6 +457,7 @@ class Help(unittest.TestCase):
             (["log", "show", "--from", "1", "--from", "2"], "--from: stands 2 times; give it once; see liana log show"),
             (["help", "pose", "extra"], "help: 'extra': liana pose has no commands of its own"),
             (["robot", "new"], "name is required; see liana robot new --help"),
+            (["robot", "check", "micro", "--robot", "zhu2022"], "robot excludes --robot; see liana robot check --help"),
             (["log", "verify", "nosuch"], "log: 'nosuch': no such folder, and no run in"),
             (["log", "verify", "/tmp"], "log: '/tmp': holds no archive.db"),
             (["commands", __file__], "lines is a stage of a command; give a run"),

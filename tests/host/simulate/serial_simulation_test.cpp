@@ -99,6 +99,22 @@ TEST(SerialSimulation, TheFloorThatTheArmIsBoltedToIsNoBodyForWhatNeverMoves) {
   EXPECT_LT(down.scene.distance_m, 0.0);
 }
 
+// The stretched arm, whose tip is inside a ball, and a second ball farther off.
+TEST(SerialSimulation, BesideABodyThatTheArmTouchesEveryOtherIsMeasuredByItself) {
+  const JointVector stretched = joints_deg({});
+  const Vec3 tip_m = serial_axis(serial::micro::table(), stretched).tip_m();
+  config::SceneConfig scene = scene_with_ball(tip_m, 0.1);
+  EXPECT_EQ(standing(micro_model(), scene_with_ball(add(tip_m, {0.5, 0.0, 0.0}), 0.1), stretched).bodies.size(), 0u);
+  scene.spheres.push_back({"second", add(tip_m, {0.5, 0.0, 0.0}), 0.1});
+  const Distances near = standing(micro_model(), scene, stretched);
+  ASSERT_EQ(near.bodies.size(), 2u);
+  EXPECT_LT(near.bodies[0].at_start_m, -0.1);
+  EXPECT_NEAR(near.bodies[1].at_start_m, 0.5 - 0.1 - kRadius_m, 1e-9);
+  EXPECT_NEAR(near.bodies[1].nearest.distance_m, 0.5 - 0.1 - kRadius_m, 1e-9);
+  EXPECT_EQ(near.bodies[1].nearest.other, 1);
+  EXPECT_EQ(near.bodies[1].nearest.link, 6);
+}
+
 TEST(SerialSimulation, ABallThatIsOnlyNearInTheMiddleOfAMotionIsSeen) {
   const SerialModel model = micro_model();
   JointVector at = joints_deg(serial::micro::kBent_deg), middle = at;

@@ -1,6 +1,9 @@
 // Motions of an arm that stands nearer to the scene than it may: away, along beside it, and no nearer.
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
 #include "host/verify/judge_simulated.hpp"
 
 namespace liana::verify {
@@ -13,9 +16,10 @@ class AnArmBesideABody : public testing::Test {
     rules_.scene.spheres.push_back({"ball", {}, 0.1});
   }
 
-  // Of a motion between these distances, nearest at `least_m`.
-  Refusal goes(double start_m, double least_m, double end_m) {
+  // Of a motion between these distances, nearest at `least_m`, past bodies beside it.
+  Refusal goes(double start_m, double least_m, double end_m, std::vector<simulate::BodyBeside> bodies = {}) {
     simulate::Motion motion;
+    motion.distances.bodies = std::move(bodies);
     motion.solved = true;
     motion.distances.scene = {least_m, 3, 0, 0.1};
     motion.distances.scene_at_start_m = start_m;
@@ -52,6 +56,17 @@ TEST_F(AnArmBesideABody, ComesNoNearerByOneMotionAfterTheOther) {
 TEST_F(AnArmBesideABody, ThatHasLeftItIsAsOneThatNeverWasThere) {
   EXPECT_EQ(goes(0.0050, 0.0050, 0.0080), Refusal::kNone);
   EXPECT_EQ(goes(0.0080, 0.0069, 0.0069), Refusal::kSceneContact);
+}
+
+TEST_F(AnArmBesideABody, ThatTouchesOneBodyIsLetOutOfItAndIntoNoOther) {
+  rules_.scene.spheres.push_back({"post", {}, 0.1});
+  const auto out_of_ball = [&](double post_start_m, double post_least_m) {
+    return goes(-0.050, -0.050, -0.030, {{-0.050, {-0.050, 3, 0, 0.1}}, {post_start_m, {post_least_m, 5, 1, 0.4}}});
+  };
+  EXPECT_EQ(out_of_ball(0.100, 0.0071), Refusal::kNone);
+  EXPECT_EQ(out_of_ball(0.100, 0.0059), Refusal::kSceneContact) << "no deeper than in the first, but in another one";
+  EXPECT_EQ(out_of_ball(-0.010, -0.0109), Refusal::kNone) << "wedged between both: as far as one can tell no deeper";
+  EXPECT_EQ(out_of_ball(-0.010, -0.0111), Refusal::kSceneContact);
 }
 
 }  // namespace
