@@ -152,8 +152,9 @@ void print_summary(const verify::Verdict& verdict) {
 
 int verify_command(const VerifyOptions& options) {
   const std::optional<config::SerialRobotConfig> serial = system::serial_robot_for_kinematics(options.robot);
-  const config::SceneConfig scene =
-      system::scene_of(!options.scene.empty() ? options.scene : serial ? "none" : "panel_slit");
+  const config::SceneConfig scene = system::scene_of(!options.scene.empty() ? options.scene
+                                                     : serial               ? "none"
+                                                                            : "panel_slit");
   const verify::Verdict verdict = serial ? verdict_of(options, *serial, scene)
                                          : verdict_of(options, system::robot_for_kinematics(options.robot), scene);
   if (options.json) {

@@ -74,8 +74,8 @@ void judge_distances(const config::SceneConfig& scene, const simulate::Distances
   const auto refuse_contact = [&](double simulated_m, double stands_m, const First& where) {
     refuse(verdict, Refusal::kSceneContact,
            "the arm could touch " + where.body + ": " + in_millimetres(simulated_m - levels.prediction_m) +
-               " of the simulated " + in_millimetres(simulated_m) + " are certain, " +
-               in_millimetres(levels.refuse_m) + " have to be left; it stands " + in_millimetres(stands_m) + " off",
+               " of the simulated " + in_millimetres(simulated_m) + " are certain, " + in_millimetres(levels.refuse_m) +
+               " have to be left; it stands " + in_millimetres(stands_m) + " off",
            where);
   };
   if (!std::isfinite(least_m) || (claimed_m < levels.refuse_m && !leads_away(distances, too_near))) {
