@@ -316,6 +316,7 @@ int drive_jog_command(const DriveOptions& options);
 struct RobotCheckOptions {
   std::string robot = "zhu2022";
   std::string bus;       // empty: as for a run
+  std::string scene;     // whose payload a serial arm carries; empty: none
   std::string svg_file;  // empty: no picture
   bool json = false;
 };

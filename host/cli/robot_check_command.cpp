@@ -7,11 +7,11 @@
 #include "host/calibration/calibrate.hpp"
 #include "host/calibration/fixture.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/serial_robot_check.hpp"
 #include "host/config/field.hpp"
 #include "host/json/json.hpp"
 #include "host/reach/picture.hpp"
 #include "host/reach/region.hpp"
-#include "host/simulate/serial_contact.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/output.hpp"
 #include "host/system/start_pose.hpp"
@@ -236,6 +236,7 @@ void print_parts(const Json& checked) {
   std::printf("%s, a %s arm\n", checked["robot"].get<std::string>().c_str(),
               checked["kind"].get<std::string>().c_str());
   if (checked["kind"] == "cable") print_cable_robot(checked);
+  if (checked["kind"] == "serial") print_swings(checked["swings"]);
   const Json& buses = checked["buses"];
   for (const Json& bus : buses["buses"]) {
     std::printf("bus %s of %s: %d drives at %g Hz, worst-case load %.1f %% of %.0f %% allowed\n",
@@ -248,26 +249,6 @@ void print_parts(const Json& checked) {
   std::printf(checked["problems"].empty() ? "fits\n" : "does NOT fit as it is\n");
 }
 
-// A named pose in which the arm touches itself, or what it stands on, cannot be gone to.
-Json checked_serial_robot(const config::SerialRobotConfig& robot) {
-  Json problems = Json::array();
-  for (const auto& [name, angles_deg] : robot.named_poses_deg) {
-    const std::string inside = system::inside_itself(robot, angles_deg);
-    if (!inside.empty())
-      problems.push_back("named_poses_deg." + name + ": " + inside +
-                         ": choose other angles, or a thinner link_radius_m");
-  }
-  Json notes = Json::array();
-  if (simulate::SerialContact(simulate::serial_model(robot)).pairs() == 0)
-    notes.push_back(
-        "link_radius_m: so thick that no two links are far enough apart along the arm: it is not kept off itself");
-  return {{"robot", robot.name},
-          {"kind", "serial"},
-          {"joints", robot.table.joint_count},
-          {"problems", problems},
-          {"notes", notes}};
-}
-
 }  // namespace
 
 int robot_check_command(const RobotCheckOptions& options) {
@@ -277,10 +258,13 @@ int robot_check_command(const RobotCheckOptions& options) {
   const bool is_serial = system::checked([&] { return config::robot_kind(robot_text, options.robot); }) == "serial";
   if (is_serial && !options.svg_file.empty())
     throw system::BadInput("--svg: robot " + options.robot + " has a serial arm, without cables; leave it out");
+  if (!is_serial && !options.scene.empty())
+    throw system::BadInput("--scene: robot " + options.robot + " has cables and carries no payload; leave it out");
+  const config::SceneConfig scene = options.scene.empty() ? config::SceneConfig{} : system::scene_of(options.scene);
   Json checked;
   if (is_serial) {
     checked = system::checked(
-        [&] { return checked_serial_robot(config::parse_serial_robot(robot_text, options.robot, buses)); });
+        [&] { return checked_serial_robot(config::parse_serial_robot(robot_text, options.robot, buses), scene); });
   } else {
     const config::RobotConfig robot =
         system::checked([&] { return config::parse_robot(robot_text, options.robot, "nominal", buses); });

@@ -160,7 +160,7 @@ LockedBase read_base(const Field& field) {
   const SerialRobotConfig carrier = read_arm_alone(robot);
   if (carrier.stiffness_Nm_rad.empty())
     robot.at("joints").refuse("stiffness_Nm_per_rad at every joint", "say how its locked joints give way");
-  LockedBase base{carrier.name, carrier.table, {}, {}, carrier.link_radius_m, {}};
+  LockedBase base{carrier.name, carrier.table, carrier.masses, {}, {}, carrier.link_radius_m, {}};
   std::vector<std::string> names;
   for (const auto& [name, joint_deg] : carrier.named_poses_deg) names.push_back(name);
   const std::vector<double>& joint_deg = carrier.named_poses_deg.at(field.at("pose").choice(names));

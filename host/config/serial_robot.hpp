@@ -19,6 +19,7 @@ namespace liana::config {
 struct LockedBase {
   std::string name;                        // of the robot that carries
   serial::RobotTable table{};              // without drives of its own: tick and T_c stay 0
+  serial::MassTable masses{};              // of its links
   serial::JointVector joint_rad{};         // at which its joints are locked
   serial::JointVector stiffness_Nm_rad{};  // of each, about its axis
   double link_radius_m = 0.0;

@@ -27,14 +27,17 @@ local kHeard_s = 0.1 -- since the adapter's last message
 local kLight_N = 5 -- what the adapter may still feel 1 s after the capture
 local kLockLimit_s = 400 -- source: 298 s
 -- With which periods the locked large arm swings under the small one, alone and with the payload of the scene in hand: what moves is led so
--- that it leaves the base still, whatever it carries. The squares of the periods grow with the mass.
-local kAlone = { swing_s = 26.7, quicker_swing_s = 5.6 }
+-- that it leaves the base still, whatever it carries. The squares of the periods grow with the mass, and with how far the locked joints give way.
+-- `liana robot check macro_micro --scene payload_adapter` tells them.
+local kGivesWay_Nm_per_rad = 4264 -- per joint, with which these are true
+local kAlone_s, kAloneQuicker_s = 26.7, 5.6
 local kHeavier = 1.055 -- the middle of the periods that payloads of 0.6 to 2 of their drawn mass swing with, on bases of 0.8 to 1.2 stiffness
 local kSlowest_s2_per_kg, kQuickest_s2_per_kg = 0.9, 0.1
 -- The end effector takes what is within 20 mm, a pin's funnel what is within 30 mm. With the payload in hand the arm is as heavy as what it
 -- stands on: there it keeps still against a swing instead of working against it.
 local kServoToPayload = { axis = "z", tolerance_m = 0.003, tolerance_deg = 0.8 } -- else as servo_target has it
-local kServoToAdapter = { axis = "z", tolerance_m = 0.003, tolerance_deg = 0.4, calming = 0.7, gain_1_s = 0.4, timeout_s = 260 }
+local kServoToAdapter = { axis = "z", tolerance_deg = 0.4, calming = 0.7, gain_1_s = 0.4, timeout_s = 260 }
+local kBeside_m, kBesideOnSoft_m = 0.0015, 0.0015 -- of the place before the adapter, and what a base as soft as that adds
 
 -- ---- places -------------------------------------------------------------------------------------------------------
 
@@ -54,16 +57,22 @@ local function with(swings, fields)
   return fields
 end
 
-local function loaded(arm)
-  local mass_kg = arm.part_of_scene("payload").mass_kg
-  return {
-    swing_s = math.sqrt(kAlone.swing_s ^ 2 + kSlowest_s2_per_kg * mass_kg) * kHeavier,
-    swing_off = 0.2, -- payloads are up to twice as heavy as drawn, or lighter
-    quicker_swing_s = math.sqrt(kAlone.quicker_swing_s ^ 2 + kQuickest_s2_per_kg * mass_kg),
-  }
+-- How soft the locked joints are beside those that the numbers are true with.
+local function softness(arm) return kGivesWay_Nm_per_rad / arm.robot.base.robot.joints[1].stiffness_Nm_per_rad end
+
+local function swings_with(arm, mass_kg)
+  local function period_s(alone_s, s2_per_kg) return math.sqrt((alone_s ^ 2 + s2_per_kg * mass_kg) * softness(arm)) end
+  return { swing_s = period_s(kAlone_s, kSlowest_s2_per_kg), quicker_swing_s = period_s(kAloneQuicker_s, kQuickest_s2_per_kg) }
 end
 
-local function alone() return kAlone end
+local function alone(arm) return swings_with(arm, 0) end
+
+local function loaded(arm)
+  local swings = swings_with(arm, arm.part_of_scene("payload").mass_kg)
+  swings.swing_s = swings.swing_s * kHeavier
+  swings.swing_off = 0.2 -- payloads are up to twice as heavy as drawn, or lighter
+  return swings
+end
 
 -- The tip from where it is commanded to be, along its own z; with the payload in hand.
 local function along_z(way_m)
@@ -113,7 +122,7 @@ local function pins(arm) return moved(held, { 0, 0, arm.part_of_scene("payload")
 local function at_adapter_m(arm) return -arm.part_of_scene("payload").length_m - kBeforeAdapter_m end
 
 local function before_mechanism(arm)
-  arm.move_cp(with(kAlone, { goal = moved(drawn(arm, "payload"), { 0, 0, -kBeforeMechanism_m }) }))
+  arm.move_cp(with(alone(arm), { goal = moved(drawn(arm, "payload"), { 0, 0, -kBeforeMechanism_m }) }))
 end
 
 local function before_site(arm)
@@ -126,6 +135,7 @@ local function servo_to(target, before_m, how, swings, point)
   return function(arm)
     local place = { target = target, offset = { 0, 0, -before_m, 1, 0, 0, 0 }, point = point and point(arm) }
     local fields = with(swings(arm), with(how, place))
+    fields.tolerance_m = fields.tolerance_m or kBeside_m + kBesideOnSoft_m * softness(arm)
     fields.swing_off = 0.1 -- it is quicker so, and calms what is left
     arm.servo_target(fields)
   end

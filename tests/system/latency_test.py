@@ -56,7 +56,8 @@ class Latency(unittest.TestCase):
             report["overruns"], sum(report["overrun_causes"][cause] for cause in ("late_wake", "long_tick", "bus_wait"))
         )
         self.assertEqual(done.returncode, 0 if report["overruns"] == 0 and report["enabled"] else 1)
-        self.assertGreater(report["moving"], 0.0)
+        if report["enabled"] and not report["overruns"]:  # a busy machine may stop the arm before it moves
+            self.assertGreater(report["moving"], 0.0)
         self.assertIn("real-time priority", [finding["name"] for finding in report["realtime"]])
         self.assertEqual(done.stderr, "")
 

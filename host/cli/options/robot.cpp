@@ -24,6 +24,8 @@ void add_robot_check(CLI::App& group, Action& action) {
       robot_check_command);
   add_robot_in_either_place(sub, checked.robot);
   sub.add_option("--bus", checked.bus, "bus table; where not given as for liana run");
+  sub.add_option("--scene", checked.scene,
+                 "scene table whose payload a serial arm carries, where its base swings; no payload where not given");
   sub.add_option("--svg", checked.svg_file, "draw the discs' holes and the cables' routing to this file");
   add_json(sub, checked.json);
 }

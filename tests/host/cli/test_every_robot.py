@@ -163,6 +163,21 @@ class EveryRobot(unittest.TestCase):
         for robot in ("micro", "macro", "macro_micro"):
             self.assertEqual(liana_json("robot", "check", robot)["problems"], [], robot)
 
+    def test_how_the_locked_base_of_a_serial_arm_swings_is_told(self):
+        swings = {}
+        for robot in ("macro_micro", "macro_micro_stiff"):
+            words = ("robot", "check", robot, "--scene", "payload_adapter", "--bus", "embedded_payload")
+            swings[robot] = liana_json(*words)["swings"]["install"]
+        soft, stiff = swings.values()
+        for expected_s, told_s in ((26.7, soft["alone_s"][0]), (5.6, soft["alone_s"][1])):
+            self.assertAlmostEqual(told_s, expected_s, delta=0.05 * expected_s)  # as the bench was measured
+        for which in ("alone_s", "with_payload_s"):
+            self.assertAlmostEqual(soft[which][0] / stiff[which][0], 20**0.5, delta=0.3)
+        self.assertIsNone(liana_json("robot", "check", "macro_micro")["swings"]["install"]["with_payload_s"])
+        self.assertEqual(liana_json("robot", "check", "micro")["swings"], {})
+        code, _, error = liana("robot", "check", "zhu2022", "--scene", "none")
+        self.assertEqual((code, "carries no payload" in error), (2, True), error)
+
     def test_a_named_pose_in_which_a_serial_arm_touches_itself_is_a_problem(self):
         robot = self.folder / "folded.lua"
         robot.write_text(
