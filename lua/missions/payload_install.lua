@@ -289,6 +289,7 @@ return liana.mission "payload_install" {
     device = "none",
     run = along_z(-kBackOff_m),
     exit = at_rest(),
+    fail_when = latch_is "closed", -- late, before the pins were out: it is not pulled at, and the ground decides
     time_limit_s = 200,
     on_fail = "hold",
     next = { step = "3 servo to the adapter", at_most = 3 * kTries + 1 },
