@@ -78,6 +78,20 @@ class Payload(SystemTest):
         self.assertEqual((outcomes[0], outcomes[-1]), ("failed", "success"))
 
     # req:B19 req:B26
+    def test_a_latch_that_closes_while_the_arm_backs_off_is_not_pulled_at(self):
+        late = [{"kind": "depth_lies", "pin": 1, "depth_m": 0.01, "when": {"depth_above_m": 0.002}, "for_slots": 10500}]
+        with tempfile.NamedTemporaryFile("w", suffix=".json") as faults:
+            faults.write(json.dumps(late))
+            faults.flush()
+            done, report = self.flown("--seed", "8002", "--faults", faults.name)
+        self.assertEqual((done.returncode, report["outcome"], report["faults"]), (1, "failed", []))
+        self.assertEqual(
+            (report["steps"][-1]["name"], report["steps"][-1]["outcome"]), ("3 away from the adapter", "failed")
+        )
+        self.assertTrue(report["ends_at_rest"])
+        self.assertLess(report["max_joint_torque_Nm"], 100)
+
+    # req:B19 req:B26
     def test_what_the_adapter_says_twice_counts_once(self):
         done, report = self.flown("--seed", "8002", "--fault", "duplicate_capture")
         self.assertEqual((done.returncode, report["outcome"]), (0, "success"), done.stderr)
