@@ -15,6 +15,7 @@ namespace {
 
 using serial::JointTable;
 
+constexpr double kShortest_m = 0.01;  // of all links together
 constexpr double kMostAngle_deg = 720.0;
 constexpr double kMostCounts = 2e9;  // what fits into the 32 bits of a drive's position, with room for a target beyond
 
@@ -53,6 +54,8 @@ void read_joints(const Field& joints, SerialRobotConfig& out) {
                                         "(kMaxJoints)");
   out.table.joint_count = static_cast<std::int32_t>(count);
   for (std::size_t i = 0; i < count; ++i) out.table.joint[i] = read_joint(joints.element(i));
+  if (serial::chain_length_m(out.table) < kShortest_m)
+    joints.refuse("links that are 10 mm long or more together", "give a_m and d_m as they are built");
   read_stiffness(joints, count, out);
 }
 

@@ -40,8 +40,11 @@ TEST(SerialRobot, IsRefusedWithFileFieldValueRangeAndAdvice) {
   const Json good = good_table("robot", "micro");
   const auto nine = Json(std::vector<Json>(9, good["joints"][0]));
   const auto five = Json(std::vector<Json>(5, good["joints"][0]));
+  Json short_joint = good["joints"][0];
+  short_joint["a_m"] = short_joint["d_m"] = 0.001;
   const std::vector<Spoiled> cases = {
       {"/format", 2, "format", "1 to 1"},
+      {"/joints", Json(std::vector<Json>(6, short_joint)), "joints", "10 mm long or more"},
       {"/kind", "robot", "kind", "allowed serial"},
       {"/colour", "red", "colour", "no such field"},
       {"/joints", nine, "joints", "kMaxJoints"},  // compiled capacity, by name
