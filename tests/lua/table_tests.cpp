@@ -56,7 +56,7 @@ TEST(Eval, RefusesMalformedLuaTablesByField) {
       {"robot", "robots.zhu2022", "for i = 6, 9 do t.segments[i] = t.segments[1] end",
        "given.lua: segments: 9 entries: allowed a list of 1 to 8"},
       {"scene", "scenes.panel_slit", "t.spheres[1].radius_m = -1",
-       "given.lua: spheres[1].radius_m: -1: allowed over 0"},
+       "given.lua: spheres[1].radius_m: -1: allowed 1e-04 to 100"},
       {"scene", "scenes.panel_slit", "t.boxes[1].rotation[1] = {1,1,1}", "given.lua: boxes[1].rotation: "},
       {"scene", "scenes.panel_slit", "t.rod.position_m = {1,2}",
        "given.lua: rod.position_m: 2 entries: allowed a list of 3 entries"},
