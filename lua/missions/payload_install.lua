@@ -57,8 +57,11 @@ local function with(swings, fields)
   return fields
 end
 
--- How soft the locked joints are beside those that the numbers are true with.
-local function softness(arm) return kGivesWay_Nm_per_rad / arm.robot.base.robot.joints[1].stiffness_Nm_per_rad end
+-- How soft the locked joints are beside those that the numbers are true with; an arm that stands firm has none.
+local function softness(arm)
+  local base = arm.robot.base
+  return base and kGivesWay_Nm_per_rad / base.robot.joints[1].stiffness_Nm_per_rad or 0
+end
 
 local function swings_with(arm, mass_kg)
   local function period_s(alone_s, s2_per_kg) return math.sqrt((alone_s ^ 2 + s2_per_kg * mass_kg) * softness(arm)) end
