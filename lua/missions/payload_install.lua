@@ -37,7 +37,7 @@ local kSlowest_s2_per_kg, kQuickest_s2_per_kg = 0.9, 0.1
 -- stands on: there it keeps still against a swing instead of working against it.
 local kServoToPayload = { axis = "z", tolerance_m = 0.003, tolerance_deg = 0.8 } -- else as servo_target has it
 local kServoToAdapter = { axis = "z", tolerance_deg = 0.4, calming = 0.7, gain_1_s = 0.4, timeout_s = 260 }
-local kBeside_m, kBesideOnSoft_m = 0.0015, 0.0015 -- of the place before the adapter, and what a base as soft as that adds
+local kBeside_m, kBesideOnSoft_m = 0.0015, 0.0015 -- of the place before the adapter on a base that swings, and what one as soft as that adds
 
 -- ---- places -------------------------------------------------------------------------------------------------------
 
@@ -138,7 +138,7 @@ local function servo_to(target, before_m, how, swings, point)
   return function(arm)
     local place = { target = target, offset = { 0, 0, -before_m, 1, 0, 0, 0 }, point = point and point(arm) }
     local fields = with(swings(arm), with(how, place))
-    fields.tolerance_m = fields.tolerance_m or kBeside_m + kBesideOnSoft_m * softness(arm)
+    if fields.swing_s > 0 then fields.tolerance_m = fields.tolerance_m or kBeside_m + kBesideOnSoft_m * softness(arm) end
     fields.swing_off = 0.1 -- it is quicker so, and calms what is left
     arm.servo_target(fields)
   end
