@@ -77,6 +77,7 @@ struct VerifyOptions {
   std::string from_deg;  // angles or the name of a pose, as to_deg
   std::string to_deg;
   std::string duration_s;
+  bool carrying = false;  // the scene's payload
   bool json = false;
 };
 // The simulation end's verdict on a straight motion in joint space; exit code 0 whether it is accepted or refused.

@@ -79,7 +79,8 @@ verify::Verdict verdict_of(const VerifyOptions& options, const config::SerialRob
   verify::TooNear too_near;
   verify::SimulationVerdict verdict;
   verdict.margins = verify::margins_unknown();
-  verify::judge_serial(robot.table, simulation, way, simulation.run(way.rows_rad.front(), way), too_near, verdict);
+  verify::judge_serial(robot.table, simulation, way, simulation.run(way.rows_rad.front(), way, options.carrying),
+                       too_near, verdict);
   return verdict;
 }
 
@@ -155,6 +156,10 @@ int verify_command(const VerifyOptions& options) {
   const config::SceneConfig scene = system::scene_of(!options.scene.empty() ? options.scene
                                                      : serial               ? "none"
                                                                             : "panel_slit");
+  if (options.carrying && !scene.payload)
+    throw system::BadInput("--carrying: scene " + scene.name + " has no payload; name one that has (--scene)");
+  if (options.carrying && !serial)
+    throw system::BadInput("--carrying: robot " + options.robot + " has cables and carries no payload; leave it out");
   const verify::Verdict verdict = serial ? verdict_of(options, *serial, scene)
                                          : verdict_of(options, system::robot_for_kinematics(options.robot), scene);
   if (options.json) {

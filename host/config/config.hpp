@@ -171,6 +171,7 @@ struct ScenePayload {
   Vec3 center_m{};                       // of mass, in its own frame: the grapple's
   std::array<double, 6> inertia_kgm2{};  // xx, yy, zz, xy, xz, yz about the centre
   double length_m = 0.0;                 // from the grapple to the tips of its pins
+  double radius_m = 0.0;                 // of the capsule that it is looked at as, from end to end
   bool on_arm = false;                   // from the start; else the transfer mechanism holds it
   double start_lateral_m = 0.0;          // with on_arm: so far beside the adapter's axis at most, in x and in y
   double start_tilt_deg = 0.0;           // and so much turned

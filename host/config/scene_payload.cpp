@@ -6,6 +6,7 @@ namespace {
 
 constexpr Range kMass{1, 1e5};
 constexpr Range kInertia{-1e6, 1e6};
+constexpr Range kRadius{0.01, 10};
 constexpr double kLeastLength_m = 0.05;
 
 void read_start(const Field& field, ScenePayload& payload) {
@@ -25,7 +26,7 @@ void check_inertia(const Field& field, const std::array<double, 6>& inertia) {
 }  // namespace
 
 ScenePayload read_payload(const Field& field) {
-  field.only({"position_m", "quaternion_wxyz", "mass_kg", "center_m", "inertia_kgm2", "length_m", "start",
+  field.only({"position_m", "quaternion_wxyz", "mass_kg", "center_m", "inertia_kgm2", "length_m", "radius_m", "start",
               "start_lateral_m", "start_tilt_deg"});
   ScenePayload payload;
   payload.pose = read_pose(field);
@@ -34,6 +35,7 @@ ScenePayload read_payload(const Field& field) {
   payload.inertia_kgm2 = field.at("inertia_kgm2").numbers<6>(kInertia);
   check_inertia(field.at("inertia_kgm2"), payload.inertia_kgm2);
   payload.length_m = field.at("length_m").number({kLeastLength_m, 20});
+  payload.radius_m = field.at("radius_m").number(kRadius);
   read_start(field, payload);
   return payload;
 }

@@ -71,26 +71,36 @@ struct OfScene {
   double at_start_m, at_end_m;
 };
 
-OfScene least_of(const config::SceneConfig& scene, double radius_m, const Pose& drawing_in_base, const Way& way,
+OfScene least_of(const config::SceneConfig& scene, const Pieces& pieces, const Pose& drawing_in_base, const Way& way,
                  double enough_m, double step_s) {
   const auto look = [&](std::size_t pose) {
-    const AxisInDrawing axis(way.axis(pose), drawing_in_base);
-    return clearance::arm_clearance(axis.points_m(), radius_m, scene);
+    const AxisInDrawing axis(way.axis(pose).subspan(pieces.first_point, pieces.points), drawing_in_base);
+    return clearance::arm_clearance(axis.points_m(), pieces.radius_m, scene);
   };
   const auto along = clearance::least_along({way.gone_m(), 1.0, enough_m, kUnseen_m},
                                             [&](std::int32_t pose) { return look(static_cast<std::size_t>(pose)); });
-  return {{along.at_least_m, along.nearest.link, along.nearest.obstacle, along.pose * step_s},
+  const std::int32_t link = along.nearest.link;
+  return {{along.at_least_m, link < 0 ? link : link + static_cast<std::int32_t>(pieces.first_point),
+           along.nearest.obstacle, along.pose * step_s},
           look(0).distance_m(),
           look(way.size() - 1).distance_m()};
+}
+
+OfScene least_of_all(const OfScene& a, const OfScene& b) {
+  return {b.nearest.distance_m < a.nearest.distance_m ? b.nearest : a.nearest, std::min(a.at_start_m, b.at_start_m),
+          std::min(a.at_end_m, b.at_end_m)};
 }
 
 }  // namespace
 
 // An arm that touches one body has one least distance to the scene, behind which all other bodies hide.
-void measure_to_scene(double radius_m, const StandingScene& standing, const Way& way, double enough_m, double step_s,
-                      Distances& out) {
+void measure_to_scene(std::span<const Pieces> arm, const StandingScene& standing, const Way& way, double enough_m,
+                      double step_s, Distances& out) {
   const auto of = [&](const config::SceneConfig& scene) {
-    return least_of(scene, radius_m, standing.drawing_in_base, way, enough_m, step_s);
+    OfScene least = least_of(scene, arm.front(), standing.drawing_in_base, way, enough_m, step_s);
+    for (const Pieces& pieces : arm.subspan(1))
+      least = least_of_all(least, least_of(scene, pieces, standing.drawing_in_base, way, enough_m, step_s));
+    return least;
   };
   const OfScene all = of(standing.scene);
   out.scene = all.nearest;

@@ -33,17 +33,24 @@ class Way {
   std::vector<double> gone_m_;
 };
 
+// Capsules of one radius between points of a way's axis, one after the other; a piece has the number of its first
+// point.
+struct Pieces {
+  double radius_m;
+  std::size_t first_point, points;
+};
+
 // The scene's bodies, and where in the arm's base their drawing stands.
 struct StandingScene {
   const config::SceneConfig& scene;
   Pose drawing_in_base{};
 };
 
-// Distances of an arm of this radius to the scene; those beyond `enough_m` need not be told apart. About 13,000
+// Distances of an arm to the scene, `link` being a piece; those beyond `enough_m` need not be told apart. About 13,000
 // instructions a pose that is measured: two poses where the arm stays far away, at most all of them; once more
 // for each body where the arm could touch one at the start. `step_s` is from pose to pose.
-void measure_to_scene(double radius_m, const StandingScene& standing, const Way& way, double enough_m, double step_s,
-                      Distances& out);
+void measure_to_scene(std::span<const Pieces> arm, const StandingScene& standing, const Way& way, double enough_m,
+                      double step_s, Distances& out);
 
 // The same of an arm from itself; `look(pose)` finds the least at one pose (clearance::SelfClearance).
 template <class Look>

@@ -26,6 +26,7 @@ SerialAxis serial_axis(const serial::RobotTable& table, const serial::JointVecto
     axis.point_m[axis.count++] = vec3(frame.translation());
     frame.rotate(Eigen::AngleAxisd(row.alpha_rad, Vector3d::UnitX()));
   }
+  axis.tip_z = vec3(frame.linear().col(2));
   return axis;
 }
 
@@ -52,6 +53,11 @@ SerialModel serial_model(const config::SerialRobotConfig& robot) {
     model.base_of_link.push_back(static_cast<std::int32_t>(i) / kPiecesPerLink);
   }
   return model;
+}
+
+CarriedBody carried_body(const config::ScenePayload& payload) {
+  const double end_m = std::fmin(payload.radius_m, 0.5 * payload.length_m);
+  return {end_m, payload.length_m - end_m, payload.radius_m};
 }
 
 }  // namespace liana::simulate

@@ -10,47 +10,61 @@ std::int32_t link_of(std::size_t piece) { return static_cast<std::int32_t>(piece
 
 }  // namespace
 
-// Where every piece begins along the axis of both arms; their lengths are the same at all poses.
-SerialContact::SerialContact(const SerialModel& model) : model_(model) {
+// The lengths of the pieces along both arms are the same at all poses.
+SerialContact::SerialContact(const SerialModel& model, const std::optional<CarriedBody>& carried)
+    : model_(model), carried_(carried) {
   const SerialAxis axis = serial_axis(model.table, {});
   std::vector<double> length_m;
   for (const clearance::Capsule& piece : model.base) length_m.push_back(length_of(piece));
   for (std::size_t i = 0; i + 1 < axis.count; ++i)
     length_m.push_back(norm(subtract(axis.point_m[i + 1], axis.point_m[i])));
-  const auto radius_m = [&](std::size_t piece) {
-    return piece < model.base.size() ? model.base[piece].radius_m : model.link_radius_m;
-  };
-  for (std::size_t piece = model.base.size(); piece < length_m.size(); ++piece) {
-    double between_m = 0.0;
-    for (std::size_t other = piece; other-- > 0;) {
-      const bool both_are = length_m[piece] > 0.0 && length_m[other] > 0.0;
-      const bool of_base = other < model.base.size();
-      const double diameters_m = kDiametersBetween * (radius_m(piece) + radius_m(other));
-      if (both_are && between_m >= diameters_m)
-        pairs_.push_back({piece - model.base.size(), of_base ? other : other - model.base.size(), of_base});
-      between_m += length_m[other];
-    }
+  for (std::size_t piece = model.base.size(); piece < length_m.size(); ++piece)
+    if (length_m[piece] > 0.0) add_pairs(piece, length_m, model.link_radius_m, pairs_);
+  if (carried) add_pairs(length_m.size(), length_m, carried->radius_m, pairs_carrying_);
+}
+
+// With all pieces before it that are far enough from it along the arm.
+void SerialContact::add_pairs(std::size_t piece, const std::vector<double>& length_m, double radius_m,
+                              std::vector<Pair>& out) const {
+  const std::size_t below = model_.base.size();
+  double between_m = 0.0;
+  for (std::size_t other = piece; other-- > 0; between_m += length_m[other]) {
+    const bool of_base = other < below;
+    const double other_radius_m = of_base ? model_.base[other].radius_m : model_.link_radius_m;
+    if (length_m[other] > 0.0 && between_m >= kDiametersBetween * (radius_m + other_radius_m))
+      out.push_back({piece - below, of_base ? other : other - below, of_base});
   }
 }
 
-clearance::SelfClearance SerialContact::least(const SerialAxis& axis) const {
+clearance::Capsule SerialContact::piece_at(const SerialAxis& axis, std::size_t piece) const {
+  if (piece + 1 < axis.count)
+    return clearance::link_capsule(axis.points(), static_cast<std::int32_t>(piece), model_.link_radius_m);
+  return {axis.beyond_tip_m(carried_->from_m), axis.beyond_tip_m(carried_->to_m), carried_->radius_m};
+}
+
+clearance::SelfClearance SerialContact::least(const SerialAxis& axis, bool carries) const {
   clearance::SelfClearance out;
-  for (const Pair& pair : pairs_) {
-    const auto piece_of = [&](std::size_t piece) {
-      return clearance::link_capsule(axis.points(), static_cast<std::int32_t>(piece), model_.link_radius_m);
-    };
-    const clearance::Capsule other = pair.of_base ? model_.base[pair.other] : piece_of(pair.other);
-    const double distance_m = clearance::between_m(piece_of(pair.piece), other);
-    if (distance_m >= out.nearest_m) continue;
-    out = {distance_m, link_of(pair.piece),
-           pair.of_base ? model_.table.joint_count + model_.base_of_link[pair.other] : link_of(pair.other)};
-  }
+  const auto look_at = [&](const std::vector<Pair>& pairs) {
+    for (const Pair& pair : pairs) {
+      const clearance::Capsule other = pair.of_base ? model_.base[pair.other] : piece_at(axis, pair.other);
+      const double distance_m = clearance::between_m(piece_at(axis, pair.piece), other);
+      if (distance_m >= out.nearest_m) continue;
+      out = {distance_m, link_of(pair.piece), pair.of_base ? number_of_base(pair.other) : link_of(pair.other)};
+    }
+  };
+  look_at(pairs_);
+  if (carries) look_at(pairs_carrying_);
   return out;
 }
 
+std::int32_t SerialContact::number_of_base(std::size_t piece) const {
+  return model_.table.joint_count + 1 + model_.base_of_link[piece];
+}
+
 std::string SerialContact::link_name(std::int32_t link) const {
-  const bool of_base = link >= model_.table.joint_count;
-  const std::string number = std::to_string(1 + (of_base ? link - model_.table.joint_count : link));
+  if (link == model_.table.joint_count) return "the payload";
+  const bool of_base = link > model_.table.joint_count;
+  const std::string number = std::to_string(1 + (of_base ? link - model_.table.joint_count - 1 : link));
   return "link " + number + (of_base ? " of " + model_.base_name : "");
 }
 

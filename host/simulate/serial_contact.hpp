@@ -1,6 +1,7 @@
 // Which pieces of a serial arm can touch one another, and how near they are.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "host/clearance/self_clearance.hpp"
@@ -14,26 +15,34 @@ constexpr double kDiametersBetween = 2.0;
 
 class SerialContact {
  public:
-  explicit SerialContact(const SerialModel& model);
+  // `carried`: what the arm may have on its tip.
+  explicit SerialContact(const SerialModel& model, const std::optional<CarriedBody>& carried = {});
 
-  // The least distance at one pose: `link` is of this arm, `other` too, or of the arm below when it is
-  // joint_count or more; both 0-based. About 150 instructions for each of the pairs that count.
-  clearance::SelfClearance least(const SerialAxis& axis) const;
+  // The least distance at one pose, with what it may carry on the tip, or without: `link` is of this arm, `other` too;
+  // joint_count is what it carries, and from there on those of the arm below; all 0-based. About 150 instructions for
+  // each of the pairs that count.
+  clearance::SelfClearance least(const SerialAxis& axis, bool carries = false) const;
 
   std::size_t pairs() const { return pairs_.size(); }
 
-  // "link 3", "link 2 of macro".
+  // "link 3", "the payload", "link 2 of macro".
   std::string link_name(std::int32_t link) const;
 
  private:
-  // `piece` is of this arm; `other` too, or that of the base where it is `of_base`.
+  // `piece` is of this arm, one more than it has is what it carries; `other` is of this arm, too, or that of the base
+  // where it is `of_base`.
   struct Pair {
     std::size_t piece, other;
     bool of_base;
   };
 
+  void add_pairs(std::size_t piece, const std::vector<double>& length_m, double radius_m, std::vector<Pair>& out) const;
+  clearance::Capsule piece_at(const SerialAxis& axis, std::size_t piece) const;
+  std::int32_t number_of_base(std::size_t piece) const;
+
   SerialModel model_;
-  std::vector<Pair> pairs_;
+  std::optional<CarriedBody> carried_;
+  std::vector<Pair> pairs_, pairs_carrying_;  // the second: of what is carried
 };
 
 }  // namespace liana::simulate

@@ -19,6 +19,15 @@ struct SerialModel {
   std::string base_name;
 };
 
+// What the arm carries: a capsule along the tip's z.
+struct CarriedBody {
+  double from_m = 0.0, to_m = 0.0;  // its axis, from the tip's origin
+  double radius_m = 0.0;
+};
+
+// The capsule that ends where the payload does; of one that is thicker than long, a ball in its middle.
+CarriedBody carried_body(const config::ScenePayload& payload);
+
 // The model of a robot's table.
 SerialModel serial_model(const config::SerialRobotConfig& robot);
 

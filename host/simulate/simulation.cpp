@@ -138,7 +138,8 @@ void Simulation::place_told(const JointSequence& sequence) {
 }
 
 void Simulation::measure_distances(const Pose& drawing_in_base) {
-  measure_to_scene(model_.link_radius_m, {scene_, drawing_in_base}, way_, enough_m_, step_s_, motion_.distances);
+  const Pieces arm{model_.link_radius_m, 0, way_.axis(0).size()};
+  measure_to_scene({&arm, 1}, {scene_, drawing_in_base}, way_, enough_m_, step_s_, motion_.distances);
   const std::int32_t apart = clearance::least_apart(largest_joint_limit_rad(model_.table));
   const auto look = [&](std::int32_t pose) {
     return clearance::self_clearance(way_.axis(static_cast<std::size_t>(pose)), model_.link_radius_m, apart);

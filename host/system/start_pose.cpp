@@ -100,7 +100,8 @@ std::string stands_inside(const std::string& link, double distance_m, const std:
 simulate::Distances standing(simulate::SerialSimulation& simulation, const std::vector<double>& angles_deg) {
   serial::JointVector joint_rad{};
   for (std::size_t i = 0; i < angles_deg.size(); ++i) joint_rad[i] = kDegree * angles_deg[i];
-  return simulation.run(joint_rad, {1.0, {joint_rad, joint_rad}}).distances;
+  const std::optional<config::ScenePayload>& payload = simulation.scene().payload;
+  return simulation.run(joint_rad, {1.0, {joint_rad, joint_rad}}, payload && payload->on_arm).distances;
 }
 
 void refuse_inside(const std::string& inside, const config::SceneConfig& scene, const StartPose& start) {

@@ -102,7 +102,8 @@ void SimulationEnd<serial::SerialArm>::begin(const TwinImage<Arm>& image, const 
   verdict_.margins = margins_unknown();
   if (!verdict_.passed()) return;
   read_sequence(image, candidate, prediction, sequence_);
-  const simulate::SerialMotion& motion = simulation_.run(image.last_outputs.joint_measured_rad, sequence_);
+  const bool carries = candidate.setpoint().payload_at_tip.mass_kg > 0.0;
+  const simulate::SerialMotion& motion = simulation_.run(image.last_outputs.joint_measured_rad, sequence_, carries);
   judge_serial(table_, simulation_, sequence_, motion, too_near_, verdict_);
 }
 

@@ -21,6 +21,7 @@ local install, pick = geometry.tip(robot, install_deg), geometry.tip(robot, pick
 local payload = at(pick, 0) -- of its grapple, z towards the pins
 payload.start = "mechanism"
 payload.mass_kg, payload.length_m = kMass_kg, kLength_m
+payload.radius_m = 0.3 -- its pins stand on a circle of 0.25 m
 payload.center_m = { 0, 0, 0.5 * kLength_m }
 payload.inertia_kgm2 = { kMass_kg / 6, kMass_kg / 6, kMass_kg / 6, 0, 0, 0 } -- xx, yy, zz, xy, xz, yz about the centre
 

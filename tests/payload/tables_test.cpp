@@ -95,6 +95,15 @@ TEST(PayloadScenes, WhatIsWrongIsRefusedByBothWithItsField) {
   }
 }
 
+// Contact of its body is verification's, not the bench's.
+TEST(PayloadScenes, TheRadiusOfThePayloadHasToBeOneThatABodyCanHave) {
+  Json table = scene_table("payload_adapter");
+  table["payload"]["radius_m"] = 0;
+  EXPECT_THROW(config::parse_scene(table.dump(), "s"), std::runtime_error);
+  table["payload"].erase("radius_m");
+  EXPECT_THROW(config::parse_scene(table.dump(), "s"), std::runtime_error);
+}
+
 TEST(PayloadScenes, AnInertiaThatNoBodyHasIsRefused) {
   Json table = scene_table("payload_adapter");
   table["payload"]["inertia_kgm2"] = {10, 10, 30, 0, 0, 0};

@@ -15,6 +15,7 @@ namespace {
 using bench::Vec3;
 
 constexpr Vec3 kPlateInTip_m{0.0, 0.0, 1.0};  // the payload is a metre long
+constexpr double kClear_m = 0.002;            // of a funnel's wall, where a misaligned push begins
 constexpr int kStepsInTick = 16;              // of 0.25 ms at 250 Hz
 constexpr int kStepsInLoop = 4;               // the drives' loops run at 1 kHz
 
@@ -70,6 +71,19 @@ ForceCase drawn_case(std::uint64_t seed) {
   out.adapter.spring_N_m *= numbers.in(0.8, 1.15);
   out.adapter.stiffness_N_m = std::pow(10.0, numbers.in(4.0, 5.3));
   out.bias_N = {numbers.in(-0.5, 0.5), numbers.in(-0.5, 0.5), numbers.in(-0.5, 0.5)};
+  return out;
+}
+
+ForceCase misaligned_case(std::uint64_t seed, const Misalignment& most) {
+  ForceCase out = drawn_case(seed);
+  Numbers numbers(~seed);
+  const double aside = most.aside_m * std::sqrt(numbers.in(0.0, 1.0)), towards = numbers.in(0.0, 6.28);
+  const double tilt = numbers.in(0.0, most.tilt_rad), about = numbers.in(0.0, 6.28);
+  out.aside_m = {aside * std::cos(towards), aside * std::sin(towards), 0.0};
+  out.tilt_rad = {tilt * std::cos(about), tilt * std::sin(about), 0.0};
+  const double lowest_pin = out.adapter.circle_m * std::sin(tilt);
+  out.before_m = std::max(0.001, kClear_m + lowest_pin + aside - out.adapter.entry_m);
+  out.most_aside_m = 0.03;
   return out;
 }
 
@@ -226,7 +240,7 @@ serial::Setpoint ForceRig::push(double force_N, serial::PushLaw law) {
   setpoint.push.law = law;
   setpoint.push.force_N = force_N;
   setpoint.push.travel_m = 0.06;
-  setpoint.push.aside_m = 0.02;
+  setpoint.push.aside_m = case_.most_aside_m;
   setpoint.push.turn_rad = 0.05;
   if (law == serial::PushLaw::kImpedance) setpoint.push.depth_m = case_.before_m + 0.0222;
   setpoint.push.gains = robot_.push_gains;

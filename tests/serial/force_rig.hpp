@@ -28,7 +28,8 @@ struct ForceCase {
   bench::AdapterFigures adapter{};
   bench::Vec3 aside_m{0.0010, 0.0015, 0.0};  // of the plate from the socket's middle
   bench::Vec3 tilt_rad{0.004, -0.005, 0.0};
-  double before_m = 0.001;  // of the plate before the socket's face
+  double before_m = 0.001;     // of the plate before the socket's face
+  double most_aside_m = 0.02;  // that the push may go
   double noise_N = 0.2;
   bench::Vec3 bias_N{};
   std::uint64_t seed = 1;
@@ -37,6 +38,15 @@ struct ForceCase {
 
 // All that may differ, drawn as the study did (payload study, 4).
 ForceCase drawn_case(std::uint64_t seed);
+
+// How far beside the socket's axis a push may begin, in any direction, and how far turned about any axis across it.
+struct Misalignment {
+  double aside_m;
+  double tilt_rad;
+};
+// The same, begun by up to `most` beside the socket and turned, so far before its face that every pin is clear of its
+// funnel.
+ForceCase misaligned_case(std::uint64_t seed, const Misalignment& most);
 
 class ForceRig {
  public:

@@ -46,6 +46,18 @@ TEST(Force, OfRandomPayloadsBasesAndAdaptersAllAreCapturedWithoutMoreForceThanAl
   EXPECT_EQ(captured, static_cast<int>(kSeeds));
 }
 
+// req:B24
+TEST(Force, APushBeganAsFarBesideTheAxisAsTheFunnelsTakeIsCaptured) {
+  for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + 3; ++seed) {
+    ForceRig rig(misaligned_case(seed, {0.028, 0.008}));
+    const PushRun run = run_push(rig, PushLaw::kForce, 40.0);
+    EXPECT_GT(run.captured_s, 0.0) << seed;
+    EXPECT_LE(run.peak_N, 60.0) << seed;
+    EXPECT_LE(run.peak_Nm, 100.0) << seed;
+    EXPECT_EQ(run.faults, 0) << seed;
+  }
+}
+
 // It leads a point to where the stop should be and pulls towards it: what base and gears give is missing in the end.
 TEST(Force, ImpedanceOnTheSameSeedsIsLateOrDoesNotCaptureAndBreaksNoLimit) {
   int captured = 0;

@@ -104,6 +104,7 @@ void add_verify(CLI::App& app, Action& action) {
   sub.add_option("--from-deg", verify.from_deg, "joint angles, or a named pose, where the arm stands")->required();
   sub.add_option("--to-deg", verify.to_deg, "joint angles, or a named pose, where it is told to stop")->required();
   sub.add_option("--duration", verify.duration_s, "how long that takes, s; T_c to 600")->required();
+  sub.add_flag("--carrying", verify.carrying, "the scene's payload is on the tip; for serial arms");
   add_json(sub, verify.json);
 }
 

@@ -141,6 +141,76 @@ TEST(SerialSimulation, APlateThinnerThanTheWayFromRowToRowIsSeen) {
   EXPECT_LE(near.scene.distance_m, 0.0) << "no row is within 0.1 m of it";
 }
 
+// A payload of 1 m and 0.3 m about the tip's z: as a body has it from the side, and from ahead.
+TEST(SerialSimulation, WhatTheArmCarriesIsPartOfIt) {
+  const JointVector bent = joints_deg(serial::micro::kBent_deg);
+  const SerialAxis axis = serial_axis(serial::micro::table(), bent);
+  const Vec3 across = cross(axis.tip_z, {1.0, 0.0, 0.0}), aside = scale(across, 1.0 / norm(across));
+  struct Case {
+    double along_m, aside_m, off_m;
+  };
+  for (const Case& here : {Case{0.5, 1.0, 0.6}, Case{0.3, 0.6, 0.2}, Case{1.5, 0.0, 0.4}}) {
+    config::SceneConfig scene = scene_with_ball(add(axis.beyond_tip_m(here.along_m), scale(aside, here.aside_m)), 0.1);
+    scene.payload.emplace();
+    scene.payload->length_m = 1.0;
+    scene.payload->radius_m = 0.3;
+    SerialSimulation simulation(micro_model(), scene);
+    const Rows told{0.02, {bent, bent}};
+    const double without_m = simulation.run(bent, told).distances.scene.distance_m;
+    const Nearest with = simulation.run(bent, told, true).distances.scene;
+    EXPECT_NEAR(with.distance_m, here.off_m, 1e-9) << here.along_m;
+    EXPECT_LT(with.distance_m, without_m);
+    EXPECT_EQ(simulation.contact().link_name(with.link), "the payload");
+    EXPECT_EQ(simulation.run(bent, told).distances.scene.distance_m, without_m) << "it is let go again";
+  }
+}
+
+// A disc of 1 m and a length of 0.1 m is a ball about its middle.
+TEST(SerialSimulation, APayloadThickerThanLongIsABall) {
+  config::ScenePayload disc;
+  disc.length_m = 0.1;
+  disc.radius_m = 1.0;
+  const CarriedBody body = carried_body(disc);
+  EXPECT_EQ(body.from_m, 0.05);
+  EXPECT_EQ(body.to_m, 0.05);
+  EXPECT_EQ(body.radius_m, 1.0);
+}
+
+// With nothing on the tip both booms at a right angle are far from one another; a payload of 3 m is in the first one.
+TEST(SerialContact, WhatTheArmCarriesTouchesLinksAndTheArmBelow) {
+  SerialModel model = micro_model();
+  config::SceneConfig scene;
+  scene.payload.emplace();
+  scene.payload->length_m = 3.0;
+  scene.payload->radius_m = 0.2;
+  serial::micro::Random random(23);
+  SerialSimulation simulation(model, scene);
+  int touched = 0;
+  for (int i = 0; i < 300; ++i) {
+    const JointVector joint_rad = serial::micro::random_joints(model.table, random);
+    const Rows told{0.02, {joint_rad, joint_rad}};
+    if (simulation.run(joint_rad, told).distances.self.distance_m <= 0.0) continue;
+    const Nearest near = simulation.run(joint_rad, told, true).distances.self;
+    if (near.distance_m > 0.0) continue;
+    ++touched;
+    EXPECT_EQ(simulation.contact().link_name(near.link), "the payload");
+    // By hand: the least distance of points of both axes.
+    const SerialAxis axis = serial_axis(model.table, joint_rad);
+    double by_hand_m = clearance::kNoObstacle_m;
+    for (std::size_t piece = 0; piece + 1 < axis.count; ++piece) {
+      if (static_cast<std::int32_t>(piece) / kPiecesPerLink != near.other) continue;
+      for (int k = 0; k <= 100; ++k)
+        for (int n = 0; n <= 300; ++n) {
+          const Vec3 way = subtract(axis.point_m[piece + 1], axis.point_m[piece]);
+          const Vec3 there = axis.beyond_tip_m(0.2 + 2.6 * n / 300.0);
+          by_hand_m = std::min(by_hand_m, norm(subtract(add(axis.point_m[piece], scale(way, k / 100.0)), there)));
+        }
+    }
+    EXPECT_NEAR(near.distance_m, by_hand_m - 0.2 - kRadius_m, 0.02);
+  }
+  EXPECT_GT(touched, 5);
+}
+
 TEST(SerialContact, AnArmThatFoldsItsBoomsAndWristBackTouchesItsFirstLink) {
   const SerialModel model = micro_model();
   EXPECT_GT(standing(model, {}, joints_deg(serial::micro::kBent_deg)).self.distance_m, 0.0);
@@ -166,7 +236,7 @@ TEST(SerialContact, TheArmBelowIsPartOfWhatCanBeTouched) {
   for (int i = 0; i < 500; ++i) {
     const JointVector joint_rad = serial::micro::random_joints(model.table, random);
     const Distances near = simulation.run(joint_rad, {0.02, {joint_rad, joint_rad}}).distances;
-    if (near.self.other != 10 || near.self.distance_m > std::min(least_m, 0.9 * kEnoughSelf_m)) continue;
+    if (near.self.other != 11 || near.self.distance_m > std::min(least_m, 0.9 * kEnoughSelf_m)) continue;
     least_m = near.self.distance_m;
     // By hand: the nearest of all points of the link's two pieces to the column's axis.
     const SerialAxis axis = serial_axis(model.table, joint_rad);
@@ -184,7 +254,7 @@ TEST(SerialContact, TheArmBelowIsPartOfWhatCanBeTouched) {
     EXPECT_NEAR(near.self.distance_m, by_hand_m, 2e-3);
   }
   EXPECT_LT(least_m, 0.0) << "some of the poses have to be ones that touch it";
-  EXPECT_EQ(simulation.contact().link_name(10), "link 4 of macro");
+  EXPECT_EQ(simulation.contact().link_name(11), "link 4 of macro");
   EXPECT_EQ(simulation.contact().link_name(2), "link 3");
 }
 
