@@ -22,7 +22,7 @@ const kNumbers = {
   'servo.error_m': [0.003, 0, 0.004], 'servo.error_deg': [0, 0.1, 0], 'servo.swing_m': [0.014],
 };
 const place: ScenePose = { position_m: [0, 0, 0], quaternion_wxyz: [1, 0, 0, 0] };
-const scene: Scene = { name: 's', payload: { ...place, start: 'mechanism', length_m: 1 }, adapter: place };
+const scene: Scene = { name: 's', payload: { ...place, start: 'mechanism', length_m: 1, radius_m: 0.3 }, adapter: place };
 // As states of arms that have nothing to push with say it.
 const bare: Facts = {
   push: no_push, adapter: open, payload: { mass_kg: 0 }, servo: { ...servoing, phase: 'standby', target: '' },

@@ -5,7 +5,7 @@ import type { Scene, ScenePose } from '../model/robot';
 import type { SceneColours } from './palette';
 import { Batch, paint } from './shade';
 
-export const kBodyRadius_m = 0.3;
+export const kBodyRadius_m = 0.3; // of scenes that were recorded before a payload had a radius
 const kPins = { circle_m: 0.25, radius_m: 0.02, length_m: 0.06 }; // as the bench has them, but thicker: to be seen
 const kIn_m = 0.02; // pins of a payload that the adapter has
 
@@ -23,9 +23,9 @@ function upright(radius_m: number, from_m: number, length_m: number, x_m = 0, y_
   return [new THREE.CylinderGeometry(radius_m, radius_m, length_m, 24), place];
 }
 
-function shape_of(length_m: number, colour: string): THREE.BufferGeometry {
+function shape_of(length_m: number, radius_m: number, colour: string): THREE.BufferGeometry {
   const batch = new Batch();
-  batch.add(...upright(kBodyRadius_m, 0, length_m - kPins.length_m), colour, true);
+  batch.add(...upright(radius_m, 0, length_m - kPins.length_m), colour, true);
   for (let pin = 0; pin < 3; ++pin) {
     const angle = (2 * Math.PI * pin) / 3;
     const at = [kPins.circle_m * Math.cos(angle), kPins.circle_m * Math.sin(angle)] as const;
@@ -43,7 +43,8 @@ export class PayloadBody {
 
   constructor(payload: NonNullable<Scene['payload']>, adapter: ScenePose, colours: SceneColours) {
     this.length_m = payload.length_m;
-    this.mesh = new THREE.Mesh(shape_of(payload.length_m, colours.payload), paint());
+    const radius_m = payload.radius_m ?? kBodyRadius_m;
+    this.mesh = new THREE.Mesh(shape_of(payload.length_m, radius_m, colours.payload), paint());
     this.mesh.matrixAutoUpdate = false;
     this.at_start = matrix_of(payload);
     this.in_adapter = matrix_of(adapter).multiply(new THREE.Matrix4().makeTranslation(0, 0, kIn_m - payload.length_m));
