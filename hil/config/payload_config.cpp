@@ -32,6 +32,7 @@ std::optional<PayloadConfig> read_payload(const JsonFile& file) {
   payload.length_m = file.number("/payload/length_m", 0.05, 20.0);
   payload.pose = file.pose("/payload");
   payload.on_arm = begins_on_arm(file, "/payload/start");
+  if (file.has("/payload/fetch_pose")) payload.fetch_pose = file.text("/payload/fetch_pose");
   payload.start_lateral_m = number_or_none(file, "/payload/start_lateral_m", 0.02);
   payload.start_tilt_rad = kRadPerDeg * number_or_none(file, "/payload/start_tilt_deg", 5.0);
   if (!file.has("/adapter")) file.fail("/adapter", "is missing beside payload: say where it goes");

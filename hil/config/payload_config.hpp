@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "hil/config/json_file.hpp"
 #include "hil/config/serial_config.hpp"
@@ -10,10 +11,11 @@
 namespace liana::bench {
 
 struct PayloadConfig {
-  BodyConfig body;        // in its own frame: the origin at its grapple, z towards its pins
-  double length_m = 0.0;  // from the grapple to the plane of the pins' tips
-  Pose pose;              // where the transfer mechanism holds it, base frame
-  bool on_arm = false;    // the arm has it from the start, before the adapter, as servo would have brought it there
+  BodyConfig body;         // in its own frame: the origin at its grapple, z towards its pins
+  double length_m = 0.0;   // from the grapple to the plane of the pins' tips
+  Pose pose;               // where the transfer mechanism holds it, base frame
+  std::string fetch_pose;  // of the arm that carries, while the mechanism hands the payload over; empty: where it locks
+  bool on_arm = false;     // the arm has it from the start, before the adapter, as servo would have brought it there
   double start_lateral_m = 0.0;  // with `on_arm`: so far beside the adapter's axis at most, in x and in y
   double start_tilt_rad = 0.0;   // and so much turned at most
 };

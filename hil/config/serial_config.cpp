@@ -84,6 +84,7 @@ LockedBaseConfig read_base(const JsonFile& file) {
     file.fail("/base/pose", "is \"" + pose + "\"; allowed is a name of its robot's named_poses_deg");
   base.joint_rad = found->second;
   base.damping_s = file.number("/base/damping_s", 0.0, 1.0);
+  if (file.has("/base/carry_s")) base.carry_s = file.number("/base/carry_s", 1.0, 3600.0);
   return base;
 }
 

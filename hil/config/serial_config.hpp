@@ -67,7 +67,8 @@ struct SerialRobotConfig {
 // An arm with locked joints that carries another at its tip: springs about its joints' axes.
 struct LockedBaseConfig {
   SerialRobotConfig robot;
-  std::vector<double> joint_rad;  // without load
+  std::vector<double> joint_rad;  // where it locks, without load
+  double carry_s = 0.0;           // how long its own controller takes to carry from another pose; 0: it does not
   double damping_s = 0.0;         // of the springs: their damping is so many seconds of their stiffness
 };
 

@@ -25,7 +25,8 @@ std::optional<std::string> Grapple::why_it_fails(const GrappleSight& sight) cons
     if (!sight.locked) return "the payload is not locked in the adapter and would drift away";
     return std::nullopt;
   }
-  if (name_ != "grapple") return "the end effector knows grapple and release, not " + name_;
+  if (name_ != "grapple")
+    return "the end effector knows grapple and release, the arm that carries knows carry, not " + name_;
   if (sight.has_payload) return "the payload is on the arm already";
   const double apart_m = norm(sight.grapple_in_tip.position_m), tilt_rad = angle_of(sight.grapple_in_tip.attitude);
   if (apart_m <= kReach_m && tilt_rad <= kTilt_rad) return std::nullopt;

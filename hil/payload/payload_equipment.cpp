@@ -4,6 +4,12 @@
 
 namespace liana::bench {
 
+namespace {
+
+constexpr double kRests_rad_s = 0.0017;  // 0.1 deg/s: a swing of the base is no motion
+
+}  // namespace
+
 PayloadEquipment::PayloadEquipment(const CameraConfig& camera, TorquePlant& plant, bool spread, std::uint64_t seed)
     : plant_(plant), camera_(camera, lens(), spread, seed) {}
 
@@ -14,6 +20,7 @@ Lens PayloadEquipment::lens() const {
 void PayloadEquipment::suffer(const CameraDefects& camera, const ToolDefects& tool) {
   camera_.suffer(camera);
   grapple_.suffer(tool);
+  carrier_.suffer(tool);
 }
 
 void PayloadEquipment::look(double now_s) {
@@ -27,7 +34,21 @@ std::optional<std::string> PayloadEquipment::picture(double now_s) {
   return target_message(*view);
 }
 
+void PayloadEquipment::ask(const ToolCommand& command) {
+  carries_ = command.command == "carry";
+  carries_ ? carrier_.ask(command) : grapple_.ask(command);
+}
+
+std::optional<ToolReport> PayloadEquipment::carry(double now_s) {
+  const double before = carrier_.share();
+  const auto report =
+      carrier_.act(now_s, {.takes_s = plant_.carry_s(), .arm_rests = plant_.fastest_rad_s() < kRests_rad_s});
+  if (carrier_.share() != before) plant_.carry_base(carrier_.share());
+  return report;
+}
+
 std::optional<ToolReport> PayloadEquipment::act(double now_s) {
+  if (carries_) return carry(now_s);
   const PayloadSite& site = *plant_.site();
   const auto report = grapple_.act(now_s, {.grapple_in_tip = relative(plant_.tip(), plant_.grapple()),
                                            .has_payload = site.holder() == Holder::kArm,
@@ -39,7 +60,7 @@ std::optional<ToolReport> PayloadEquipment::act(double now_s) {
 }
 
 void PayloadEquipment::summarise(nlohmann::json& summary) const {
-  const ToolReport& last = grapple_.last();
+  const ToolReport& last = carries_ ? carrier_.last() : grapple_.last();
   summary["tool"] = {{"number", last.number}, {"phase", last.phase}, {"reason", last.reason}};
 }
 

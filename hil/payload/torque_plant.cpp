@@ -15,6 +15,31 @@ namespace {
 
 constexpr double kBeforeSocket_m = 0.1;  // farther beside the axis the pins have no depth
 
+// Where the arm that carries is while the payload is fetched; nothing where it is locked for good.
+std::optional<std::vector<double>> fetch_rad(const SerialRobotConfig& robot, const SceneConfig& scene) {
+  if (!robot.base || !scene.payload || scene.payload->on_arm || scene.payload->fetch_pose.empty()) return std::nullopt;
+  const auto& poses = robot.base->robot.named_poses_rad;
+  const auto found = poses.find(scene.payload->fetch_pose);
+  if (found == poses.end())
+    throw std::runtime_error("scene: payload.fetch_pose: \"" + scene.payload->fetch_pose +
+                             "\" is no named pose of the arm that carries: name one of its named_poses_deg");
+  if (robot.base->carry_s <= 0.0)
+    throw std::runtime_error(
+        "robot: base.carry_s: is missing: the scene fetches its payload at another pose; say how "
+        "long the arm that carries takes from there");
+  return found->second;
+}
+
+SerialRobotConfig as_it_begins(const SerialRobotConfig& robot, const SceneConfig& scene) {
+  const auto from_rad = fetch_rad(robot, scene);
+  if (!from_rad) return robot;
+  SerialRobotConfig out = robot;
+  auto base = std::make_shared<LockedBaseConfig>(*robot.base);
+  base->joint_rad = *from_rad;
+  out.base = base;
+  return out;
+}
+
 TrueArm drawn_arm(const SerialRobotConfig& robot, const ModelOptions& options, std::uint64_t seed) {
   TrueArm arm = true_arm(robot, options.start_pose, options.spread, options.fixture, seed);
   if (options.spread) arm.robot = true_joints(arm.robot, seed);
@@ -29,7 +54,7 @@ std::uint8_t bus_of_nodes(const BusesConfig& buses) { return buses.names.size() 
 TorquePlant::TorquePlant(const SerialRobotConfig& robot, const SceneConfig& scene, const BusesConfig& buses,
                          const ModelOptions& options, const std::vector<FaultConfig>& faults, std::uint64_t seed)
     : spread_(options.spread),
-      arm_(drawn_arm(robot, options, seed)),
+      arm_(drawn_arm(as_it_begins(robot, scene), options, seed)),
       chain_(arm_.robot, arm_.start_rad),
       base_at_rest_(chain_.base().pose),
       drives_(arm_, buses, options.spread, seed),
@@ -38,6 +63,8 @@ TorquePlant::TorquePlant(const SerialRobotConfig& robot, const SceneConfig& scen
       adapter_node_(bus_of_nodes(buses)) {
   refuse_for_serial(options, faults);
   if (!scene.payload) refuse_payload_faults(faults, "; the scene has none");
+  if (const auto from_rad = fetch_rad(robot, scene))
+    way_ = CarryWay{*from_rad, robot.base->joint_rad, robot.base->carry_s};
   if (scene.payload) make_site(scene, seed);
   drives_.measure(chain_);
 }
@@ -47,7 +74,7 @@ TorquePlant::TorquePlant(const SerialRobotConfig& robot, const SceneConfig& scen
 void TorquePlant::make_site(const SceneConfig& scene, std::uint64_t seed) {
   PayloadConfig payload = spread_ ? true_payload(*scene.payload, seed) : *scene.payload;
   const Pose plate{{0.0, 0.0, payload.length_m}, {}};
-  Pose socket = compose(base_at_rest_, scene.adapter->pose);
+  Pose socket = compose(way_ ? chain_.base_when_at(way_->to_rad) : base_at_rest_, scene.adapter->pose);
   if (payload.on_arm) {
     const Pose socket_in_plate = relative(compose(payload.pose, plate), scene.adapter->pose);
     const Pose beside = spread_ ? start_offset(payload, seed) : Pose{};
@@ -68,6 +95,15 @@ void TorquePlant::take_payload() { chain_.carry(site_->take(chain_.tip().pose));
 void TorquePlant::let_go_of_payload() {
   site_->let_go(chain_.tip().pose);
   chain_.carry({});
+}
+
+void TorquePlant::carry_base(double share) {
+  way_->share = share;
+  std::vector<double> told_rad = way_->to_rad;
+  for (std::size_t i = 0; i < told_rad.size(); ++i)
+    told_rad[i] = way_->from_rad[i] + share * (way_->to_rad[i] - way_->from_rad[i]);
+  chain_.lead_base(told_rad);
+  base_at_rest_ = chain_.base_when_at(told_rad);
 }
 
 std::vector<double> TorquePlant::joints_rad() const {
@@ -143,7 +179,7 @@ void TorquePlant::integrate(double period_s) {
   }
   const double share = 1.0 / (loops * steps);
   wrist_load_ = {share * sum.force_N, share * sum.torque_Nm};
-  peaks_.base_m = std::max(peaks_.base_m, base_deflection_m());
+  if (!way_ || way_->share == 0.0 || way_->share == 1.0) peaks_.base_m = std::max(peaks_.base_m, base_deflection_m());
   drives_.measure(chain_);
 }
 

@@ -41,6 +41,10 @@ class TorquePlant final : public Plant {
   // The end effector has closed on the payload, or opened.
   void take_payload();
   void let_go_of_payload();
+  // How long the arm that carries takes from where it begins to where it locks; 0: it begins there.
+  double carry_s() const { return way_ ? way_->takes_s : 0.0; }
+  // It has been led through so much of that way; until 1 what it gives way by counts for no peak.
+  void carry_base(double share);
   const FlexibleChain& arm() const { return chain_; }
   // True mean load of the last slot at the wrist, in the tip's frame.
   const TipLoad& wrist() const { return wrist_load_; }
@@ -55,6 +59,13 @@ class TorquePlant final : public Plant {
     double insertion_m = 0.0;
   };
 
+  // Of the joints of the arm that carries.
+  struct CarryWay {
+    std::vector<double> from_rad, to_rad;
+    double takes_s = 0.0;
+    double share = 0.0;
+  };
+
   void make_site(const SceneConfig& scene, std::uint64_t seed);
   TipLoad meet(const TipState& tip);
   void step_physics(double step_s);
@@ -65,7 +76,8 @@ class TorquePlant final : public Plant {
   bool spread_;
   TrueArm arm_;
   FlexibleChain chain_;
-  Pose base_at_rest_;
+  std::optional<CarryWay> way_;  // none: it is locked for good
+  Pose base_at_rest_;            // when nothing pushes
   TorqueDrives drives_;
   std::vector<RotorDrive> rotors_;
   WristSensor sensor_;

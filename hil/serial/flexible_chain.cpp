@@ -1,5 +1,6 @@
 #include "hil/serial/flexible_chain.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "hil/serial/flexible_engine.hpp"
@@ -15,10 +16,11 @@ FlexibleChain::FlexibleChain(const SerialRobotConfig& robot, const std::vector<d
         "physics: the joints of the robot say no stiffness_Nm_per_rad; an arm that gives torque needs it at every "
         "joint of its table");
   if (robot_.base) {
-    base_joints_ = robot_.base->joint_rad.size();
+    base_told_rad_ = robot_.base->joint_rad;
+    base_joints_ = base_told_rad_.size();
     for (std::size_t i = 0; i < base_joints_; ++i) {
       offset_rad_[i] = robot_.base->robot.joints[i].offset_rad;
-      angle_[i] = robot_.base->joint_rad[i];
+      angle_[i] = base_told_rad_[i];
     }
   }
   hinges_ = base_joints_ + robot_.joints.size();
@@ -65,6 +67,15 @@ TipState FlexibleChain::tip() const { return state_of(engine_->tip); }
 
 TipState FlexibleChain::base() const { return engine_->base < 0 ? TipState{} : state_of(engine_->base); }
 
+Pose FlexibleChain::base_when_at(const std::vector<double>& joint_rad) const {
+  Theta there = angle_;
+  std::copy(joint_rad.begin(), joint_rad.end(), there.begin());
+  place(there, rate_);
+  const Pose pose = base().pose;
+  place(angle_, rate_);
+  return pose;
+}
+
 void FlexibleChain::carry(const BodyConfig& payload) {
   engine_ = std::make_unique<Engine>(make_mjcf_with_base(robot_, payload));
   place(angle_, rate_);
@@ -107,7 +118,7 @@ double FlexibleChain::energy_J() const {
   double energy = 0.0;
   for (std::size_t i = 0; i < hinges_; ++i) energy += 0.5 * momentum[i] * rate_[i];
   for (std::size_t i = 0; i < base_joints_; ++i) {
-    const double wound = robot_.base->joint_rad[i] - angle_[i];
+    const double wound = base_told_rad_[i] - angle_[i];
     energy += 0.5 * robot_.base->robot.stiffness_Nm_rad[i] * wound * wound;
   }
   for (std::size_t i = 0; i < rotors_.size(); ++i) {

@@ -38,6 +38,11 @@ class FlexibleChain {
   // the payload with it. Throws std::runtime_error when MuJoCo refuses the model.
   void carry(const BodyConfig& payload);
 
+  // The springs of the arm that carries want its joints at these angles from now on.
+  void lead_base(const std::vector<double>& joint_rad) { base_told_rad_ = joint_rad; }
+  // Where this arm's base is when they are there, without load.
+  Pose base_when_at(const std::vector<double>& joint_rad) const;
+
   // One step, by the implicit midpoint rule for springs, their damping and friction: stable however stiff they are, and
   // without energy of its own. `contact` is asked once, in the middle of the step. Cost: about 6 us with a base.
   void step(double step_s, const std::vector<RotorDrive>& drives, const Contact& contact);
@@ -94,6 +99,7 @@ class FlexibleChain {
 
   SerialRobotConfig robot_;
   std::unique_ptr<Engine> engine_;
+  std::vector<double> base_told_rad_;  // of the joints of the arm that carries
   std::size_t base_joints_ = 0;
   std::size_t hinges_ = 0;
   Theta offset_rad_{};  // of the tables' angles

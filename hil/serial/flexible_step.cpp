@@ -89,8 +89,7 @@ void FlexibleChain::step(double step_s, const std::vector<RotorDrive>& drives, c
   if (robot_.base) {
     for (std::size_t i = 0; i < base_joints_; ++i) {
       const double stiffness = robot_.base->robot.stiffness_Nm_rad[i];
-      add_spring(i, stiffness, robot_.base->damping_s * stiffness, robot_.base->joint_rad[i] - angle_[i], step_s,
-                 equations);
+      add_spring(i, stiffness, robot_.base->damping_s * stiffness, base_told_rad_[i] - angle_[i], step_s, equations);
     }
   }
   for (std::size_t i = 0; i < rotors_.size(); ++i) {

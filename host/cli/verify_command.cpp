@@ -75,7 +75,7 @@ verify::Verdict verdict_of(const VerifyOptions& options, const config::RobotConf
 verify::Verdict verdict_of(const VerifyOptions& options, const config::SerialRobotConfig& robot,
                            const config::SceneConfig& scene) {
   const auto way = way_of<serial::JointVector>(options, robot, robot.table.joints(), kSerialInterval_s);
-  simulate::SerialSimulation simulation(simulate::serial_model(robot), scene);
+  simulate::SerialSimulation simulation(simulate::serial_model(robot, scene), scene);
   verify::TooNear too_near;
   verify::SimulationVerdict verdict;
   verdict.margins = verify::margins_unknown();

@@ -173,6 +173,7 @@ struct ScenePayload {
   double length_m = 0.0;                 // from the grapple to the tips of its pins
   double radius_m = 0.0;                 // of the capsule that it is looked at as, from end to end
   bool on_arm = false;                   // from the start; else the transfer mechanism holds it
+  std::string fetch_pose;                // of the arm that carries, while it is fetched; empty: where that is locked
   double start_lateral_m = 0.0;          // with on_arm: so far beside the adapter's axis at most, in x and in y
   double start_tilt_deg = 0.0;           // and so much turned
 };

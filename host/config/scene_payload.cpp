@@ -6,12 +6,14 @@ namespace {
 
 constexpr Range kMass{1, 1e5};
 constexpr Range kInertia{-1e6, 1e6};
+constexpr std::size_t kLongestName = 64;
 constexpr Range kRadius{0.01, 10};
 constexpr double kLeastLength_m = 0.05;
 
 void read_start(const Field& field, ScenePayload& payload) {
   payload.on_arm = field.at("start").choice({"mechanism", "arm"}) == "arm";
   const Json& json = field.json();
+  if (json.contains("fetch_pose")) payload.fetch_pose = field.at("fetch_pose").name(kLongestName);
   if (json.contains("start_lateral_m")) payload.start_lateral_m = field.at("start_lateral_m").number({0, 0.02});
   if (json.contains("start_tilt_deg")) payload.start_tilt_deg = field.at("start_tilt_deg").number({0, 5});
 }
@@ -27,7 +29,7 @@ void check_inertia(const Field& field, const std::array<double, 6>& inertia) {
 
 ScenePayload read_payload(const Field& field) {
   field.only({"position_m", "quaternion_wxyz", "mass_kg", "center_m", "inertia_kgm2", "length_m", "radius_m", "start",
-              "start_lateral_m", "start_tilt_deg"});
+              "fetch_pose", "start_lateral_m", "start_tilt_deg"});
   ScenePayload payload;
   payload.pose = read_pose(field);
   payload.mass_kg = field.at("mass_kg").number(kMass);

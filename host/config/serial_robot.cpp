@@ -1,6 +1,7 @@
 // Serial robots: joints, drives, limits and poses read one by one, then put together with the buses.
 #include "host/config/serial_robot.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -156,23 +157,28 @@ SerialRobotConfig read_arm_alone(const Field& table) {
 }
 
 LockedBase read_base(const Field& field) {
-  field.only({"robot", "pose", "damping_s"});
+  field.only({"robot", "pose", "damping_s", "carry_s"});
   const Field robot = field.at("robot");
   if (robot.json().contains("base"))
     robot.at("base").refuse("no base of a base", "lock the joints of one arm, the one that carries");
   const SerialRobotConfig carrier = read_arm_alone(robot);
   if (carrier.stiffness_Nm_rad.empty())
     robot.at("joints").refuse("stiffness_Nm_per_rad at every joint", "say how its locked joints give way");
-  LockedBase base{carrier.name, carrier.table, carrier.masses, {}, {}, carrier.link_radius_m, {}};
+  LockedBase base;
+  base.name = carrier.name;
+  base.table = carrier.table;
+  base.masses = carrier.masses;
+  base.link_radius_m = carrier.link_radius_m;
+  std::copy(carrier.stiffness_Nm_rad.begin(), carrier.stiffness_Nm_rad.end(), base.stiffness_Nm_rad.begin());
   std::vector<std::string> names;
-  for (const auto& [name, joint_deg] : carrier.named_poses_deg) names.push_back(name);
-  const std::vector<double>& joint_deg = carrier.named_poses_deg.at(field.at("pose").choice(names));
-  for (std::size_t i = 0; i < joint_deg.size(); ++i) {
-    base.joint_rad[i] = joint_deg[i] * kRadPerDeg;
-    base.stiffness_Nm_rad[i] = carrier.stiffness_Nm_rad[i];
+  for (const auto& [name, joint_deg] : carrier.named_poses_deg) {
+    names.push_back(name);
+    serial::JointVector& joint_rad = base.named_poses_rad[name];
+    for (std::size_t i = 0; i < joint_deg.size(); ++i) joint_rad[i] = joint_deg[i] * kRadPerDeg;
   }
+  base.joint_rad = base.named_poses_rad.at(field.at("pose").choice(names));
   field.at("damping_s").number({0, 1});  // for the bench
-  base.base_in_root = serial::forward_kinematics(base.table, base.joint_rad).tip_in_base;
+  if (field.json().contains("carry_s")) base.carry_s = field.at("carry_s").number({1, 3600});
   return base;
 }
 

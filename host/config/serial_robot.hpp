@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "firmware_like/math/pose.hpp"
 #include "firmware_like/serial/mass_table.hpp"
 #include "firmware_like/serial/robot_table.hpp"
 #include "host/config/config.hpp"
@@ -17,13 +16,14 @@ namespace liana::config {
 
 // The arm whose tip carries this one, its joints locked: where the base of this one is, and how it gives way.
 struct LockedBase {
-  std::string name;                        // of the robot that carries
-  serial::RobotTable table{};              // without drives of its own: tick and T_c stay 0
-  serial::MassTable masses{};              // of its links
-  serial::JointVector joint_rad{};         // at which its joints are locked
+  std::string name;                 // of the robot that carries
+  serial::RobotTable table{};       // without drives of its own: tick and T_c stay 0
+  serial::MassTable masses{};       // of its links
+  serial::JointVector joint_rad{};  // at which its joints are locked
+  std::map<std::string, serial::JointVector> named_poses_rad;
+  double carry_s = 0.0;                    // how long it takes to carry there from another pose; 0: it does not
   serial::JointVector stiffness_Nm_rad{};  // of each, about its axis
   double link_radius_m = 0.0;
-  Pose base_in_root{};  // base of this robot in that of the one that carries, without load
 };
 
 // What the core needs (table) and what only the host needs.

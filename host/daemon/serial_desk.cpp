@@ -40,7 +40,7 @@ std::string why_not(const serial::RobotTable& table, const serial::Inputs& input
 SerialDesk::SerialDesk(const config::SerialRobotConfig& robot, const config::SceneConfig& scene,
                        timing::TimeMode time_mode, control::ArmLink<serial::SerialArm>& link)
     : ArmDesk(robot.table, arbiter::SpeedZone{}, time_mode, link,
-              std::make_unique<verify::SimulationEnd<serial::SerialArm>>(simulate::serial_model(robot), scene),
+              std::make_unique<verify::SimulationEnd<serial::SerialArm>>(simulate::serial_model(robot, scene), scene),
               taken(time_mode)),
       robot_(robot) {
   handlers_["push"] = [this](const MotionRequest& r) {

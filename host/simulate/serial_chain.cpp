@@ -2,12 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <stdexcept>
 
 namespace liana::simulate {
 
 namespace {
 
 using Eigen::Vector3d;
+using serial::JointVector;
 
 Vec3 vec3(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -26,7 +28,7 @@ SerialAxis serial_axis(const serial::RobotTable& table, const serial::JointVecto
     axis.point_m[axis.count++] = vec3(frame.translation());
     frame.rotate(Eigen::AngleAxisd(row.alpha_rad, Vector3d::UnitX()));
   }
-  axis.tip_z = vec3(frame.linear().col(2));
+  for (Eigen::Index k = 0; k < 3; ++k) axis.tip_axis[static_cast<std::size_t>(k)] = vec3(frame.linear().col(k));
   return axis;
 }
 
@@ -37,21 +39,55 @@ double axis_length_m(const serial::RobotTable& table) {
   return sum_m;
 }
 
+namespace {
+
+// How many places of the way from a fetch pose are looked at besides its ends; the arm on top rests meanwhile.
+constexpr int kBetween = 3;
+
+// Where the arm below is, one place after the other; where it is locked first.
+std::vector<JointVector> places_of(const config::LockedBase& base, const config::SceneConfig& scene) {
+  std::vector<JointVector> places{base.joint_rad};
+  if (!scene.payload || scene.payload->on_arm || scene.payload->fetch_pose.empty()) return places;
+  const std::string& fetch = scene.payload->fetch_pose;
+  const auto found = base.named_poses_rad.find(fetch);
+  if (found == base.named_poses_rad.end()) {
+    std::string names;
+    for (const auto& [name, joint_rad] : base.named_poses_rad) names += (names.empty() ? "" : ", ") + name;
+    throw std::runtime_error("scene " + scene.name + ": payload.fetch_pose: \"" + fetch +
+                             "\": allowed a pose of robot " + base.name + ", which carries the arm: " + names +
+                             ": name one of them");
+  }
+  if (base.carry_s <= 0.0)
+    throw std::runtime_error("scene " + scene.name + ": payload.fetch_pose: \"" + fetch +
+                             "\": the robot has no base.carry_s: say how long the arm below takes from there to where "
+                             "it is locked, or leave fetch_pose out");
+  for (int i = 0; i <= kBetween; ++i) {
+    places.push_back(found->second);
+    for (std::size_t k = 0; k < base.table.joints(); ++k)
+      places.back()[k] += (base.joint_rad[k] - found->second[k]) * i / (kBetween + 1);
+  }
+  return places;
+}
+
+void add_links(const config::LockedBase& base, const JointVector& joint_rad, SerialModel& model) {
+  const SerialAxis axis = serial_axis(base.table, joint_rad);
+  const auto here = [&](std::size_t i) {
+    const Vec3 from_tip = subtract(axis.point_m[i], axis.tip_m());
+    return Vec3{dot(axis.tip_axis[0], from_tip), dot(axis.tip_axis[1], from_tip), dot(axis.tip_axis[2], from_tip)};
+  };
+  for (std::size_t i = 0; i + 1 < axis.count; ++i) model.base.push_back({here(i), here(i + 1), base.link_radius_m});
+}
+
+}  // namespace
+
 // The frame that the base of this arm is in is that at the tip of the other one.
-SerialModel serial_model(const config::SerialRobotConfig& robot) {
+SerialModel serial_model(const config::SerialRobotConfig& robot, const config::SceneConfig& scene) {
   SerialModel model{robot.table, robot.link_radius_m, {}, {}, {}};
   if (!robot.base) return model;
-  const config::LockedBase& base = *robot.base;
-  model.base_name = base.name;
-  const SerialAxis axis = serial_axis(base.table, base.joint_rad);
-  const Pose root_in_base = inverse(base.base_in_root);
-  const auto here = [&](std::size_t i) {
-    return add(rotate(root_in_base.quaternion, axis.point_m[i]), root_in_base.position_m);
-  };
-  for (std::size_t i = 0; i + 1 < axis.count; ++i) {
-    model.base.push_back({here(i), here(i + 1), base.link_radius_m});
+  model.base_name = robot.base->name;
+  for (const JointVector& joint_rad : places_of(*robot.base, scene)) add_links(*robot.base, joint_rad, model);
+  for (std::size_t i = 0; i < kPiecesPerLink * robot.base->table.joints(); ++i)
     model.base_of_link.push_back(static_cast<std::int32_t>(i) / kPiecesPerLink);
-  }
   return model;
 }
 

@@ -17,11 +17,11 @@ constexpr std::size_t kMostSerialPoints = kPiecesPerLink * serial::kMaxJoints + 
 struct SerialAxis {
   std::size_t count = 0;
   std::array<Vec3, kMostSerialPoints> point_m{};
-  Vec3 tip_z{};  // the direction of the tip's z
+  std::array<Vec3, 3> tip_axis{};  // directions of the tip's x, y and z
 
   clearance::AxisPoints points() const { return {point_m.data(), count}; }
   const Vec3& tip_m() const { return point_m[count - 1]; }
-  Vec3 beyond_tip_m(double along_z_m) const { return add(tip_m(), scale(tip_z, along_z_m)); }
+  Vec3 beyond_tip_m(double along_z_m) const { return add(tip_m(), scale(tip_axis[2], along_z_m)); }
 };
 
 // The axis at these joint angles [rad]. About 2,000 instructions.

@@ -1,5 +1,7 @@
 #include "host/simulate/serial_contact.hpp"
 
+#include <cmath>
+
 namespace liana::simulate {
 
 namespace {
@@ -15,10 +17,11 @@ SerialContact::SerialContact(const SerialModel& model, const std::optional<Carri
     : model_(model), carried_(carried) {
   const SerialAxis axis = serial_axis(model.table, {});
   std::vector<double> length_m;
-  for (const clearance::Capsule& piece : model.base) length_m.push_back(length_of(piece));
+  const std::size_t below = model.base_of_link.size();
+  for (std::size_t piece = 0; piece < below; ++piece) length_m.push_back(length_of(model.base[piece]));
   for (std::size_t i = 0; i + 1 < axis.count; ++i)
     length_m.push_back(norm(subtract(axis.point_m[i + 1], axis.point_m[i])));
-  for (std::size_t piece = model.base.size(); piece < length_m.size(); ++piece)
+  for (std::size_t piece = below; piece < length_m.size(); ++piece)
     if (length_m[piece] > 0.0) add_pairs(piece, length_m, model.link_radius_m, pairs_);
   if (carried) add_pairs(length_m.size(), length_m, carried->radius_m, pairs_carrying_);
 }
@@ -26,7 +29,7 @@ SerialContact::SerialContact(const SerialModel& model, const std::optional<Carri
 // With all pieces before it that are far enough from it along the arm.
 void SerialContact::add_pairs(std::size_t piece, const std::vector<double>& length_m, double radius_m,
                               std::vector<Pair>& out) const {
-  const std::size_t below = model_.base.size();
+  const std::size_t below = model_.base_of_link.size();
   double between_m = 0.0;
   for (std::size_t other = piece; other-- > 0; between_m += length_m[other]) {
     const bool of_base = other < below;
@@ -46,8 +49,7 @@ clearance::SelfClearance SerialContact::least(const SerialAxis& axis, bool carri
   clearance::SelfClearance out;
   const auto look_at = [&](const std::vector<Pair>& pairs) {
     for (const Pair& pair : pairs) {
-      const clearance::Capsule other = pair.of_base ? model_.base[pair.other] : piece_at(axis, pair.other);
-      const double distance_m = clearance::between_m(piece_at(axis, pair.piece), other);
+      const double distance_m = between_m(axis, pair);
       if (distance_m >= out.nearest_m) continue;
       out = {distance_m, link_of(pair.piece), pair.of_base ? number_of_base(pair.other) : link_of(pair.other)};
     }
@@ -55,6 +57,16 @@ clearance::SelfClearance SerialContact::least(const SerialAxis& axis, bool carri
   look_at(pairs_);
   if (carries) look_at(pairs_carrying_);
   return out;
+}
+
+// Of a link of the arm below the least of all places that it can be at.
+double SerialContact::between_m(const SerialAxis& axis, const Pair& pair) const {
+  const clearance::Capsule piece = piece_at(axis, pair.piece);
+  if (!pair.of_base) return clearance::between_m(piece, piece_at(axis, pair.other));
+  double least_m = clearance::kNoObstacle_m;
+  for (std::size_t at = pair.other; at < model_.base.size(); at += model_.base_of_link.size())
+    least_m = std::fmin(least_m, clearance::between_m(piece, model_.base[at]));
+  return least_m;
 }
 
 std::int32_t SerialContact::number_of_base(std::size_t piece) const {

@@ -37,6 +37,7 @@ class SerialContact {
   };
 
   void add_pairs(std::size_t piece, const std::vector<double>& length_m, double radius_m, std::vector<Pair>& out) const;
+  double between_m(const SerialAxis& axis, const Pair& pair) const;
   clearance::Capsule piece_at(const SerialAxis& axis, std::size_t piece) const;
   std::int32_t number_of_base(std::size_t piece) const;
 

@@ -12,10 +12,11 @@ namespace liana::simulate {
 struct SerialModel {
   serial::RobotTable table{};
   double link_radius_m = 0.0;  // of the capsules of every link
-  // Links of the arm that it stands on, whose joints are locked, from the root on; frame of this arm's base. A link may
-  // be two of them: `of_link` says which one (0-based).
+  // Links of the arm that it stands on, from the root on; frame of this arm's base. A link may be two of them:
+  // `base_of_link` says which one (0-based). Where its joints are locked, then, where it carries this arm there from
+  // another pose, the same links there and at places between.
   std::vector<clearance::Capsule> base;
-  std::vector<std::int32_t> base_of_link;
+  std::vector<std::int32_t> base_of_link;  // of one place
   std::string base_name;
 };
 
@@ -28,7 +29,8 @@ struct CarriedBody {
 // The capsule that ends where the payload does; of one that is thicker than long, a ball in its middle.
 CarriedBody carried_body(const config::ScenePayload& payload);
 
-// The model of a robot's table.
-SerialModel serial_model(const config::SerialRobotConfig& robot);
+// The model of a robot's table in a scene. Throws std::runtime_error when the scene fetches its payload at a pose that
+// the arm below does not have, or does not carry from.
+SerialModel serial_model(const config::SerialRobotConfig& robot, const config::SceneConfig& scene = {});
 
 }  // namespace liana::simulate

@@ -19,6 +19,7 @@ local kRetreat_m = 0.5 -- out of the transfer mechanism
 local kBeforeSite_m = { 0.015, 0.020, -0.53 } -- source: off the place in which the servo ends, 608 mm between the faces
 local kBeforeAdapter_m = 0.008 -- of the pins' tips from the socket's face, where force control takes over: inside the funnels
 local kBackOff_m = 0.05
+local kCarryLimit_s = 600 -- the large arm takes 240 s
 local kForce_N = 30 -- source
 local kPushLimit_s = 40 -- a push that has not captured by then is jammed; source: 7 to 8 s
 local kTries = 2 -- more, after the first
@@ -149,6 +150,17 @@ end
 local begins_on_arm = condition("payload on the arm already", function(arm) return arm.part_of_scene("payload").start == "arm" end)
 begins_on_arm.parts = { { name = "payload" } } -- a scene without one is refused before the start
 
+-- The mechanism hands the payload over where it is installed, or nothing carries the arm.
+local is_at_site = condition("at the site already", function(arm)
+  return not (arm.robot.base and arm.part_of_scene("payload").fetch_pose)
+end)
+
+local tool_failed = { text = "the tool has failed", met = function(arm)
+  local tool = arm.state.tool
+  if tool.phase == "failed" then return true, ("%s: %s"):format(tool.command, tool.reason) end
+  return false
+end }
+
 local function push_ended(how)
   return condition("push ended: " .. how, function(arm) return arm.state.push["end"] == how end)
 end
@@ -244,7 +256,7 @@ return liana.mission "payload_install" {
       arm.tool { command = "grapple" }
     end,
     exit = liana.tool_done(),
-    fail_when = condition("the end effector has failed", function(arm) return arm.state.tool.phase == "failed" end),
+    fail_when = tool_failed,
     time_limit_s = 30,
     on_fail = "hold",
     next = { { step = "3 before the transfer mechanism", on = "failure", at_most = kTries } },
@@ -260,8 +272,19 @@ return liana.mission "payload_install" {
     exit = at_rest(),
     time_limit_s = 200,
     on_fail = "hold",
+    next = { { step = "3 to the site", when = is_at_site }, { step = "3 carried to the site" } },
   },
-  -- The large arm is locked throughout: this robot moves the joints of the small one, all of them together.
+  -- The large arm brings all of it to the site, its seven joints together, and locks them; the small one rests. It has a controller of its own.
+  step "3 carried to the site" {
+    device = "none",
+    enter = at_rest(),
+    run = liana.tool "carry",
+    exit = all { liana.tool_done(), at_rest() },
+    fail_when = tool_failed,
+    time_limit_s = kCarryLimit_s,
+    on_fail = "hold",
+    next = { { step = "3 carried to the site", on = "failure", at_most = kTries }, { step = "3 to the site" } },
+  },
   step "3 to the site" {
     device = "none",
     enter = at_rest(),

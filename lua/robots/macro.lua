@@ -63,6 +63,7 @@ return {
     zero = { 0, 0, 0, 0, 0, 0, 0 }, -- stretched: no pose to work from
     prepare = { 13, -175, 126, -61, 16, 15, 136 }, -- 7.8 m out; the tip's own motion passes the configuration that is stiffest along its axis
     install = { 12.4, -176, 126.9, -61.7, 20, 14.8, 132.2 }, -- locked there while the small arm inserts the payload
+    fetch = { -17.6, -180, 131, -66, 26, 10, 128 }, -- where the small arm fetches the payload
   },
   start_pose = "prepare",
 }

@@ -7,6 +7,7 @@ micro.base = {
   robot = macro,
   pose = "install", -- where the large arm is locked
   damping_s = 0.02, -- assumed: of the locked joints, 0.02 s of their stiffness
+  carry_s = 240, -- assumed: what its own controller takes from `fetch` to `install`; quicker leaves it swinging
 }
 micro.start_pose = "install"
 

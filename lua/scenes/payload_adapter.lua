@@ -1,5 +1,6 @@
 -- What the small arm of macro_micro installs: a payload on the transfer mechanism, and the adapter that it goes into (docs/payload.md).
--- Everything is in the frame of the small arm's base as it is when nothing pushes. "source" marks what the paper states; the rest is assumed.
+-- Everything is in the frame of the small arm's base as it is when nothing pushes: the payload with the large arm at `fetch`, the adapter
+-- with it at `install`. "source" marks what the paper states; the rest is assumed.
 local geometry = require "liana.geometry"
 local robot = require "robots.macro_micro"
 
@@ -19,7 +20,7 @@ pick_deg[1] = pick_deg[1] + kPickTurn_deg
 local install, pick = geometry.tip(robot, install_deg), geometry.tip(robot, pick_deg)
 
 local payload = at(pick, 0) -- of its grapple, z towards the pins
-payload.start = "mechanism"
+payload.start, payload.fetch_pose = "mechanism", "fetch" -- the large arm brings it to the site from there
 payload.mass_kg, payload.length_m = kMass_kg, kLength_m
 payload.radius_m = 0.3 -- its pins stand on a circle of 0.25 m
 payload.center_m = { 0, 0, 0.5 * kLength_m }

@@ -6,7 +6,7 @@ local scene = require "scenes.payload_adapter"
 
 local tip = geometry.tip(robot, robot.named_poses_deg.install)
 local payload = scene.payload
-payload.start = "arm"
+payload.start, payload.fetch_pose = "arm", nil
 payload.position_m, payload.quaternion_wxyz = tip.position, geometry.quaternion(tip.rotation)
 payload.start_lateral_m, payload.start_tilt_deg = 0.0014, 0.5 -- at most, in x and in y; drawn from the bench's seed
 

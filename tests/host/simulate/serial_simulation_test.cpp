@@ -145,7 +145,7 @@ TEST(SerialSimulation, APlateThinnerThanTheWayFromRowToRowIsSeen) {
 TEST(SerialSimulation, WhatTheArmCarriesIsPartOfIt) {
   const JointVector bent = joints_deg(serial::micro::kBent_deg);
   const SerialAxis axis = serial_axis(serial::micro::table(), bent);
-  const Vec3 across = cross(axis.tip_z, {1.0, 0.0, 0.0}), aside = scale(across, 1.0 / norm(across));
+  const Vec3 across = cross(axis.tip_axis[2], {1.0, 0.0, 0.0}), aside = scale(across, 1.0 / norm(across));
   struct Case {
     double along_m, aside_m, off_m;
   };
@@ -256,6 +256,43 @@ TEST(SerialContact, TheArmBelowIsPartOfWhatCanBeTouched) {
   EXPECT_LT(least_m, 0.0) << "some of the poses have to be ones that touch it";
   EXPECT_EQ(simulation.contact().link_name(11), "link 4 of macro");
   EXPECT_EQ(simulation.contact().link_name(2), "link 3");
+}
+
+// req:B6
+TEST(SerialModel, AnArmBelowThatCarriesIsLookedAtOnItsWholeWay) {
+  config::SerialRobotConfig robot;
+  robot.table = serial::micro::table();
+  robot.link_radius_m = kRadius_m;
+  robot.base.emplace();
+  robot.base->name = "macro";
+  robot.base->table = serial::micro::table();
+  robot.base->link_radius_m = 0.2;
+  robot.base->joint_rad = joints_deg({0, 60, -30, 100, -40, 60, 0});
+  robot.base->named_poses_rad["fetch"] = joints_deg({0, -60, 30, 100, 40, -60, 0});
+  config::SceneConfig scene;
+  EXPECT_EQ(serial_model(robot, scene).base.size(), 14u) << "locked for good";
+  scene.payload.emplace();
+  scene.payload->fetch_pose = "fetch";
+  EXPECT_THROW(serial_model(robot, scene), std::runtime_error) << "how long that takes is not said";
+  robot.base->carry_s = 100.0;
+  const SerialModel model = serial_model(robot, scene);
+  EXPECT_EQ(model.base.size(), 5 * 14u);
+  EXPECT_EQ(model.base_of_link.size(), 14u);
+  // Its last piece ends at this arm's base wherever it is; the first one begins at the root, elsewhere each time.
+  for (std::size_t place = 0; place < 5; ++place) EXPECT_LT(norm(model.base[14 * place + 13].to_m), 1e-9);
+  EXPECT_GT(norm(subtract(model.base[0].from_m, model.base[14].from_m)), 1.0);
+  const SerialContact both(model), locked(serial_model(robot));
+  serial::micro::Random random(5);
+  int nearer = 0;
+  for (int i = 0; i < 200; ++i) {
+    const SerialAxis axis = serial_axis(model.table, serial::micro::random_joints(model.table, random));
+    const double least_m = both.least(axis).nearest_m;
+    EXPECT_LE(least_m, locked.least(axis).nearest_m);
+    if (least_m < locked.least(axis).nearest_m - 0.01) ++nearer;
+  }
+  EXPECT_GT(nearer, 10);
+  scene.payload->fetch_pose = "nowhere";
+  EXPECT_THROW(serial_model(robot, scene), std::runtime_error);
 }
 
 }  // namespace

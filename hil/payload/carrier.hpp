@@ -1,0 +1,40 @@
+// The controller of the arm that carries, as far as this bench has one: on the command "carry" it turns the joints that
+// were locked, all of them together, from where the payload is fetched to where it is installed, and locks them there.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "hil/arm/tip_tool.hpp"
+
+namespace liana::bench {
+
+// What it knows of the arm that it carries, and of itself.
+struct CarrySight {
+  double takes_s = 0.0;    // for the whole way; 0: there is no way to go
+  bool arm_rests = false;  // the arm that is carried
+};
+
+class Carrier {
+ public:
+  void suffer(const ToolDefects& defects) { defects_ = defects; }
+  // The command "carry"; one under way is given up without a word.
+  void ask(ToolCommand command);
+  // At the start of a slot: goes on. What it has to say comes out once, as of the end effector (grapple.hpp).
+  std::optional<ToolReport> act(double now_s, const CarrySight& sight);
+  // How much of the way its joints are told to have gone; 1: locked at its end.
+  double share() const { return share_; }
+  const ToolReport& last() const { return last_; }
+
+ private:
+  ToolReport say(std::string phase, std::string reason, double now_s);
+
+  std::optional<ToolCommand> asked_;
+  bool acting_ = false;
+  ToolDefects defects_;
+  ToolReport last_;
+  double share_ = 0.0;
+  double begun_at_ = 0.0;  // share when the command under way began
+};
+
+}  // namespace liana::bench
