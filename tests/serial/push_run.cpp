@@ -26,6 +26,7 @@ PushRun run_push(ForceRig& rig, serial::PushLaw law, double most_s) {
     run.peak_Nm = std::max(run.peak_Nm, rig.most_gear_Nm());
     run.base_m = std::max(run.base_m, rig.base_moved_m());
     run.faults = out.faults.count;
+    run.end = out.push.end;
     if (touched_s < 0.0 && rig.axial_N() > kTouch_N) touched_s = rig.time_s();
     if (out.push.captured != 0) ++since_message;
     if (out.push.end != serial::PushEnd::kCaptured) continue;

@@ -16,6 +16,7 @@ struct PushRun {
   double loaded_s = 0.0;     // from the first contact until less than 5 N are left
   double set_after_N = 0.0;  // the most that is set from the capture on
   int unload_ticks = -1;     // from the message to no set force
+  serial::PushEnd end = serial::PushEnd::kNot;
   std::int32_t faults = 0;
 };
 
