@@ -4,7 +4,7 @@ import type { Facts, Push } from '../../host/page/src/data/sample';
 import { told_changes, with_told_changes } from '../../host/page/src/data/told_changes';
 import { Live } from '../../host/page/src/live/live';
 import type { Welcome } from '../../host/page/src/live/protocol';
-import { payload_place } from '../../host/page/src/model/payload_place';
+import { is_at_site, payload_place } from '../../host/page/src/model/payload_place';
 import { push_lines } from '../../host/page/src/model/push_words';
 import type { Scene, ScenePose } from '../../host/page/src/model/robot';
 import { weight_of } from '../../host/page/src/model/weight';
@@ -83,6 +83,16 @@ test('the payload is in the mechanism, then on the tip, then in the adapter', ()
   assert.equal(locked.payload, 'on the tip, locked in the adapter, the arm carries 500 kg');
   assert.equal(lines({ tool: { command: 'release', phase: 'done' } }).payload, 'in the adapter, released');
   assert.equal(payload_place({}, { ...scene, payload: { ...scene.payload!, start: 'arm' } }), 'tip');
+});
+
+test('the adapter is there once the large arm has carried the small one to it', () => {
+  const fetched: Scene = { ...scene, payload: { ...scene.payload!, fetch_pose: 'fetch' } };
+  const on_large = { ...kMicro, base: { pose: 'install' } };
+  assert.ok(is_at_site(bare, scene, on_large));
+  assert.ok(is_at_site(bare, fetched, kMicro), 'it stands firm');
+  assert.ok(!is_at_site({ ...bare, tool: { command: 'grapple', phase: 'done' } }, fetched, on_large));
+  assert.ok(!is_at_site({ ...bare, tool: { command: 'carry', phase: 'acting' } }, fetched, on_large));
+  assert.ok(is_at_site({ ...bare, tool: { command: 'carry', phase: 'done' } }, fetched, on_large));
 });
 
 function told(before: Facts, now: Facts): string[] {

@@ -25,6 +25,7 @@ export interface SerialRobot {
   }[];
   limits: TipLimits;
   named_poses_deg: Record<string, number[]>;
+  base?: { pose: string }; // what carries it
 }
 
 export interface TipLimits {
@@ -73,7 +74,7 @@ export interface Scene {
   convex?: Convex[];
   slit?: Slit;
   rod?: { position_m: Triple; radius_m: number };
-  payload?: ScenePose & { start: string; length_m: number; radius_m?: number }; // frame of its grapple, z towards its pins
+  payload?: ScenePose & { start: string; length_m: number; radius_m?: number; fetch_pose?: string }; // frame of its grapple, z towards its pins
   adapter?: ScenePose; // the middle of its face, z into it
   margins?: { slow_m?: number; refuse_m?: number };
 }

@@ -1,4 +1,4 @@
-// The payload of a scene with its pins: in the transfer mechanism, on the tip, or in the adapter.
+// The payload of a scene with its pins: in the transfer mechanism, on the tip, or in the adapter; and the adapter.
 import * as THREE from 'three';
 import type { Place } from '../model/payload_place';
 import type { Scene, ScenePose } from '../model/robot';
@@ -7,6 +7,7 @@ import { Batch, paint } from './shade';
 
 export const kBodyRadius_m = 0.3; // of scenes that were recorded before a payload had a radius
 const kPins = { circle_m: 0.25, radius_m: 0.02, length_m: 0.06 }; // as the bench has them, but thicker: to be seen
+const kAdapter_m = 0.08; // how thick the adapter is drawn
 const kIn_m = 0.02; // pins of a payload that the adapter has
 
 export function matrix_of(pose: ScenePose): THREE.Matrix4 {
@@ -34,8 +35,16 @@ function shape_of(length_m: number, radius_m: number, colour: string): THREE.Buf
   return batch.geometry();
 }
 
+// A disc behind the face that the payload comes to.
+function adapter_shape(colour: string): THREE.BufferGeometry {
+  const batch = new Batch();
+  batch.add(...upright(kBodyRadius_m, 0, kAdapter_m), colour, true);
+  return batch.geometry();
+}
+
 export class PayloadBody {
   readonly mesh: THREE.Mesh;
+  readonly adapter: THREE.Mesh; // seen where the arm is at the site
   readonly centre_m = new Float32Array(3); // for its label
   private readonly at_start: THREE.Matrix4;
   private readonly in_adapter: THREE.Matrix4;
@@ -46,6 +55,9 @@ export class PayloadBody {
     const radius_m = payload.radius_m ?? kBodyRadius_m;
     this.mesh = new THREE.Mesh(shape_of(payload.length_m, radius_m, colours.payload), paint());
     this.mesh.matrixAutoUpdate = false;
+    this.adapter = new THREE.Mesh(adapter_shape(colours.base), paint());
+    this.adapter.matrixAutoUpdate = false;
+    this.adapter.matrix.copy(matrix_of(adapter));
     this.at_start = matrix_of(payload);
     this.in_adapter = matrix_of(adapter).multiply(new THREE.Matrix4().makeTranslation(0, 0, kIn_m - payload.length_m));
     this.set('mechanism', new Float32Array(16));

@@ -1,7 +1,7 @@
 // The scene as a part of the page: canvas, tip picture, labels, legend, views; draws when something new is there.
 import * as THREE from 'three';
-import { is_known, value, values, type Sample } from '../data/sample';
-import { payload_place, type Place } from '../model/payload_place';
+import { is_known, value, values, type Facts, type Sample } from '../data/sample';
+import { is_at_site, payload_place } from '../model/payload_place';
 import type { Robot, Scene } from '../model/robot';
 import { length_text } from '../model/sentence';
 import { distance } from '../model/vector';
@@ -72,7 +72,7 @@ export class SceneView {
     const world = [this.arm.group, this.ghost.mesh, this.predicted.mesh, this.closest.group, this.goal.group, this.nodes.mesh];
     this.stage.scene.add(surroundings(scene, robot, this.colours), ...world, this.way.line, this.trail.line);
     this.payload = scene.payload && scene.adapter ? new PayloadBody(scene.payload, scene.adapter, this.colours) : null;
-    if (this.payload) this.stage.scene.add(this.payload.mesh);
+    if (this.payload) this.stage.scene.add(this.payload.mesh, this.payload.adapter);
     const in_the_way = [...world.slice(1), ...this.arm.details, this.way.line, this.trail.line];
     for (const object of in_the_way) this.stage.hidden_from_tip.add(object);
     if (this.payload) this.stage.tip_looks = 'z'; // the way in
@@ -194,7 +194,7 @@ export class SceneView {
     if (this.predicted.mesh.visible && is_known(predicted)) this.predicted.set(predicted);
     this.nodes.set(this.arm.chain.nodes);
     this.goal.set(values(sample, 'goal_cp'));
-    this.move_payload(payload_place(sample.facts, this.scene));
+    this.move_payload(sample.facts);
     const link = value(sample, 'clearance.link') - 1;
     const piece = this.arm.chain.pieces[link];
     this.closest.set(values(sample, 'clearance.where_m'), piece ? this.arm.chain.matrices.subarray(16 * link, 16 * link + 16) : null, piece?.length_m ?? 0);
@@ -202,9 +202,11 @@ export class SceneView {
 
   // A payload on the tip goes along with the measured arm. The camera then looks past it, as the one that sees the adapter
   // does.
-  private move_payload(place: Place): void {
+  private move_payload(facts: Facts): void {
     if (!this.payload) return;
+    const place = payload_place(facts, this.scene);
     this.payload.set(place, this.arm.chain.tip);
+    this.payload.adapter.visible = is_at_site(facts, this.scene, this.robot);
     if (place === 'tip') this.stage.hidden_from_tip.add(this.payload.mesh);
     else this.stage.hidden_from_tip.delete(this.payload.mesh);
   }

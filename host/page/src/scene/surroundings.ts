@@ -1,16 +1,14 @@
 // What stands around the arm, in three meshes: glass plates, solid bodies, and lines (edges, the slit's plane, the floor).
 import * as THREE from 'three';
 import { ConvexGeometry } from 'three/examples/jsm/geometries/ConvexGeometry.js';
-import type { Box, Convex, Robot, Scene, ScenePose, Slit, Triple } from '../model/robot';
+import type { Box, Convex, Robot, Scene, Slit, Triple } from '../model/robot';
 import { module_radius_m } from './arm_body';
 import type { SceneColours } from './palette';
-import { kBodyRadius_m, matrix_of } from './payload_body';
 import { Batch, paint } from './shade';
 
 const kGlass = 0.13; // share of a plate's colour: what is behind it must be seen
 const kRodShown_m = 0.025; // the rod's ball is 10 mm: too small to find
 const kFloor = { size_m: 8, cells: 16, height_m: -1.2 };
-const kAdapter_m = 0.08; // how thick the adapter is drawn
 const kSlitShown_m = 2; // up and down from its middle
 
 const vector = (v: Triple) => new THREE.Vector3(...v);
@@ -52,12 +50,6 @@ class Surroundings {
     this.solid.add(new THREE.CylinderGeometry(radius_m, radius_m, way.length(), 20), place, colour, true);
   }
 
-  // A disc behind the face that the payload comes to.
-  adapter(pose: ScenePose): void {
-    const back = new THREE.Vector3(0, 0, kAdapter_m).applyMatrix4(matrix_of(pose));
-    this.bar(pose.position_m, back.toArray(), kBodyRadius_m, this.colours.base);
-  }
-
   // The slit's plane from mouth to end, as a frame between the plates.
   slit(slit: Slit): void {
     const corner = (u: number, w: number) =>
@@ -94,6 +86,5 @@ export function surroundings(scene: Scene, robot: Robot, colours: SceneColours):
   for (const body of scene.convex ?? []) all.convex(body);
   if (scene.rod) all.ball(scene.rod.position_m, Math.max(kRodShown_m, scene.rod.radius_m), colours.rod);
   if (scene.slit) all.slit(scene.slit);
-  if (scene.adapter) all.adapter(scene.adapter);
   return all.group();
 }
