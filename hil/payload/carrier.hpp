@@ -27,14 +27,24 @@ class Carrier {
   const ToolReport& last() const { return last_; }
 
  private:
+  // What is under way.
+  struct Way {
+    double from;    // share when it began
+    double gone_s;  // of its time, which stands still when it has stopped
+    double at_s;    // when that was so
+    std::optional<double> stops_since_s;
+    std::string why;  // it stops
+  };
+
   ToolReport say(std::string phase, std::string reason, double now_s);
+  std::optional<ToolReport> begin(double now_s, const CarrySight& sight);
+  void go_on(double now_s, double takes_s);
 
   std::optional<ToolCommand> asked_;
-  bool acting_ = false;
+  std::optional<Way> way_;
   ToolDefects defects_;
   ToolReport last_;
   double share_ = 0.0;
-  double begun_at_ = 0.0;  // share when the command under way began
 };
 
 }  // namespace liana::bench
