@@ -43,9 +43,11 @@ def program(name: str) -> str:
 
 
 def run(*words: Any, **options: Any) -> subprocess.CompletedProcess[str]:
-    """A program to its end: the completed process with text output. `options` are those of subprocess.run."""
+    """A program to its end: the completed process with text output. `options` are those of subprocess.run; `timeout` is
+    PATIENCE_S where none is given."""
+    options.setdefault("timeout", clients.PATIENCE_S)
     call = [program(str(words[0])), *map(str, words[1:])]
-    return subprocess.run(call, capture_output=True, text=True, timeout=clients.PATIENCE_S, check=False, **options)
+    return subprocess.run(call, capture_output=True, text=True, check=False, **options)
 
 
 @functools.lru_cache(maxsize=None)
