@@ -71,7 +71,7 @@ void simulate_and_show(const ConsoleOptions& options, const system::SystemLayout
 int simulate(const ConsoleOptions& options) {
   system::RunOptions run = options.wish.run;
   run.time = "paced";
-  run.has_console = true;
+  run.is_session = true;
   const system::SystemLayout plan = system::make_layout(run);
   try {
     simulate_and_show(options, plan);

@@ -57,6 +57,8 @@ Json checked_serial_robot(const config::SerialRobotConfig& robot, const config::
       problems.push_back("named_poses_deg." + name + ": " + inside +
                          ": choose other angles, or a thinner link_radius_m");
   }
+  if (const std::string why = config::why_not_carried(robot, scene); !why.empty())
+    problems.push_back("scene " + scene.name + ": " + why);
   Json notes = Json::array();
   if (simulate::SerialContact(simulate::serial_model(robot)).pairs() == 0)
     notes.push_back(

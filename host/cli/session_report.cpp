@@ -25,6 +25,15 @@ report::BodyAt body_at(const system::RunOptions& options, const system::SystemLa
   };
 }
 
+Json people_of(const system::OperatorChoice& people) {
+  const auto given = [](const std::string& word) { return word.empty() ? Json() : Json(word); };
+  return {{"who", people.who.empty() ? "recorded" : people.who},
+          {"delay_s", given(people.delay)},
+          {"feedback", given(people.feedback)},
+          {"passivity", given(people.passivity)},
+          {"fixtures", given(people.fixtures)}};
+}
+
 }  // namespace
 
 report::ReportSources report_sources(const system::RunOptions& options, const system::SystemLayout& plan,
@@ -55,7 +64,10 @@ report::ReportSources report_sources(const system::RunOptions& options, const sy
   sources.has_slit = plan.scene.slit.has_value();
   for (const Json& file : plan.mission.value("files", Json::array()))
     sources.mission_files.push_back({{"file", file.at("file")}, {"sha256", file.at("sha256")}});
-  if (!plan.is_serial) sources.body_at = body_at(options, plan);
+  if (!plan.is_serial) {
+    sources.body_at = body_at(options, plan);
+    sources.people = people_of(options.people);
+  }
   sources.criteria =
       criteria(plan.file("robot.json"), options.true_physics.empty() ? options.physics : options.true_physics);
   return sources;

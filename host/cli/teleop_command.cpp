@@ -91,6 +91,7 @@ void simulate_and_drive(const system::SystemLayout& plan, std::optional<teleop::
 int simulate(const SystemWish& wish, std::optional<teleop::Gamepad>& gamepad) {
   system::RunOptions run = wish.run;
   run.time = "paced";
+  run.is_session = true;
   const system::SystemLayout plan = system::make_layout(run);
   std::fprintf(stderr, "a simulated arm is starting\n");
   try {

@@ -75,7 +75,7 @@ verify::Verdict verdict_of(const VerifyOptions& options, const config::RobotConf
 verify::Verdict verdict_of(const VerifyOptions& options, const config::SerialRobotConfig& robot,
                            const config::SceneConfig& scene) {
   const auto way = way_of<serial::JointVector>(options, robot, robot.table.joints(), kSerialInterval_s);
-  simulate::SerialSimulation simulation(simulate::serial_model(robot, scene), scene);
+  simulate::SerialSimulation simulation(system::checked([&] { return simulate::serial_model(robot, scene); }), scene);
   verify::TooNear too_near;
   verify::SimulationVerdict verdict;
   verdict.margins = verify::margins_unknown();
@@ -98,6 +98,7 @@ Json json_of(const verify::Verdict& verdict) {
               {"error", nullptr},
               {"slowly", verdict.slowly},
               {"inside", verdict.margins.clearance_m < 0.0},
+              {"touches_itself", verdict.touches_itself.empty() ? Json() : Json(verdict.touches_itself)},
               {"margins",
                {{"clearance_m", clearance_of(verdict)},
                 {"joint_deg", number_or_null(verdict.margins.joint_deg)},
@@ -145,6 +146,9 @@ void print_summary(const verify::Verdict& verdict) {
   if (verdict.passed() && left.clearance_m < 0.0)
     std::printf(
         "too near: less is left than has to be; only motion that leads away is let through, as this one does\n");
+  if (!verdict.touches_itself.empty())
+    std::printf("touches itself from the start: %s; only motion that leads apart is let through, as this one does\n",
+                verdict.touches_itself.c_str());
   if (!verdict.first.body.empty())
     std::printf("first: %s at %.2f s\n", verdict.first.body.c_str(), verdict.first.time_s);
 }

@@ -14,6 +14,8 @@ void read_start(const Field& field, ScenePayload& payload) {
   payload.on_arm = field.at("start").choice({"mechanism", "arm"}) == "arm";
   const Json& json = field.json();
   if (json.contains("fetch_pose")) payload.fetch_pose = field.at("fetch_pose").name(kLongestName);
+  if (payload.on_arm && !payload.fetch_pose.empty())
+    field.at("fetch_pose").refuse("no fetch_pose of a payload that is on the arm from the start", "leave it out");
   if (json.contains("start_lateral_m")) payload.start_lateral_m = field.at("start_lateral_m").number({0, 0.02});
   if (json.contains("start_tilt_deg")) payload.start_tilt_deg = field.at("start_tilt_deg").number({0, 5});
 }

@@ -190,7 +190,34 @@ SerialRobotConfig read_serial_robot(const Json& json, const std::string& file) {
   return out;
 }
 
+constexpr double kQuickest = 35.0 / 16.0;  // of the way that the arm below takes, beside its mean rate
+
 }  // namespace
+
+bool is_carried(const SerialRobotConfig& robot, const SceneConfig& scene) {
+  return robot.base && scene.payload && !scene.payload->on_arm && !scene.payload->fetch_pose.empty();
+}
+
+std::string why_not_carried(const SerialRobotConfig& robot, const SceneConfig& scene) {
+  if (!is_carried(robot, scene)) return "";
+  const LockedBase& base = *robot.base;
+  const std::string what = "payload.fetch_pose: \"" + scene.payload->fetch_pose + "\": ";
+  const auto from = base.named_poses_rad.find(scene.payload->fetch_pose);
+  if (from == base.named_poses_rad.end()) {
+    std::string names;
+    for (const auto& [name, joint_rad] : base.named_poses_rad) names += (names.empty() ? "" : ", ") + name;
+    return what + "allowed a pose of robot " + base.name + ", which carries this one: " + names + ": name one of them";
+  }
+  double least_s = 1.0;
+  for (std::size_t i = 0; i < base.table.joints(); ++i)
+    least_s =
+        std::fmax(least_s, kQuickest * std::fabs(base.joint_rad[i] - from->second[i]) / base.table.joint[i].rate_rad_s);
+  if (base.carry_s >= least_s) return "";
+  const std::string now = base.carry_s > 0.0 ? std::to_string(static_cast<int>(base.carry_s)) + " s" : "missing";
+  return what + "base.carry_s of robot " + robot.name + ": " + now + ": allowed from " +
+         std::to_string(static_cast<int>(std::ceil(least_s))) + " to 3600 s, at the rates of " + base.name +
+         "'s joints: say how long it takes from there to where it is locked";
+}
 
 std::string kind_of(const Json& table) {
   const bool has_kind = table.is_object() && table.contains("kind") && table["kind"].is_string();

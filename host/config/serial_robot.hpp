@@ -55,6 +55,13 @@ std::string kind_of(const Json& table);
 // The same of JSON text that was checked once; throws when it is no JSON.
 std::string robot_kind(const std::string& text, const std::string& file);
 
+// True when the scene fetches its payload with the arm below at another pose than where that is locked.
+bool is_carried(const SerialRobotConfig& robot, const SceneConfig& scene);
+
+// Why the arm below cannot carry this one from there: a pose that it does not have, no `carry_s`, or joints that would
+// turn faster than they may. Empty where it can, or need not.
+std::string why_not_carried(const SerialRobotConfig& robot, const SceneConfig& scene);
+
 // True when its drives follow torques (docs/force-control.md).
 inline bool gives_torque(const SerialRobotConfig& robot) { return robot.table.torque.gives_torque != 0; }
 

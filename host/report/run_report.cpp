@@ -247,6 +247,7 @@ Json make_report(const ReportSources& sources) {
     report["reason"] = sources.reason.empty() ? mission.value("reason", "") : sources.reason;
   }
   if (!sources.fault.empty()) report["fault"] = fault_of(sources, welcome.value("period_s", 0.0), window.first_tick);
+  if (sources.people.is_object()) report["operator"] = sources.people;
   if (state.contains("friction")) report["friction"] = state["friction"];
   if (sources.operator_rate_hz) report["operator_rate_hz"] = *sources.operator_rate_hz;
   if (sources.operator_samples.is_object()) report["operator_samples"] = sources.operator_samples;

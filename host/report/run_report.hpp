@@ -35,6 +35,7 @@ struct ReportSources {
   std::string reason;                   // beside an outcome that is not success; the mission's own where empty
   std::string robot, mission, physics;  // as they were given
   Json mission_files;                   // what the mission was made of: [{"file","sha256"}]; null: unknown
+  Json people;                          // who steered it, and over what, as it was given; null: nobody
   std::uint64_t seed = 0;
   std::string fault;  // of the mission's own, that was asked for; empty: none
   std::string time_mode;

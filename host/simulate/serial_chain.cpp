@@ -45,26 +45,17 @@ namespace {
 constexpr int kBetween = 3;
 
 // Where the arm below is, one place after the other; where it is locked first.
-std::vector<JointVector> places_of(const config::LockedBase& base, const config::SceneConfig& scene) {
+std::vector<JointVector> places_of(const config::SerialRobotConfig& robot, const config::SceneConfig& scene) {
+  const config::LockedBase& base = *robot.base;
   std::vector<JointVector> places{base.joint_rad};
-  if (!scene.payload || scene.payload->on_arm || scene.payload->fetch_pose.empty()) return places;
-  const std::string& fetch = scene.payload->fetch_pose;
-  const auto found = base.named_poses_rad.find(fetch);
-  if (found == base.named_poses_rad.end()) {
-    std::string names;
-    for (const auto& [name, joint_rad] : base.named_poses_rad) names += (names.empty() ? "" : ", ") + name;
-    throw std::runtime_error("scene " + scene.name + ": payload.fetch_pose: \"" + fetch +
-                             "\": allowed a pose of robot " + base.name + ", which carries the arm: " + names +
-                             ": name one of them");
-  }
-  if (base.carry_s <= 0.0)
-    throw std::runtime_error("scene " + scene.name + ": payload.fetch_pose: \"" + fetch +
-                             "\": the robot has no base.carry_s: say how long the arm below takes from there to where "
-                             "it is locked, or leave fetch_pose out");
+  if (!config::is_carried(robot, scene)) return places;
+  if (const std::string why = config::why_not_carried(robot, scene); !why.empty())
+    throw std::runtime_error("scene " + scene.name + ": " + why);
+  const JointVector& from_rad = base.named_poses_rad.at(scene.payload->fetch_pose);
   for (int i = 0; i <= kBetween; ++i) {
-    places.push_back(found->second);
+    places.push_back(from_rad);
     for (std::size_t k = 0; k < base.table.joints(); ++k)
-      places.back()[k] += (base.joint_rad[k] - found->second[k]) * i / (kBetween + 1);
+      places.back()[k] += (base.joint_rad[k] - from_rad[k]) * i / (kBetween + 1);
   }
   return places;
 }
@@ -85,7 +76,7 @@ SerialModel serial_model(const config::SerialRobotConfig& robot, const config::S
   SerialModel model{robot.table, robot.link_radius_m, {}, {}, {}};
   if (!robot.base) return model;
   model.base_name = robot.base->name;
-  for (const JointVector& joint_rad : places_of(*robot.base, scene)) add_links(*robot.base, joint_rad, model);
+  for (const JointVector& joint_rad : places_of(robot, scene)) add_links(*robot.base, joint_rad, model);
   for (std::size_t i = 0; i < kPiecesPerLink * robot.base->table.joints(); ++i)
     model.base_of_link.push_back(static_cast<std::int32_t>(i) / kPiecesPerLink);
   return model;

@@ -29,8 +29,7 @@ struct CarriedBody {
 // The capsule that ends where the payload does; of one that is thicker than long, a ball in its middle.
 CarriedBody carried_body(const config::ScenePayload& payload);
 
-// The model of a robot's table in a scene. Throws std::runtime_error when the scene fetches its payload at a pose that
-// the arm below does not have, or does not carry from.
+// The model of a robot's table in a scene. Throws std::runtime_error where config::why_not_carried says why.
 SerialModel serial_model(const config::SerialRobotConfig& robot, const config::SceneConfig& scene = {});
 
 }  // namespace liana::simulate

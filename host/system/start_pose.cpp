@@ -158,7 +158,7 @@ std::string inside_body(const config::RobotConfig& robot, const config::SceneCon
 
 std::string inside_body(const config::SerialRobotConfig& robot, const config::SceneConfig& scene,
                         const std::vector<double>& angles_deg) {
-  simulate::SerialSimulation simulation(simulate::serial_model(robot, scene), scene);
+  simulate::SerialSimulation simulation(checked([&] { return simulate::serial_model(robot, scene); }), scene);
   const simulate::Nearest near = standing(simulation, angles_deg).scene;
   if (near.link < 0 || near.distance_m > 0.0) return "";
   return stands_inside(simulation.contact().link_name(near.link), near.distance_m,

@@ -384,8 +384,8 @@ SystemLayout make_layout(const RunOptions& given) {
   plan.keep_directory = !options.record_dir.empty();
   plan.is_dry_run = options.is_dry_run;
   check_report_file(options.report_file, options.record_dir);
-  plan.has_recorder = (has_mission || options.has_console) && !plan.is_dry_run;
-  plan.keeps_traffic = !plan.is_dry_run && (has_mission || !options.has_console);
+  plan.has_recorder = (has_mission || options.is_session) && !plan.is_dry_run;
+  plan.keeps_traffic = !plan.is_dry_run && (has_mission || !options.is_session);
   plan.socket_dir = temporary_directory();
   plan.directory = directory_of(plan, options);
   write_tables(plan, robot.json, scene.json, buses.json);

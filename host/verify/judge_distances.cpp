@@ -82,9 +82,12 @@ void judge_distances(const config::SceneConfig& scene, const simulate::Distances
     refuse_contact(least_m, start_m, first);
   } else if (const simulate::BodyBeside* body = entered(distances, levels.prediction_m)) {
     refuse_contact(body->nearest.distance_m, body->at_start_m, at_scene(scene, body->nearest, link_name));
-  } else if (!(distances.self.distance_m > 0.0) && !leads_apart(distances)) {
+  } else if (!(distances.self.distance_m > 0.0)) {
     const First self = at_itself(distances.self, link_name);
-    refuse(verdict, Refusal::kSelfContact, "the arm would touch itself: " + self.body, self);
+    if (leads_apart(distances))
+      verdict.touches_itself = self.body;
+    else
+      refuse(verdict, Refusal::kSelfContact, "the arm would touch itself: " + self.body, self);
   }
 }
 

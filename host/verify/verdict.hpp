@@ -66,7 +66,8 @@ struct Verdict {
   double share = 0.0;  // of that limit; over 1 refuses
   Margins margins;     // with First and slowly: the simulation's alone
   First first;
-  bool slowly = false;  // nearer to the scene than where it says to go slowly
+  std::string touches_itself;  // what of the arm touches what at the start, where that is let go; else empty
+  bool slowly = false;         // nearer to the scene than where it says to go slowly
   bool passed() const { return code == Refusal::kNone; }
 };
 

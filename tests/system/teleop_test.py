@@ -2,6 +2,7 @@
 import contextlib
 import fcntl
 import os
+import pathlib
 import pty
 import re
 import select
@@ -115,7 +116,8 @@ class Teleop(SystemTest):
         driver.press(" ")
         driver.until("STOPPED", "key in the terminal", "DISABLED")
         self.assertEqual(driver.end(), 0)
-        self.assertIn("recorded in", driver.process.stderr.read())
+        (folder,) = re.findall(r"recorded in (\S+);", driver.process.stderr.read())
+        self.assertTrue(pathlib.Path(folder, "archive.db").exists(), folder)
         self.assertTrue(driver.seen.rstrip().endswith("\x1b[?25h\x1b[?1049l"), "the terminal is as it was")
 
     def test_a_driver_that_dies_gives_motion_back_and_the_arm_holds(self):

@@ -139,5 +139,18 @@ TEST_F(ASerialArmBesideABall, ANumberThatIsNoneIsRefused) {
   EXPECT_FALSE(judged(told).passed());
 }
 
+// Folded back on itself from the start: unfolding is let through, and said.
+TEST_F(ASerialArmBesideABall, ThatTouchesItselfFromTheStartIsLedApartAndItIsSaid) {
+  scene_.spheres.clear();
+  simulate::ToldRows<JointVector> told{0.02, {}};
+  for (int row = 0; row < 200; ++row)
+    told.rows_rad.push_back(serial::micro::radians({0, 0, 0, 180 - 0.02 * row, 0, 0, 0}));
+  const SimulationVerdict apart = judged(told);
+  EXPECT_EQ(apart.code, Refusal::kNone) << apart.text;
+  EXPECT_EQ(apart.touches_itself, "link 3 (link 4)");
+  told.rows_rad.assign(2, bent_);
+  EXPECT_EQ(judged(told).touches_itself, "");
+}
+
 }  // namespace
 }  // namespace liana::verify
