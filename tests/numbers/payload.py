@@ -19,7 +19,7 @@ from page import table
 
 PUSHES = 500
 FLIGHTS = 10
-FIRST_FLIGHT = 156001
+FIRST_FLIGHT = 175001
 HEAD = ["asked", "least", "median", "95 %", "most"]
 # Name in the row, what is asked, field, factor.
 PUSH_ROWS = [
