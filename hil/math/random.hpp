@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "hil/math/vec3.hpp"
+
 namespace liana::bench {
 
 // splitmix64; the stream is set by the seed and the name of what it is used for.
@@ -37,5 +39,10 @@ class Random {
 
   std::uint64_t state_;
 };
+
+// Three of them, x first.
+inline Vec3 gaussian(Random& random, double deviation) {
+  return {random.gaussian(deviation), random.gaussian(deviation), random.gaussian(deviation)};
+}
 
 }  // namespace liana::bench

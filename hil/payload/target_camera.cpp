@@ -13,10 +13,6 @@ Vec3 in_any_direction(Random& random, double length) {
   return (length / norm(raw)) * raw;
 }
 
-Vec3 gaussian(Random& random, double deviation) {
-  return {random.gaussian(deviation), random.gaussian(deviation), random.gaussian(deviation)};
-}
-
 }  // namespace
 
 TargetCamera::TargetCamera(const CameraConfig& config, Lens lens, bool spread, std::uint64_t seed)

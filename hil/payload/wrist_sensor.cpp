@@ -25,10 +25,6 @@ Vec3 uniform(Random& random, double most) {
   return {random.uniform(-most, most), random.uniform(-most, most), random.uniform(-most, most)};
 }
 
-Vec3 gaussian(Random& random, double deviation) {
-  return {random.gaussian(deviation), random.gaussian(deviation), random.gaussian(deviation)};
-}
-
 }  // namespace
 
 WristSensor::WristSensor(std::uint8_t bus, bool noisy, std::uint64_t seed, const WristFigures& figures)
