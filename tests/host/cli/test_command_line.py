@@ -181,7 +181,7 @@ def changed(pose, theta, by_deg):
 
 
 class Verify(unittest.TestCase):
-    KEYS = {"accepted", "error", "margins", "first", "remedy", "slowly", "inside"}
+    KEYS = {"accepted", "error", "margins", "first", "remedy", "slowly", "inside", "touches_itself"}
 
     def verdict(self, start, end, duration_s, *more):
         verdict = liana_json(
