@@ -90,7 +90,7 @@ constexpr std::array<FaultInfo, 27> kFaultTable{{
      "Check the encoder and its cable; compare the joint's angle with the arm by eye, then clear and enable again."},
     {kWristSensorLost, "wrist_sensor_lost", kHold, false, true,
      "In a push the wrist's force sensor was not to be trusted; the detail is 1 silent, 2 saturated, 3 failed, 4 no "
-     "number, 5 not at rest before the push.",
+     "number, 5 not at rest before the push, 6 stuck at the very same numbers.",
      "The arm gives way where it is pushed; check sensor and cable, then clear, and back off before another push."},
     {kPushOverload, "push_overload", kHold, false, true,
      "A push met more force, or a joint more torque, than it may; the drive is the joint, where it was one, the detail "

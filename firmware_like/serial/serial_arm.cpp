@@ -29,7 +29,7 @@ void SerialArm::read(const DriveFeedbacks& drives, const Sensors& sensors) noexc
   } else if (homing_ticks_ < kHomingTicks) {
     ++homing_ticks_;
   }
-  read_wrist(sensors.wrist, wrist_);
+  read_wrist(sensors.wrist, table_.torque.wrist_still_samples, wrist_);
   read_adapter(sensors.adapter, adapter_);
 }
 

@@ -25,7 +25,7 @@ void follow_along(const RobotTable& table, const ForceMotion& wanted, const Join
                   LimiterState& target) noexcept {
   for (Index i = 0; i < table.joints(); ++i) {
     const JointTable& joint = table.joint[i];
-    const double most_rad = kMostRateShare * joint.rate_rad_s * table.tick_s;
+    const double most_rad = joint.rate_rad_s * table.tick_s;  // a target told quicker would be refused
     double step_rad = wanted.rate_rad_s[i] * table.tick_s;
     if (!wanted.holds_place) step_rad += kFollowAlong * (measured_rad[i] - target.joint_rad[i]);
     const double next_rad = target.joint_rad[i] + clamp(step_rad, -most_rad, most_rad);

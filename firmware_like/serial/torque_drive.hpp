@@ -25,8 +25,8 @@ constexpr double rated_Nm(const DriveTable& drive) noexcept { return 1000.0 * dr
 ForceMotion planned_motion(const RobotTable& table, const Dynamics& dynamics, const LimiterState& target,
                            const TorqueTold& told) noexcept;
 
-// The target of joints that forces move: it goes with them, so that nothing jumps when they are led again. One that
-// holds its place goes by the wanted rate alone.
+// The target of joints that forces move: it goes with them, no quicker than their rates, so that nothing jumps when
+// they are led again. One that holds its place goes by the wanted rate alone.
 void follow_along(const RobotTable& table, const ForceMotion& wanted, const JointVector& measured_rad,
                   LimiterState& target) noexcept;
 

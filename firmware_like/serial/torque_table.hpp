@@ -38,7 +38,8 @@ struct TorqueTable {
   double most_travel_m = 0.0;        // along the axis, from where a push began
   double most_aside_m = 0.0;         // across it
   double most_turn_rad = 0.0;
-  PushGains gain_low{};  // range of each gain that a push may ask for
+  std::uint16_t wrist_still_samples = 0;  // with the very same numbers, and the wrist's sensor is stuck; 0: never
+  PushGains gain_low{};                   // range of each gain that a push may ask for
   PushGains gain_high{};
 };
 static_assert(std::is_trivially_copyable_v<TorqueTable>);

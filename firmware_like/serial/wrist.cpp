@@ -19,9 +19,11 @@ WristHealth health_of(const WristReading& reading) noexcept {
   return reading.status == WristStatus::kSaturated ? WristHealth::kSaturated : WristHealth::kFailed;
 }
 
+bool is_same(const Wrench& a, const Wrench& b) noexcept { return a.force_N == b.force_N && a.torque_Nm == b.torque_Nm; }
+
 }  // namespace
 
-void read_wrist(const WristReading& reading, WristState& state) noexcept {
+void read_wrist(const WristReading& reading, std::uint16_t still_samples, WristState& state) noexcept {
   const bool first = state.age_ticks == kNeverHeard;
   if (!first) state.age_ticks = narrow<std::uint16_t>(state.age_ticks + 1U);
   if (reading.age_ticks == kNeverHeard) return;
@@ -29,7 +31,14 @@ void read_wrist(const WristReading& reading, WristState& state) noexcept {
   state.sequence = reading.sequence;
   state.age_ticks = reading.age_ticks;
   state.said = health_of(reading);
-  if (state.said == WristHealth::kGood) state.felt = reading.on_arm;
+  if (state.said != WristHealth::kGood) return;
+  if (first || !is_same(reading.on_arm, state.felt)) {
+    state.same_samples = 0;
+  } else if (state.same_samples < still_samples) {
+    ++state.same_samples;
+  }
+  state.felt = reading.on_arm;
+  if (still_samples > 0 && state.same_samples >= still_samples) state.said = WristHealth::kStuck;
 }
 
 WristHealth health(const WristState& state) noexcept {

@@ -38,7 +38,7 @@ std::optional<ToolReport> Carrier::begin(double now_s, const CarrySight& sight) 
   if (sight.takes_s <= 0.0) return say("failed", "no arm carries this one from anywhere", now_s);
   if (share_ >= 1.0) return say("failed", "the arm that carries is locked at the site already", now_s);
   if (!sight.arm_rests) return say("failed", "the arm that is carried moves: bring it to rest first", now_s);
-  way_ = Way{share_, 0.0, now_s, {}, ""};
+  way_ = Way{share_, 0.0, now_s, sight.has_torque, {}, ""};
   return say("acting", "", now_s);
 }
 
@@ -56,9 +56,12 @@ std::optional<ToolReport> Carrier::act(double now_s, const CarrySight& sight) {
   if (!way_) return begin(now_s, sight);
   go_on(now_s, sight.takes_s);
   const bool jams = defects_.jams && share_ > kJams_at;
-  if (!way_->stops_since_s && (jams || !sight.arm_rests)) {
+  const bool lost_torque = way_->had_torque && !sight.has_torque;
+  if (!way_->stops_since_s && (jams || lost_torque || !sight.arm_rests)) {
     way_->stops_since_s = now_s;
-    way_->why = jams ? "the arm that carries has stopped on its way" : "the arm that is carried moved: it was stopped";
+    way_->why = jams          ? "the arm that carries has stopped on its way"
+                : lost_torque ? "the arm that is carried lost its torque: it was stopped"
+                              : "the arm that is carried moved: it was stopped";
   }
   if (way_->gone_s >= sight.takes_s) return say("done", "", now_s);
   if (way_->stops_since_s && now_s - *way_->stops_since_s >= kStopsIn * sight.takes_s)

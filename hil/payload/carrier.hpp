@@ -11,8 +11,9 @@ namespace liana::bench {
 
 // What it knows of the arm that it carries, and of itself.
 struct CarrySight {
-  double takes_s = 0.0;    // for the whole way; 0: there is no way to go
-  bool arm_rests = false;  // the arm that is carried
+  double takes_s = 0.0;     // for the whole way; 0: there is no way to go
+  bool arm_rests = false;   // the arm that is carried
+  bool has_torque = false;  // it, in all its drives; the line that tells so is a wire, as that of an emergency stop
 };
 
 class Carrier {
@@ -32,6 +33,7 @@ class Carrier {
     double from;    // share when it began
     double gone_s;  // of its time, which stands still when it has stopped
     double at_s;    // when that was so
+    bool had_torque;
     std::optional<double> stops_since_s;
     std::string why;  // it stops
   };

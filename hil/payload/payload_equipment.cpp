@@ -41,8 +41,9 @@ void PayloadEquipment::ask(const ToolCommand& command) {
 
 std::optional<ToolReport> PayloadEquipment::carry(double now_s) {
   const double before = carrier_.share();
-  const auto report =
-      carrier_.act(now_s, {.takes_s = plant_.carry_s(), .arm_rests = plant_.fastest_rad_s() < kRests_rad_s});
+  const auto report = carrier_.act(now_s, {.takes_s = plant_.carry_s(),
+                                           .arm_rests = plant_.fastest_rad_s() < kRests_rad_s,
+                                           .has_torque = plant_.has_torque()});
   if (carrier_.share() != before) plant_.carry_base(carrier_.share());
   return report;
 }

@@ -28,6 +28,8 @@ class TorquePlant final : public Plant {
   Pose tip() const override { return relative(base_at_rest_, chain_.tip().pose); }
   void remove_rod() override {}
   double fastest_rad_s() const override;
+  // Whether all of its drives are enabled.
+  bool has_torque() const { return drives_.enabled() == drives_.size(); }
   std::unique_ptr<TipEquipment> make_equipment(const SceneConfig& scene, std::uint64_t seed) override;
   std::vector<std::string> truth_columns() const override;
   void add_truth(std::vector<double>& row) override;

@@ -27,19 +27,16 @@ Vec3 uniform(Random& random, double most) {
 
 }  // namespace
 
-WristSensor::WristSensor(std::uint8_t bus, bool noisy, std::uint64_t seed, const WristFigures& figures)
-    : figures_(figures), noisy_(noisy), noise_(seed, "wrist sensor"), node_(kNode, bus) {
-  if (!noisy_) return;
+WristSensor::WristSensor(std::uint8_t bus, bool spread, std::uint64_t seed, const WristFigures& figures)
+    : figures_(figures), noise_(seed, "wrist sensor"), node_(kNode, bus) {
+  if (!spread) return;
   Random bias(seed, "wrist bias");
   bias_ = {uniform(bias, figures_.force_bias_N), uniform(bias, figures_.torque_bias_Nm)};
 }
 
 WristReading WristSensor::read(const TipLoad& load) {
-  TipLoad felt{load.force_N + bias_.force_N, load.torque_Nm + bias_.torque_Nm};
-  if (noisy_) {
-    felt.force_N = felt.force_N + gaussian(noise_, figures_.force_noise_N);
-    felt.torque_Nm = felt.torque_Nm + gaussian(noise_, figures_.torque_noise_Nm);
-  }
+  TipLoad felt{load.force_N + bias_.force_N + gaussian(noise_, figures_.force_noise_N),
+               load.torque_Nm + bias_.torque_Nm + gaussian(noise_, figures_.torque_noise_Nm)};
   if (defects_.saturated) felt.force_N.z = std::copysign(2.0 * figures_.force_full_N, felt.force_N.z);
   WristReading reading;
   const bool of_force = digitise(felt.force_N, figures_.force_step_N, figures_.force_full_N, reading.force);

@@ -43,8 +43,8 @@ class WristSensor {
  public:
   static constexpr std::uint32_t kNode = 0x20;
 
-  // Bias and noise are drawn from the seed; not `noisy`: neither.
-  WristSensor(std::uint8_t bus, bool noisy, std::uint64_t seed, const WristFigures& figures = {});
+  // Noise is drawn from the seed, as it belongs to any sensor; with `spread` a bias, too.
+  WristSensor(std::uint8_t bus, bool spread, std::uint64_t seed, const WristFigures& figures = {});
 
   void suffer(const WristDefects& defects) { defects_ = defects; }
   // Hears the slot's frames and sends what is due; `load` is the mean since the last SYNC (its anti-aliasing filter).
@@ -58,7 +58,6 @@ class WristSensor {
   void report(const WristReading& reading, FrameList& out);
 
   WristFigures figures_;
-  bool noisy_;
   Random noise_;
   TipLoad bias_;
   SelfStartingNode node_;

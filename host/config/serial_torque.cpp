@@ -26,13 +26,15 @@ void read_gains(const Field& gains, SerialRobotConfig& out) {
 }
 
 void read_force_control(const Field& field, SerialRobotConfig& out) {
-  field.only({"most_force_N", "most_joint_Nm", "most_travel_m", "most_aside_m", "most_turn_deg", "gains"});
+  field.only({"most_force_N", "most_joint_Nm", "most_travel_m", "most_aside_m", "most_turn_deg", "wrist_still_samples",
+              "gains"});
   serial::TorqueTable& torque = out.table.torque;
   torque.most_force_N = field.at("most_force_N").number({1, 1e5});
   torque.most_joint_Nm = field.at("most_joint_Nm").number({1, out.rated_torque_Nm});
   torque.most_travel_m = field.at("most_travel_m").number({0.001, 1});
   torque.most_aside_m = field.at("most_aside_m").number({0.001, 1});
   torque.most_turn_rad = field.at("most_turn_deg").number({0.1, 45}) * kRadPerDeg;
+  torque.wrist_still_samples = static_cast<std::uint16_t>(field.at("wrist_still_samples").integer(0, 10000));
   read_gains(field.at("gains"), out);
 }
 

@@ -10,11 +10,11 @@ namespace {
 constexpr std::array kPhases{"none", "taring", "relieving", "pressing", "unloading", "yielding"};
 constexpr std::array kEnds{"none",  "captured",      "sensor_lost",    "overload", "travel",
                            "aside", "early_capture", "adapter_silent", "stopped"};
-constexpr std::array kHealth{"good", "silent", "saturated", "failed", "no_number", "not_at_rest"};
+constexpr std::array kHealth{"good", "silent", "saturated", "failed", "no_number", "not_at_rest", "stuck"};
 constexpr std::array kCatches{"open", "closing", "closed", "failed"};
 static_assert(kPhases.size() == static_cast<std::size_t>(serial::PushPhase::kYielding) + 1);
 static_assert(kEnds.size() == static_cast<std::size_t>(serial::PushEnd::kStopped) + 1);
-static_assert(kHealth.size() == static_cast<std::size_t>(serial::WristHealth::kNotAtRest) + 1);
+static_assert(kHealth.size() == static_cast<std::size_t>(serial::WristHealth::kStuck) + 1);
 static_assert(kCatches.size() == static_cast<std::size_t>(serial::CatchState::kFailed) + 1);
 
 template <class Names, class Value>

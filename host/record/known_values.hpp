@@ -27,7 +27,7 @@ constexpr bool is_known(Request request) { return is_up_to(request, Request::kSt
 constexpr bool is_known(OperatingState state) { return is_up_to(state, OperatingState::kFault); }
 constexpr bool is_known(serial::WristStatus status) { return is_up_to(status, serial::WristStatus::kFailed); }
 constexpr bool is_known(serial::CatchState state) { return is_up_to(state, serial::CatchState::kFailed); }
-constexpr bool is_known(serial::WristHealth health) { return is_up_to(health, serial::WristHealth::kNotAtRest); }
+constexpr bool is_known(serial::WristHealth health) { return is_up_to(health, serial::WristHealth::kStuck); }
 constexpr bool is_known(serial::PushLaw law) { return is_up_to(law, serial::PushLaw::kImpedance); }
 constexpr bool is_known(serial::PushPhase phase) { return is_up_to(phase, serial::PushPhase::kYielding); }
 constexpr bool is_known(serial::PushEnd end) { return is_up_to(end, serial::PushEnd::kStopped); }

@@ -175,6 +175,7 @@ void visit(A& a, T& t) {
   a("most_travel_m", t.most_travel_m);
   a("most_aside_m", t.most_aside_m);
   a("most_turn_rad", t.most_turn_rad);
+  a("wrist_still_samples", t.wrist_still_samples);
   a("gain_low", t.gain_low);
   a("gain_high", t.gain_high);
 }

@@ -71,6 +71,7 @@ void visit(A& a, T& s) {
   a("said", s.said);
   a("sequence", s.sequence);
   a("age_ticks", s.age_ticks);
+  a("same_samples", s.same_samples);
 }
 
 template <class A, Like<serial::AdapterState> T>

@@ -38,8 +38,10 @@ Detection detection_of(FaultNumber number, const FaultTimes& times) {
     case FaultNumber::kJointJump:
       return {"serial arm: encoder against the tick before, over three times the joint's rate", 1};
     case FaultNumber::kWristSensorLost:
-      return {"push: no new sample of the wrist sensor, or one that is saturated, failed or no number (at once)",
-              serial::kWristSilentTicks + 1};
+      return {
+          "push: no new sample of the wrist sensor, or one that is saturated, failed or no number (at once); the very "
+          "same numbers (after wrist_still_samples of the table)",
+          serial::kWristSilentTicks + 1};
     case FaultNumber::kPushOverload:
       return {"push: force felt at the wrist or torque of a joint over the most that a push may, in a row",
               serial::kOverloadTicks + 1};

@@ -21,6 +21,7 @@ local kBeforeAdapter_m = 0.008 -- of the pins' tips from the socket's face, wher
 local kBackOff_m = 0.05
 local kCarryLimit_s = 600 -- the large arm takes 240 s
 local kForce_N = 30 -- source
+local kMostTravel_m, kMostAside_m = 0.08, 0.03 -- of a push, from as far beside the axis as a funnel takes
 local kPushLimit_s = 40 -- a push that has not captured by then is jammed; source: 7 to 8 s
 local kTries = 2 -- more, after the first
 local kIn_m = 0.018 -- what every pin's sensor reads of a payload that is captured; the adapter itself wants 19.5 mm
@@ -333,7 +334,7 @@ return liana.mission "payload_install" {
   step "3 push" {
     device = "none",
     -- No tare: on a base that swings, what the payload's mass gives on the sensor is far more than the sensor's bias.
-    run = liana.push { force_N = kForce_N, tare = false },
+    run = liana.push { force_N = kForce_N, tare = false, travel_m = kMostTravel_m, aside_m = kMostAside_m },
     exit = captured,
     fail_when = push_failed,
     time_limit_s = kPushLimit_s,

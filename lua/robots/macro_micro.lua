@@ -20,6 +20,7 @@ micro.force_control = { -- assumed, as tuned in a prototype of this arm on its b
   most_travel_m = 0.2, -- along the axis, from where a push begins
   most_aside_m = 0.03, -- across it: the adapter's tolerance (source: 30 mm)
   most_turn_deg = 3,
+  wrist_still_samples = 25, -- with the very same six numbers: a sensor that lives has noise; 0 for one that may rest on a number
   gains = { -- what a push has, the least and the most that one may ask for
     mass_kg = { 500, 50, 5000 }, -- M_d
     inertia_kgm2 = { 100, 10, 1000 },

@@ -105,6 +105,8 @@ TEST(ForceLaw, WhateverTheGainsItNeverSwingsBackOnItsOwn) {
   }
 }
 
+constexpr std::uint16_t kStill = 5;
+
 WristReading sample(std::uint8_t sequence, double force_N = 1.0) {
   return {{{0.0, 0.0, force_N}, {}}, sequence, WristStatus::kGood, 0};
 }
@@ -112,19 +114,32 @@ WristReading sample(std::uint8_t sequence, double force_N = 1.0) {
 TEST(Wrist, ASampleThatWasThereBeforeMakesNothingFresh) {
   WristState state;
   EXPECT_EQ(health(state), WristHealth::kSilent);
-  read_wrist(sample(255), state);
+  read_wrist(sample(255), kStill, state);
   EXPECT_EQ(health(state), WristHealth::kGood);
-  read_wrist(sample(0), state);  // the count goes round
+  read_wrist(sample(0), kStill, state);  // the count goes round
   EXPECT_EQ(health(state), WristHealth::kGood);
   for (int i = 0; i < 2; ++i) {
-    read_wrist(sample(0, 5.0), state);  // a frozen sensor goes on sending
+    read_wrist(sample(0, 5.0), kStill, state);  // a frozen sensor goes on sending
     EXPECT_EQ(health(state), WristHealth::kGood) << i;
   }
   EXPECT_EQ(state.felt.force_N[2], 1.0);
-  read_wrist(sample(0, 5.0), state);
+  read_wrist(sample(0, 5.0), kStill, state);
   EXPECT_EQ(health(state), WristHealth::kSilent) << "three ticks without a new sample";
-  read_wrist(sample(1), state);
+  read_wrist(sample(1), kStill, state);
   EXPECT_EQ(health(state), WristHealth::kGood);
+}
+
+// One number that differs is enough, and 0 is for a sensor that may rest on a number.
+TEST(Wrist, NewSamplesWithTheVerySameNumbersAreAStuckSensorUntilOneDiffers) {
+  for (const std::uint16_t still : {std::uint16_t{0}, kStill}) {
+    WristState state;
+    for (std::uint8_t i = 0; i < 50; ++i) {
+      const bool differs = i == 3 || i == 40;
+      read_wrist(sample(i, differs ? 1.02 : 1.0), still, state);
+      const bool is_stuck = still > 0 && ((i >= 4 + kStill && i < 40) || i >= 41 + kStill);
+      EXPECT_EQ(health(state), is_stuck ? WristHealth::kStuck : WristHealth::kGood) << int{i};
+    }
+  }
 }
 
 TEST(Wrist, NamesWhatIsWrongAndKeepsTheLastGoodSample) {
@@ -136,8 +151,8 @@ TEST(Wrist, NamesWhatIsWrongAndKeepsTheLastGoodSample) {
        {std::pair{saturated, WristHealth::kSaturated}, std::pair{failed, WristHealth::kFailed},
         std::pair{broken, WristHealth::kNoNumber}}) {
     WristState state;
-    read_wrist(sample(1, 3.0), state);
-    read_wrist(reading, state);
+    read_wrist(sample(1, 3.0), kStill, state);
+    read_wrist(reading, kStill, state);
     EXPECT_EQ(health(state), said);
     EXPECT_EQ(state.felt.force_N[2], 3.0);
   }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "firmware_like/safety/limits.hpp"
+#include "firmware_like/serial/torque_drive.hpp"
 #include "tests/firmware_like/micro_arm.hpp"
 
 namespace liana::serial {
@@ -141,6 +142,24 @@ TEST(SerialLimiter, TheAllowedShareOfAStepPassesUnchanged) {
     ASSERT_LE(micro::largest_difference(state.joint_rad, asked), 1e-15);
   }
   EXPECT_GT(cut, 1000);
+}
+
+// Where a base has swung, the joints stand off their targets as force begins: what is verified then goes by the
+// targets.
+TEST(FollowAlong, ATargetThatForcesLeadGoesNoQuickerThanItsJointsAndGetsThere) {
+  const RobotTable robot = uneven_robot();
+  JointVector measured{};
+  for (std::size_t i = 0; i < robot.joints(); ++i) measured[i] = i % 2 == 0 ? 0.05 : -0.08;
+  LimiterState target = at_rest_at({});
+  for (int tick = 0; tick < 500; ++tick) {
+    const JointVector before = target.joint_rad;
+    follow_along(robot, {}, measured, target);
+    for (std::size_t i = 0; i < robot.joints(); ++i) {
+      const double rate = (target.joint_rad[i] - before[i]) / robot.tick_s;
+      ASSERT_LE(std::fabs(rate), robot.joint[i].rate_rad_s + kRounding) << i;
+    }
+  }
+  EXPECT_LT(micro::largest_difference(target.joint_rad, measured), 1e-9);
 }
 
 }  // namespace

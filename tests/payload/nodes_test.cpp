@@ -27,8 +27,10 @@ std::size_t count(const FrameList& frames, std::uint32_t id) {
 }
 
 // The sensor with its frames of the last tick.
+constexpr WristFigures kQuiet{.force_noise_N = 0.0, .torque_noise_Nm = 0.0};
+
 struct WristOnBus {
-  explicit WristOnBus(bool noisy = false, std::uint64_t seed = 1) : sensor(1, noisy, seed) { tick({}); }
+  WristOnBus() : sensor(1, false, 1, kQuiet) { tick({}); }
   FrameList tick(const TipLoad& load, FrameList in = {kSync}) {
     FrameList out;
     sensor.exchange(in, now_us += kTick_us, load, out);

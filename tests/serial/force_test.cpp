@@ -152,12 +152,16 @@ TEST(Force, WhateverTheWristSensorSaysOrDoesNotThePushEndsByNameAndTheForceGoes)
       {"failed", serial::WristHealth::kFailed, 1,
        [](serial::Sensors& s) { s.wrist.status = serial::WristStatus::kFailed; }},
       {"no number", serial::WristHealth::kNoNumber, 1, [nan](serial::Sensors& s) { s.wrist.on_arm.force_N[1] = nan; }},
+      {"stuck", serial::WristHealth::kStuck, 27,
+       [](serial::Sensors& s) {
+         s.wrist.on_arm = {{0.4, 0.0, -12.0}, {0.1, 0.2, 0.0}};
+       }},
   };
   for (const Row& row : rows) {
     Pressing at;
     at.rig.meddle(row.meddle);
     int ticks = 0;
-    while (at.rig.out().push.phase == PushPhase::kPressing && ticks < 20) {
+    while (at.rig.out().push.phase == PushPhase::kPressing && ticks < 40) {
       at.rig.tick();
       ++ticks;
     }

@@ -10,7 +10,8 @@ from can.system import kHardwarePriority, reset_interfaces
 from liana.system import program
 from scenario_file import expect_that
 
-kFields = {"name": str, "bus": str, "scene": str, "planted": str, "seed": int}
+kFields = {"name": str, "robot": str, "bus": str, "scene": str, "planted": str, "seed": int}
+kOptions = {"robot": "--robot", "scene": "--scene", "planted": "--fault", "seed": "--seed"}
 kExpected = {"outcome": str, "says": str}
 
 
@@ -51,7 +52,7 @@ class MissionRun:
     def fly(self, file):
         mission = self.scenario.mission
         words = [mission["name"], "--bus", mission["bus"], "--time", "real", "--json", file]
-        for field, option in {"scene": "--scene", "planted": "--fault", "seed": "--seed"}.items():
+        for field, option in kOptions.items():
             if field in mission:
                 words += [option, str(mission[field])]
         process = subprocess.Popen(
