@@ -68,24 +68,28 @@ double segment_point_distance_m(const Vec3& a, const Vec3& b, const Vec3& point)
   return norm(point - (a + t * d));
 }
 
-Clearance clearance_of(const Chain& chain, const SceneConfig& scene, double link_radius_m) {
+Clearance clearance_of(const std::vector<Vec3>& axis_m, const SceneConfig& scene, double radius_m) {
   Clearance least{kFarAway_m, kFarAway_m, kFarAway_m, kFarAway_m};
-  Vec3 a = chain.joint_center_m(0);
-  for (std::size_t i = 0; i < chain.link_count(); ++i) {
-    const Vec3 b = chain.joint_center_m(i + 1);
+  for (std::size_t i = 1; i < axis_m.size(); ++i) {
+    const Vec3 &a = axis_m[i - 1], &b = axis_m[i];
     for (const auto& box : scene.boxes)
-      least.slit_m = std::min(least.slit_m, segment_box_distance_m(a, b, box) - link_radius_m);
+      least.slit_m = std::min(least.slit_m, segment_box_distance_m(a, b, box) - radius_m);
     for (const auto& sphere : scene.spheres)
       least.sphere_m =
-          std::min(least.sphere_m, segment_point_distance_m(a, b, sphere.center_m) - sphere.radius_m - link_radius_m);
+          std::min(least.sphere_m, segment_point_distance_m(a, b, sphere.center_m) - sphere.radius_m - radius_m);
     for (const auto& body : scene.convex)
-      least.convex_m = std::min(least.convex_m, segment_convex_distance_m(a, b, body) - link_radius_m);
-    if (i + 1 < chain.link_count())
+      least.convex_m = std::min(least.convex_m, segment_convex_distance_m(a, b, body) - radius_m);
+    if (i + 1 < axis_m.size())
       least.rod_m = std::min(
-          least.rod_m, segment_point_distance_m(a, b, scene.rod.pose.position_m) - scene.rod.radius_m - link_radius_m);
-    a = b;
+          least.rod_m, segment_point_distance_m(a, b, scene.rod.pose.position_m) - scene.rod.radius_m - radius_m);
   }
   return least;
+}
+
+Clearance clearance_of(const Chain& chain, const SceneConfig& scene, double link_radius_m) {
+  std::vector<Vec3> axis;
+  for (std::size_t i = 0; i <= chain.link_count(); ++i) axis.push_back(chain.joint_center_m(i));
+  return clearance_of(axis, scene, link_radius_m);
 }
 
 }  // namespace liana::bench

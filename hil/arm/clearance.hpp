@@ -1,6 +1,8 @@
 // Exact distances of the arm's capsules to the scene.
 #pragma once
 
+#include <vector>
+
 #include "hil/arm/chain.hpp"
 #include "hil/config/scene_config.hpp"
 
@@ -21,7 +23,10 @@ struct Clearance {
   double rod_m = 0.0;     // any link but the last to the rod
 };
 
-// Over all links; a kind with no shapes gives 1000 m.
+// Over the capsules between these points, one after the other, none the same as the one before; a kind with no shapes
+// gives 1000 m.
+Clearance clearance_of(const std::vector<Vec3>& axis_m, const SceneConfig& scene, double radius_m);
+// Over all links.
 Clearance clearance_of(const Chain& chain, const SceneConfig& scene, double link_radius_m);
 
 }  // namespace liana::bench

@@ -26,7 +26,8 @@ std::unique_ptr<Plant> make_plant(const BenchOptions& options, const SceneConfig
   if (scene.payload)
     throw std::runtime_error("the scene has a payload: its robot needs torque drives (drives.mode = \"torque\")");
   if (options.serial_robot)
-    return std::make_unique<SerialPlant>(*options.serial_robot, options.buses, options, options.faults, options.seed);
+    return std::make_unique<SerialPlant>(*options.serial_robot, scene, options.buses, options, options.faults,
+                                         options.seed);
   refuse_payload_faults(options.faults, ", and this is a cable arm");
   return std::make_unique<CablePlant>(options.robot, scene, options.buses, options, options.seed);
 }

@@ -30,6 +30,7 @@ std::optional<PayloadConfig> read_payload(const JsonFile& file) {
   const auto inertia = file.numbers("/payload/inertia_kgm2", 6, -1e6, 1e6);
   std::copy(inertia.begin(), inertia.end(), payload.body.inertia_kgm2.begin());
   payload.length_m = file.number("/payload/length_m", 0.05, 20.0);
+  payload.radius_m = file.number("/payload/radius_m", 0.01, 10.0);
   payload.pose = file.pose("/payload");
   payload.on_arm = begins_on_arm(file, "/payload/start");
   if (file.has("/payload/fetch_pose")) payload.fetch_pose = file.text("/payload/fetch_pose");

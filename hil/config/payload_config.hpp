@@ -13,6 +13,7 @@ namespace liana::bench {
 struct PayloadConfig {
   BodyConfig body;         // in its own frame: the origin at its grapple, z towards its pins
   double length_m = 0.0;   // from the grapple to the plane of the pins' tips
+  double radius_m = 0.0;   // of a capsule about that line, with all that belongs to it
   Pose pose;               // where the transfer mechanism holds it, base frame
   std::string fetch_pose;  // of the arm that carries, while the mechanism hands the payload over; empty: where it locks
   bool on_arm = false;     // the arm has it from the start, before the adapter, as servo would have brought it there

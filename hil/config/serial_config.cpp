@@ -48,6 +48,7 @@ void read_joints(const JsonFile& file, const std::string& where, SerialRobotConf
 
 void read_mechanics(const JsonFile& file, const std::string& where, SerialRobotConfig& robot) {
   const std::string mass = where + "/mass", friction = where + "/friction";
+  robot.link_radius_m = file.number(where + "/link_radius_m", 0.001, 5.0);
   if (robot.links.empty()) {
     robot.module_kg = file.number(mass + "/module_kg", 0.01, 1e5);
     robot.module_radius_m = file.number(mass + "/module_radius_m", 0.01, 5.0);

@@ -41,6 +41,7 @@ struct SerialRobotConfig {
   double boom_kg = 0.0;           // of each link with a length along x, as a rod
   double boom_radius_m = 0.05;    // of it
   double end_effector_kg = 0.0;   // at the tip, as a sphere
+  double link_radius_m = 0.0;     // of a capsule about every link, with all that is mounted on it
   double coulomb_Nm = 0.0;
   double viscous_Nms_per_rad = 0.0;
   double rotor_inertia_kgm2 = 0.0;        // reflected to the joint

@@ -40,7 +40,8 @@ class PayloadSite {
   Holder holder() const { return holder_; }
   // Of the payload now: with it on the arm it goes with the tip.
   Pose payload(const Pose& tip) const;
-  // Of the pins' plane, in the socket's frame.
+  // Of the pins' plane, and the same in the socket's frame.
+  Pose plate(const Pose& tip) const;
   Pose plate_in_socket(const Pose& tip) const { return relative(socket_, plate(tip)); }
   const Pose& socket() const { return socket_; }
   Adapter& adapter() { return adapter_; }
@@ -49,7 +50,6 @@ class PayloadSite {
   void shift(const Vec3& by_m);
 
  private:
-  Pose plate(const Pose& tip) const;
   TipState plate_state(const TipState& tip) const;  // in the socket's frame
   TipLoad push_on_grapple(const TipState& tip) const;
 

@@ -53,7 +53,8 @@ std::uint8_t bus_of_nodes(const BusesConfig& buses) { return buses.names.size() 
 
 TorquePlant::TorquePlant(const SerialRobotConfig& robot, const SceneConfig& scene, const BusesConfig& buses,
                          const ModelOptions& options, const std::vector<FaultConfig>& faults, std::uint64_t seed)
-    : spread_(options.spread),
+    : scene_(scene),
+      spread_(options.spread),
       arm_(drawn_arm(as_it_begins(robot, scene), options, seed)),
       chain_(arm_.robot, arm_.start_rad),
       base_at_rest_(chain_.base().pose),

@@ -74,7 +74,10 @@ class TorquePlant final : public Plant {
   double base_deflection_m() const;
   std::vector<double> joints_rad() const;
   void add_site_truth(std::vector<double>& row) const;
+  // Of the arm and what it holds to the bodies of the scene, which go along while the arm is carried.
+  double nearest_body_m() const;
 
+  SceneConfig scene_;
   bool spread_;
   TrueArm arm_;
   FlexibleChain chain_;

@@ -1,8 +1,10 @@
 // What a TorquePlant writes into truth and summary.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "hil/payload/torque_plant.hpp"
+#include "hil/serial/link_axis.hpp"
 
 namespace liana::bench {
 
@@ -25,6 +27,7 @@ std::vector<std::string> TorquePlant::truth_columns() const {
   for (const char* name :
        {"wrist_fx_N", "wrist_fy_N", "wrist_fz_N", "wrist_tx_Nm", "wrist_ty_Nm", "wrist_tz_Nm", "base_deflection_m"})
     columns.emplace_back(name);
+  if (has_bodies(scene_)) columns.emplace_back("clearance_m");
   if (!site_) return columns;
   for (const char* name :
        {"contact_x_N", "contact_y_N", "contact_z_N", "contact_peak_N", "plate_x_m", "plate_y_m", "plate_z_m",
@@ -43,8 +46,21 @@ void TorquePlant::add_truth(std::vector<double>& row) {
   add_vector(row, wrist_load_.force_N);
   add_vector(row, wrist_load_.torque_Nm);
   row.push_back(base_deflection_m());
+  if (has_bodies(scene_)) row.push_back(nearest_body_m());
   if (site_) add_site_truth(row);
   contact_peak_N_ = 0.0;
+}
+
+double TorquePlant::nearest_body_m() const {
+  const auto to_bodies = [&](std::vector<Vec3> axis_m, double radius_m) {
+    for (Vec3& point : axis_m) point = relative(base_at_rest_, {point, {}}).position_m;
+    return clearance_m(axis_m, scene_, radius_m);
+  };
+  const double of_arm = to_bodies(chain_.axis_m(), arm_.robot.link_radius_m);
+  if (!site_ || site_->holder() != Holder::kArm) return of_arm;
+  const Pose tip = chain_.tip().pose;
+  const std::vector<Vec3> held{site_->payload(tip).position_m, site_->plate(tip).position_m};
+  return std::min(of_arm, to_bodies(held, scene_.payload->radius_m));
 }
 
 void TorquePlant::add_site_truth(std::vector<double>& row) const {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "hil/serial/flexible_engine.hpp"
+#include "hil/serial/link_axis.hpp"
 #include "hil/serial/serial_mjcf.hpp"
 
 namespace liana::bench {
@@ -64,6 +65,8 @@ TipState FlexibleChain::state_of(int body) const {
 }
 
 TipState FlexibleChain::tip() const { return state_of(engine_->tip); }
+
+std::vector<Vec3> FlexibleChain::axis_m() const { return link_axis_m(*engine_, robot_); }
 
 TipState FlexibleChain::base() const { return engine_->base < 0 ? TipState{} : state_of(engine_->base); }
 

@@ -55,7 +55,8 @@ class FlexibleChain {
   // What the gear gives to the link: the reading of a joint torque sensor.
   double gear_Nm(std::size_t i) const;
   TipState tip() const;
-  TipState base() const;  // of this arm; at rest in the root's frame where nothing carries it
+  std::vector<Vec3> axis_m() const;  // of this arm's links (link_axis.hpp), in the root's frame
+  TipState base() const;             // of this arm; at rest in the root's frame where nothing carries it
   // What the payload does to the end effector, about the tip's origin, in the tip's frame: the reading of a force
   // sensor at the wrist. Its own inertia is in it, averaged over the last step.
   TipLoad wrist() const { return wrist_; }

@@ -1,5 +1,6 @@
 #include "hil/serial/joint_chain.hpp"
 
+#include "hil/serial/link_axis.hpp"
 #include "hil/serial/mujoco_model.hpp"
 #include "hil/serial/serial_mjcf.hpp"
 
@@ -10,7 +11,8 @@ struct JointChain::Engine : MujocoModel {
   const int tip_body = mj_name2id(model, mjOBJ_BODY, "tip");
 };
 
-JointChain::JointChain(const SerialRobotConfig& robot) : engine_(std::make_unique<Engine>(make_serial_mjcf(robot))) {
+JointChain::JointChain(const SerialRobotConfig& robot)
+    : robot_(robot), engine_(std::make_unique<Engine>(make_serial_mjcf(robot))) {
   for (const JointConfig& joint : robot.joints) offset_rad_.push_back(joint.offset_rad);
   place(std::vector<double>(robot.joints.size(), 0.0));
 }
@@ -28,6 +30,8 @@ Pose JointChain::tip() const {
   const mjtNum* q = engine_->data->xquat + 4 * engine_->tip_body;
   return {{p[0], p[1], p[2]}, {q[0], q[1], q[2], q[3]}};
 }
+
+std::vector<Vec3> JointChain::axis_m() const { return link_axis_m(*engine_, robot_); }
 
 std::vector<double> JointChain::torque_Nm(const std::vector<double>& rate_rad_s,
                                           const std::vector<double>& accel_rad_s2) {

@@ -20,11 +20,13 @@ class JointChain {
   // Turns the joints; tip() refers to these angles.
   void place(const std::vector<double>& joint_rad);
   Pose tip() const;
+  std::vector<Vec3> axis_m() const;  // of its links (link_axis.hpp)
   // Joint torques [N.m] of a motion at the present angles, without friction; rotors are included. In orbit: no gravity.
   std::vector<double> torque_Nm(const std::vector<double>& rate_rad_s, const std::vector<double>& accel_rad_s2);
 
  private:
   struct Engine;
+  SerialRobotConfig robot_;
   std::unique_ptr<Engine> engine_;
   std::vector<double> offset_rad_;
 };

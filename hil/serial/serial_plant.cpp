@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "hil/serial/link_axis.hpp"
+
 namespace liana::bench {
 
 namespace {
@@ -24,9 +26,10 @@ void refuse_for_serial(const ModelOptions& options, const std::vector<FaultConfi
     throw std::runtime_error("--cross-wired: a serial arm has no cables to swap; leave it out");
 }
 
-SerialPlant::SerialPlant(const SerialRobotConfig& robot, const BusesConfig& buses, const ModelOptions& options,
-                         const std::vector<FaultConfig>& faults, std::uint64_t seed)
-    : arm_(true_arm(robot, options.start_pose, options.spread, options.fixture, seed)),
+SerialPlant::SerialPlant(const SerialRobotConfig& robot, const SceneConfig& scene, const BusesConfig& buses,
+                         const ModelOptions& options, const std::vector<FaultConfig>& faults, std::uint64_t seed)
+    : scene_(scene),
+      arm_(true_arm(robot, options.start_pose, options.spread, options.fixture, seed)),
       chain_(arm_.robot),
       drives_(arm_, buses, options.spread, seed),
       torque_Nm_(robot.joints.size(), 0.0) {
@@ -74,6 +77,7 @@ std::vector<std::string> SerialPlant::truth_columns() const {
     columns.emplace_back(name);
   for (std::size_t i = 1; i <= drives_.size(); ++i) columns.push_back("torque_Nm_" + std::to_string(i));
   columns.emplace_back("enabled");
+  if (has_bodies(scene_)) columns.emplace_back("clearance_m");
   return columns;
 }
 
@@ -85,6 +89,7 @@ void SerialPlant::add_truth(std::vector<double>& row) {
   row.insert(row.end(), {p.x, p.y, p.z, q.w, q.x, q.y, q.z});
   row.insert(row.end(), torque_Nm_.begin(), torque_Nm_.end());
   row.push_back(static_cast<double>(drives_.enabled()));
+  if (has_bodies(scene_)) row.push_back(clearance_m(chain_.axis_m(), scene_, arm_.robot.link_radius_m));
 }
 
 void SerialPlant::summarise(nlohmann::json& summary) const {

@@ -16,8 +16,8 @@ void refuse_for_serial(const ModelOptions& options, const std::vector<FaultConfi
 class SerialPlant final : public Plant {
  public:
   // Throws std::runtime_error for anything that cannot work, faults of cables among it.
-  SerialPlant(const SerialRobotConfig& robot, const BusesConfig& buses, const ModelOptions& options,
-              const std::vector<FaultConfig>& faults, std::uint64_t seed);
+  SerialPlant(const SerialRobotConfig& robot, const SceneConfig& scene, const BusesConfig& buses,
+              const ModelOptions& options, const std::vector<FaultConfig>& faults, std::uint64_t seed);
 
   const Drives& drives() const override { return drives_; }
   void inject(std::uint32_t slot, FaultInjector& injector) override;
@@ -33,6 +33,7 @@ class SerialPlant final : public Plant {
  private:
   double friction_Nm(double rate_rad_s) const;
 
+  SceneConfig scene_;
   TrueArm arm_;
   JointChain chain_;
   JointDrives drives_;

@@ -300,6 +300,7 @@ std::string report_text(const Json& report) {
     text += line("after the failure the arm moved for %.1f s", report["after_failure_s"].get<double>()) +
             (report["ends_at_rest"].get<bool>() ? "\n" : " and still moves at the end\n");
   if (report.contains("max_joint_torque_Nm")) {
+    if (report.contains("min_clearance_m")) text += clearance_text(report);
     text += line("open loop %.2f mm", 1e3 * report.value("open_loop_tip_error_m", 0.0)) +
             line(", largest joint torque %.1f N m\n", report["max_joint_torque_Nm"].get<double>());
   }

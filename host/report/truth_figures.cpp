@@ -56,6 +56,8 @@ void add_serial_figures(Json& report, const TruthLog& truth, const Rows& rows) {
   }
   report["final_joint_deg"] = truth.angles_deg("joint_deg_", rows.last);
   report["max_joint_torque_Nm"] = largest_Nm;
+  if (truth.has("clearance_m"))
+    add_clearance(report, "min_clearance_m", truth.smallest("clearance_m", rows.first, rows.last));
 }
 
 // Of a serial arm, since the row before.
@@ -76,7 +78,10 @@ std::string in_words(const char* what, const char* relation, double value, doubl
 
 Criteria criteria_of(const Json& robot, const std::string& physics) {
   Criteria criteria;
-  if (!robot.contains("tension")) return criteria;
+  if (!robot.contains("tension")) {
+    criteria.least_clearance_m = 0.0;
+    return criteria;
+  }
   if (physics != "worn") criteria.least_motor_tension_N = robot["tension"]["floor_motor_N"].get<double>();
   criteria.least_tension_N = robot["tension"]["floor_anywhere_N"].get<double>();
   criteria.most_slit_speed_m_s = kSlitSwing * robot["limits"]["tip_speed_slit_m_s"].get<double>();
@@ -158,6 +163,9 @@ std::string judge(Json& report, const Criteria& criteria) {
   if (criteria.most_slit_speed_m_s && report.contains("max_tip_speed_slit_m_s"))
     hold("tip_speed_in_slit", "the true tip's speed in the slit", "m/s", report["max_tip_speed_slit_m_s"],
          *criteria.most_slit_speed_m_s, false);
+  if (criteria.least_clearance_m && report.contains("min_clearance_m"))
+    hold("touches_nothing", "the least true distance to a body of the scene", "m", report["min_clearance_m"],
+         *criteria.least_clearance_m, true);
   return first;
 }
 

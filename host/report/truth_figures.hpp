@@ -24,9 +24,10 @@ struct Criteria {
   std::optional<double> least_motor_tension_N;
   std::optional<double> least_tension_N;      // anywhere along a cable
   std::optional<double> most_slit_speed_m_s;  // of the true tip, inside the slit
+  std::optional<double> least_clearance_m;    // true, to any body of the scene
 };
 
-// The criteria of a robot's table (its JSON) under this physics: none for a serial arm, and the motor's only where
+// The criteria of a robot's table (its JSON) under this physics: a serial arm touches nothing; the motor's only where
 // cables are as they were planned with (nominal, ideal).
 Criteria criteria_of(const Json& robot, const std::string& physics);
 

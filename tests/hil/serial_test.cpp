@@ -1,6 +1,7 @@
 // The serial arm on the bench: its kinematics, the torque of its motions, and its drives behind a scripted master.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "bench_harness.hpp"
@@ -87,6 +88,34 @@ TEST(SerialBench, DrivesTakeTheJointsWithThem) {
     const std::string column = "joint_deg_" + std::to_string(i);
     const double moved_deg = truth.at(last, column) - truth.at(0, column);
     EXPECT_NEAR(moved_deg * (i % 2 == 1 ? 1.0 : -1.0), 20.0 * 310 * 360.0 / 1048576, 0.2) << i;
+  }
+}
+
+// Stretched, both booms of 2.1 m lie along x.
+TEST(SerialBench, TheTruthTellsHowFarTheArmIsFromABodyAndHowDeepInIt) {
+  const SerialRobotConfig robot = micro();
+  JointChain chain(robot);
+  const std::vector<Vec3> axis = chain.axis_m();
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < axis.size(); ++i) length_m += norm(axis[i] - axis[i - 1]);
+  double drawn_m = -robot.joints[0].d_m;  // about which the first joint turns
+  for (const JointConfig& joint : robot.joints) drawn_m += std::fabs(joint.d_m) + std::fabs(joint.a_m);
+  EXPECT_NEAR(length_m, drawn_m, 1e-9);
+  EXPECT_LT(norm(axis.back() - chain.tip().position_m), 1e-12);
+
+  const auto boom = std::find_if(axis.begin() + 1, axis.end(), [&](const Vec3& end) {
+    return std::fabs(norm(end - *(&end - 1)) - 2.1) < 1e-9;
+  });
+  ASSERT_NE(boom, axis.end());
+  const Vec3 middle = 0.5 * (*boom + *(boom - 1));
+  for (const double away_m : {0.6, 0.28, 0.2}) {
+    BenchOptions options = options_for(false);
+    options.scene = {};
+    options.scene.spheres.push_back({"ball", middle + Vec3{0.0, 0.0, away_m}, 0.1});
+    options.start_pose = "zero";
+    ScriptedBus bus(20, 0, 7, 4);
+    const Truth truth = run_on(options, bus);
+    EXPECT_NEAR(truth.at(0, "clearance_m"), away_m - 0.1 - robot.link_radius_m, 1e-9);
   }
 }
 

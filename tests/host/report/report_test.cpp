@@ -214,7 +214,7 @@ TEST_F(RunReport, ASuccessHasToKeepTensionAndSpeedAndNamesTheFirstThatItDidNot) 
   write_truth();
   write("mission.json", kMission);
   ReportSources all = sources();
-  all.criteria = {25.0, 15.0, 0.05};
+  all.criteria = {25.0, 15.0, 0.05, {}};
   Json report = make_report(all);
   EXPECT_EQ(report["outcome"], "success") << "each at its limit";
   ASSERT_EQ(report["criteria"].size(), 3u);
@@ -224,9 +224,10 @@ TEST_F(RunReport, ASuccessHasToKeepTensionAndSpeedAndNamesTheFirstThatItDidNot) 
     Criteria criteria;
     const char* words;
   };
-  for (const Case& test : {Case{{25.1, 1.0, 1.0}, "25 N, below 25.1 (tension_at_motor)"},
-                           Case{{1.0, 15.1, 1.0}, "15 N, below 15.1 (tension_anywhere)"},
-                           Case{{1.0, 1.0, 0.049}, "0.05 m/s, above 0.049 (tip_speed_in_slit)"}}) {
+  for (const Case& test : {Case{{25.1, 1.0, 1.0, {}}, "25 N, below 25.1 (tension_at_motor)"},
+                           Case{{1.0, 15.1, 1.0, {}}, "15 N, below 15.1 (tension_anywhere)"},
+                           Case{{1.0, 1.0, 0.049, {}}, "0.05 m/s, above 0.049 (tip_speed_in_slit)"},
+                           Case{{{}, {}, {}, 0.5}, "m, below 0.5 (touches_nothing)"}}) {
     all.criteria = test.criteria;
     report = make_report(all);
     EXPECT_EQ(report["outcome"], "failed");
@@ -242,7 +243,9 @@ TEST_F(RunReport, CriteriaAreTheTablesTheMotorsOnlyWhereCablesAreAsPlannedWith) 
   EXPECT_EQ(criteria_of(robot, "worn").least_tension_N, 1.0);
   EXPECT_DOUBLE_EQ(*criteria_of(robot, "worn").most_slit_speed_m_s, 0.0315)
       << "it swings about the 0.03 that are asked";
-  EXPECT_FALSE(criteria_of(Json::parse(R"({"kind":"serial"})"), "nominal").least_tension_N);
+  const Criteria serial = criteria_of(Json::parse(R"({"kind":"serial"})"), "nominal");
+  EXPECT_FALSE(serial.least_tension_N);
+  EXPECT_EQ(serial.least_clearance_m, 0.0);
 }
 
 TEST_F(RunReport, TheRodIsWhereTheBenchSaysItReallyIs) {
