@@ -80,8 +80,8 @@ Clearance clearance_of(const std::vector<Vec3>& axis_m, const SceneConfig& scene
     for (const auto& body : scene.convex)
       least.convex_m = std::min(least.convex_m, segment_convex_distance_m(a, b, body) - radius_m);
     if (i + 1 < axis_m.size())
-      least.rod_m = std::min(
-          least.rod_m, segment_point_distance_m(a, b, scene.rod.pose.position_m) - scene.rod.radius_m - radius_m);
+      least.rod_m = std::min(least.rod_m,
+                             segment_point_distance_m(a, b, scene.rod.pose.position_m) - scene.rod.radius_m - radius_m);
   }
   return least;
 }

@@ -6,6 +6,7 @@ Arm = collections.namedtuple("Arm", "scene bus joint mission")
 ARMS = {
     "zhu2022": Arm("panel_slit", "embedded", 8, "short.lua"),
     "micro": Arm("none", "embedded_micro", 3, "short_micro.lua"),
+    "macro_micro_stiff": Arm("none", "embedded_payload", 3, "short_micro.lua"),
 }
 CABLE_ARM = "zhu2022"
 

@@ -1,6 +1,7 @@
 """The embedded bus in virtual time, in lockstep, with faults of bench and bus; judged by truth, logs and recording."""
 import arms
 import predicates
+import torque_rules
 import trial
 import wire_checks
 from liana.system import System
@@ -58,9 +59,10 @@ def begun(scenario, system):
     return min(slots, default=0)
 
 
-def traffic_of(scenario, system, period_s):
+def traffic_of(scenario, system, robot, period_s):
     """What was said on the buses, but for those in whose name a stranger spoke."""
-    traffic = predicates.Traffic([path.read_text() for path in system.bus_logs()], period_s)
+    kind = torque_rules.TorqueTraffic if torque_rules.gives_torque(robot) else predicates.Traffic
+    traffic = kind([path.read_text() for path in system.bus_logs()], period_s)
     for node in scenario.strangers_nodes():
         traffic.commands.pop(node, None), traffic.reports.pop(node, None)
     expect_that(
@@ -73,10 +75,9 @@ def judge_run(run, system):
     """Detection in time, a stop in time, and no travel; targets in bounds whatever happened."""
     first, truth = begun(run.scenario, system), system.truth()
     period_s = 1.0 / system.json("buses.json")["rate_hz"]
-    traffic = traffic_of(run.scenario, system, period_s)
     robot = system.json("robot.json")
-    step_counts, jump_counts = predicates.step_limit_counts(robot, period_s), predicates.let_go_counts(robot)
-    run.violations += predicates.target_steps(traffic, step_counts, jump_counts)
+    traffic = traffic_of(run.scenario, system, robot, period_s)
+    run.violations += commands_out_of_bounds(traffic, robot, period_s)
     if "refused" in run.expect:
         run.violations += predicates.drives_with_torque(truth.column("enabled"), 0, run.end)
     if run.latched is None:
@@ -84,15 +85,28 @@ def judge_run(run, system):
     run.judge_delay(first)
     end = run.enabled_again or run.end
     if not run.expect.get("late_commands"):  # those come whenever the wire does, with what was wanted before
-        run.violations += predicates.targets_that_move(traffic, run.latched + kPathStop, end)
+        run.violations += commands_that_move(traffic, robot, run.latched + kPathStop, end)
     if run.expect["state"] == "FAULT":
-        judge_stop(run, truth, traffic, end)
+        judge_stop(run, truth, traffic, end, robot)
     travel_deg, allowed_deg = truth.travel_deg(first, end), run.expect.get("travel_deg", kTravelDeg)
     run.notes.append(f"travel {travel_deg:.3f} deg")
     expect_that(travel_deg <= allowed_deg, f"the arm travelled {travel_deg:.2f} deg, allowed are {allowed_deg}")
 
 
-def judge_stop(run, truth, traffic, end):
+def commands_out_of_bounds(traffic, robot, period_s):
+    if torque_rules.gives_torque(robot):
+        return torque_rules.told(traffic, robot, period_s)
+    step_counts, jump_counts = predicates.step_limit_counts(robot, period_s), predicates.let_go_counts(robot)
+    return predicates.target_steps(traffic, step_counts, jump_counts)
+
+
+def commands_that_move(traffic, robot, first_slot, end_slot):
+    if torque_rules.gives_torque(robot):
+        return torque_rules.rates_while_latched(traffic, robot, first_slot, end_slot)
+    return predicates.targets_that_move(traffic, first_slot, end_slot)
+
+
+def judge_stop(run, truth, traffic, end, robot):
     """Torque off in time, and from then on nothing enables and no drum moves."""
     stopped = run.latched + run.expect.get("stopped_within_ticks", 0)
     enabled = truth.column("enabled")
@@ -102,7 +116,8 @@ def judge_stop(run, truth, traffic, end):
     run.violations += predicates.drives_with_torque(enabled, stopped, end)
     if not run.expect.get("late_commands"):  # those that waited in a transmit queue switch nothing on, as truth shows
         run.violations += predicates.enabling_without_clear(traffic, stopped, end)
-    run.violations += predicates.drums_that_move(traffic, stopped, end, nodes)
+    swing_counts = torque_rules.swing_counts(robot) if torque_rules.gives_torque(robot) else 1
+    run.violations += predicates.drums_that_move(traffic, stopped, end, nodes, swing_counts)
 
 
 def judge_wire(run, system):

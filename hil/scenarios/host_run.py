@@ -20,7 +20,10 @@ kRoles = {
 MISSIONS = SOURCE / "tests" / "system" / "missions"
 
 kMove_s = 0.5  # arm time: the move is well under way
-kRunOn = 125  # slots that the bench goes on alone when the bus has ended
+kRunOn = (
+    750  # slots that the bench goes on alone when the bus has ended: drives that give torque damp until the arm rests
+)
+kRunOn_s = 3.0
 kDeadline = 6  # slots until drives without targets have stopped: three periods, and the ramp
 kStill_deg = 1e-3
 kHold_s = 3.0  # arm time to come to rest on the path
@@ -46,7 +49,7 @@ class HostRun(LimitedRun):
     def act(self):
         host, outcome = self.scenario.host, self.expect["outcome"]
         expected = kRoles.get(host["program"], "client")
-        with System(expect=expected, **arms.tables(self.scenario.robot)) as system:
+        with System(expect=expected, bench=("--run-on", kRunOn_s), **arms.tables(self.scenario.robot)) as system:
             with self.limited(system):
                 if host["action"] == "full_disk":
                     fill_disk(system)

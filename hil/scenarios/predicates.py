@@ -8,6 +8,7 @@ import re
 kEnableOperation = 0x0F
 kTargetOf = range(0x201, 0x280)
 kReportOf = range(0x181, 0x200)
+kFirstSensor = 0x20  # nodes from here on are no drives
 kLine = re.compile(r"\((\d+\.\d+)\) \S+ ([0-9A-F]{3})#([0-9A-F]*)")
 kRoundingCounts = 2  # of both ends
 kLetGo_m, kJumps = 0.008, 6
@@ -31,10 +32,12 @@ class Traffic:
 
     def take(self, slot, identifier, data):
         if identifier in kTargetOf and len(data) >= 12:
-            command = Command(slot, little_endian(data, 0, 2), little_endian(data, 2, 4, True))
-            self.commands[identifier - 0x200].append(command)
-        elif identifier in kReportOf and len(data) >= 12:
+            self.take_command(identifier - 0x200, slot, data)
+        elif identifier in kReportOf and identifier - 0x180 < kFirstSensor and len(data) >= 12:
             self.reports[identifier - 0x180].append(Report(slot, little_endian(data, 2, 4, True)))
+
+    def take_command(self, node, slot, data):
+        self.commands[node].append(Command(slot, little_endian(data, 0, 2), little_endian(data, 2, 4, True)))
 
 
 def is_enabling(command):

@@ -11,6 +11,7 @@ import pathlib
 import typing
 
 import predicates
+import torque_rules
 
 REACTIONS_PAGE = pathlib.Path(__file__).resolve().parent / "reactions.json"
 
@@ -39,6 +40,7 @@ kSilentTicks, kHeartbeat_s, kLostTicks = 2, 0.3, 2
 kSlackTicks, kAlarmTicks, kOverloadTicks = 25, 25, 3
 kFollowing_m, kFollowingTicks = 1e-3, 6
 kFollowing_deg = 0.5  # of a serial arm's joint: 0.1 deg, and its way at full rate while drive and bus lag
+kTorqueFollowing_deg = 2.5  # of one whose drive follows torques: 2 deg, and that way
 kJump_deg, kOutside_deg, kOutsideTicks = 0.2, 1.01, 2
 
 
@@ -80,12 +82,13 @@ def cable_limits(robot):
 
 def joint_limits(robot):
     drives, counts_per_deg = robot["drives"], predicates.counts_per_turn(robot) / 360.0
+    following_deg = kTorqueFollowing_deg if torque_rules.gives_torque(robot) else kFollowing_deg
     ranges = []
     for joint, zero, direction in zip(robot["joints"], drives["zero_counts"], drives["direction"]):
         ends = joint["low_deg"] - kOutside_deg, joint["high_deg"] + kOutside_deg
         ranges.append(tuple(sorted(zero + direction * end * counts_per_deg for end in ends)))
     return {
-        "following_counts": kFollowing_deg * counts_per_deg,
+        "following_counts": following_deg * counts_per_deg,
         "jump_counts": kJump_deg * counts_per_deg,
         "ranges_counts": tuple(ranges),
     }

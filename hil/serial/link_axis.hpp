@@ -1,5 +1,5 @@
-// The lines that the links of a serial arm lie about, where MuJoCo has put them, and how far their capsules are from the
-// scene. The bench has no force between them: an arm that goes into a body is not stopped, but truth tells.
+// The lines that the links of a serial arm lie about, where MuJoCo has put them, and how far their capsules are from
+// the scene. The bench has no force between them: an arm that goes into a body is not stopped, but truth tells.
 #pragma once
 
 #include <vector>

@@ -103,9 +103,8 @@ TEST(SerialBench, TheTruthTellsHowFarTheArmIsFromABodyAndHowDeepInIt) {
   EXPECT_NEAR(length_m, drawn_m, 1e-9);
   EXPECT_LT(norm(axis.back() - chain.tip().position_m), 1e-12);
 
-  const auto boom = std::find_if(axis.begin() + 1, axis.end(), [&](const Vec3& end) {
-    return std::fabs(norm(end - *(&end - 1)) - 2.1) < 1e-9;
-  });
+  const auto boom = std::find_if(axis.begin() + 1, axis.end(),
+                                 [&](const Vec3& end) { return std::fabs(norm(end - *(&end - 1)) - 2.1) < 1e-9; });
   ASSERT_NE(boom, axis.end());
   const Vec3 middle = 0.5 * (*boom + *(boom - 1));
   for (const double away_m : {0.6, 0.28, 0.2}) {

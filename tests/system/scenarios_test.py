@@ -17,6 +17,7 @@ import coverage
 import predicates
 import recorded_rules
 import scenario
+import torque_rules
 import wire_checks
 from liana.system import ProgramRefused, System
 from run_scenario import LimitedRun
@@ -47,6 +48,52 @@ def traffic(commands=(), reports=()):
         for slot, place in reports
     ]
     return predicates.Traffic(["\n".join(lines)], kPeriod_s)
+
+
+kTorqueArm = {
+    "kind": "serial",
+    "drives": {"mode": "torque", "counts_per_turn": 360000},
+    "joints": [{"rate_deg_s": 4.0}] * 7,
+}
+
+
+def torque_traffic(commands):
+    """Node 4's (slot, controlword, torque, rate)."""
+    return torque_rules.TorqueTraffic(
+        [
+            "\n".join(
+                f"({slot * kPeriod_s + 0.002:.6f}) can0 204#{struct.pack('<Hhi', *words).hex().upper()}"
+                for slot, *words in commands
+            )
+        ],
+        kPeriod_s,
+    )
+
+
+class TorqueRules(unittest.TestCase):
+    def told(self, *commands):
+        return torque_rules.told(torque_traffic([(10, 0x0F, 0, 0), *commands]), kTorqueArm, kPeriod_s)
+
+    def test_a_torque_may_change_as_quickly_as_its_ramp_and_no_quicker(self):
+        self.assertEqual(self.told((11, 0x0F, 40, 0), (13, 0x0F, -40, 0)), [])
+        found = self.told((11, 0x0F, 60, 0))
+        self.assertEqual(len(found), 1)
+        self.assertIn("node 4, slot 11", found[0])
+        self.assertEqual(self.told((11, 0x06, 900, 0)), [], "a drive that is not enabled may be told anything")
+
+    def test_no_more_than_the_rated_torque_and_no_rate_that_the_joint_cannot_have(self):
+        up = [(10 + k, 0x0F, 40 * k, 0) for k in range(1, 26)]
+        self.assertEqual(self.told(*up), [])
+        self.assertEqual(len(self.told(*up, (36, 0x0F, 1040, 0))), 1)
+        self.assertEqual(self.told((11, 0x0F, 0, 4700)), [])
+        self.assertEqual(len(self.told((11, 0x0F, 0, -4900))), 1)
+
+    def test_a_drive_that_is_told_to_turn_while_the_arm_holds_in_fault_is_found(self):
+        still = torque_traffic([(20, 0x0F, 100, 30), (21, 0x0F, 100, -30)])
+        turning = torque_traffic([(20, 0x0F, 100, 30), (21, 0x0F, 100, -50)])
+        self.assertEqual(torque_rules.rates_while_latched(still, kTorqueArm, 20, 30), [])
+        self.assertEqual(len(torque_rules.rates_while_latched(turning, kTorqueArm, 20, 30)), 1)
+        self.assertEqual(torque_rules.rates_while_latched(turning, kTorqueArm, 22, 30), [])
 
 
 class Rules(unittest.TestCase):

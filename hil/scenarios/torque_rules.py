@@ -1,0 +1,65 @@
+"""Safety rules over the bus logs of an arm whose drives follow torques: RPDO1 is controlword, torque [permille of rated]
+and rate [counts/s], in place of a target.
+"""
+import collections
+
+import predicates
+
+kRamp_s = 0.1  # from rated torque to none
+kRounding_permille = 2  # of both ends
+kRated_permille = 1000
+kMostRateShare = 1.2  # of a joint's rate: what leads it back to its target may be quicker than what is planned
+kStill = 0.01  # of a joint's rate
+kGearSwing_deg = 0.2  # of a joint behind a closed brake: its gear is a spring
+
+TorqueCommand = collections.namedtuple("TorqueCommand", "slot controlword torque rate")
+
+
+def gives_torque(robot):
+    return robot.get("kind") == "serial" and robot["drives"].get("mode") == "torque"
+
+
+class TorqueTraffic(predicates.Traffic):
+    def take_command(self, node, slot, data):
+        words = (data, 0, 2), (data, 2, 2, True), (data, 4, 4, True)
+        self.commands[node].append(TorqueCommand(slot, *(predicates.little_endian(*word) for word in words)))
+
+
+def swing_counts(robot):
+    return kGearSwing_deg / 360.0 * predicates.counts_per_turn(robot)
+
+
+def fastest_counts_s(robot, node):
+    return robot["joints"][node - 1]["rate_deg_s"] / 360.0 * predicates.counts_per_turn(robot)
+
+
+def told(traffic, robot, period_s):
+    """No drive that is enabled is told more than its rated torque, a step of it quicker than the ramp, or a rate that
+    its joint cannot have.
+    """
+    complaints = []
+    for node, commands in sorted(traffic.commands.items()):
+        most_counts_s = kMostRateShare * fastest_counts_s(robot, node) + predicates.kRoundingCounts
+        for before, now in zip(commands, commands[1:]):
+            if not (predicates.is_enabling(before) and predicates.is_enabling(now)):
+                continue
+            periods = max(1, now.slot - before.slot)
+            most_step = kRated_permille * period_s / kRamp_s * periods + kRounding_permille
+            where = f"node {node}, slot {now.slot}"
+            if abs(now.torque) > kRated_permille:
+                complaints.append(f"{where}: told {now.torque} permille of its rated torque")
+            if abs(now.torque - before.torque) > most_step:
+                complaints.append(f"{where}: the torque changes by {now.torque - before.torque} permille")
+            if abs(now.rate) > most_counts_s:
+                complaints.append(f"{where}: told a rate of {now.rate} counts/s, allowed are {most_counts_s:.0f}")
+    return complaints
+
+
+def rates_while_latched(traffic, robot, first_slot, end_slot):
+    """From the end of the path stop to the operator's clear, no drive that still holds the arm is told to turn."""
+    complaints = []
+    for node, found in predicates.enabling_commands(traffic, first_slot, end_slot):
+        fastest = max(abs(command.rate) for command in found)
+        if fastest > kStill * fastest_counts_s(robot, node):
+            complaints.append(f"node {node}: told a rate of {fastest} counts/s while the fault is latched")
+    return complaints
