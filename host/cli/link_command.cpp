@@ -35,11 +35,22 @@ haptic::Delays delays_of(const LinkOptions& options) {
   }
 }
 
+api::UniqueFd listener_of(const LinkOptions& options) {
+  if (options.listen == options.devices)
+    throw system::BadInput("--listen: " + options.listen +
+                           ": allowed is another socket than that of --devices: name a file for the devices' side");
+  try {
+    return api::listen_at("--listen", options.listen);
+  } catch (const std::runtime_error& error) {
+    throw system::BadInput(error.what());
+  }
+}
+
 // The link of all devices that have come.
 class LinkDesk {
  public:
   explicit LinkDesk(const LinkOptions& options)
-      : options_(options), delays_(delays_of(options)), listener_(api::listen_at("--listen", options.listen)) {}
+      : options_(options), delays_(delays_of(options)), listener_(listener_of(options)) {}
   ~LinkDesk() { ::unlink(options_.listen.c_str()); }
   LinkDesk(const LinkDesk&) = delete;
   LinkDesk& operator=(const LinkDesk&) = delete;

@@ -221,7 +221,12 @@ SceneConfig parse_scene(const std::string& text, const std::string& file) {
   if (json.contains("rod")) out.rod = read_rod(table.at("rod"));
   if (json.contains("camera")) out.camera = read_camera(table.at("camera"));
   if (json.contains("contact")) out.contact = read_contact(table.at("contact"));
-  if (json.contains("payload") || json.contains("adapter")) {
+  for (const auto& [has, lacks] : {std::pair{"payload", "adapter"}, std::pair{"adapter", "payload"}}) {
+    if (json.contains(has) && !json.contains(lacks))
+      table.at(has).refuse("a payload and the adapter that it goes into, both or neither",
+                           std::string("add ") + lacks + ", or leave " + has + " out");
+  }
+  if (json.contains("payload")) {
     out.payload = read_payload(table.at("payload"));
     out.adapter = read_adapter(table.at("adapter"));
   }

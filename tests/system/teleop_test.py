@@ -190,6 +190,13 @@ class Teleop(SystemTest):
         self.assertEqual(done.returncode, 2)
         self.assertIn(b"have to be a terminal", done.stderr)
 
+    def test_a_link_that_cannot_listen_or_leads_to_itself_says_so_and_ends_with_2(self):
+        for listen, words in ("/nowhere/link", b"cannot listen"), ("/tmp/devices", b"another socket"):
+            call = [program("liana"), "link", "--listen", listen, "--devices", "/tmp/devices"]
+            done = subprocess.run(call, capture_output=True, check=False, timeout=20)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(words, done.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

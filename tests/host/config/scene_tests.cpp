@@ -21,6 +21,19 @@ TEST(Scene, PanelSlitHasThePlaneOfThePressRodPose) {
   EXPECT_NEAR(dot(scene.rod->pose.position_m, scene.slit->normal), scene.slit->offset_m, 1e-12);
 }
 
+TEST(Scene, APayloadAndItsAdapterAreBothThereOrNeither) {
+  for (const std::string lacks : {"payload", "adapter"}) {
+    Json scene = good_table("scene", "payload_adapter");
+    scene.erase(lacks);
+    try {
+      parse_scene(scene.dump(), "s");
+      FAIL() << "without " << lacks;
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find("both or neither: add " + lacks), std::string::npos) << error.what();
+    }
+  }
+}
+
 // req:A47 req:A48
 TEST(Scene, PlatesLeaveAGapOf100MillimetresAroundThePlane) {
   const SceneConfig scene = parse_scene(good_table("scene", "panel_slit").dump(), "s");
