@@ -112,11 +112,23 @@ void relieve(PushState& state) noexcept {
   }
 }
 
+// A pin that slips off an edge is free again: with all of the force it would meet the next wall twice as fast. And what a
+// heavy payload on a base that swings lets the sensor feel is contact for none.
+void feel(const Push& order, PushState& state) noexcept {
+  const double felt_N = dot(order.axis_in_tip, state.given.force_N);
+  const bool feels_contact = felt_N > kContactShare * order.force_N;
+  if (!has_touched(state)) state.touch_ticks = feels_contact ? narrow<std::uint16_t>(state.touch_ticks + 1) : 0;
+  if (!feels_contact) {
+    state.resist_ticks = 0;
+  } else if (felt_N > kResistShare * order.force_N && state.resist_ticks < kResistTicks) {
+    ++state.resist_ticks;
+  }
+}
+
 void press(const RobotTable& table, const PushInputs& in, PushState& state) noexcept {
   const Push& order = state.order;
-  const bool feels_contact = dot(order.axis_in_tip, state.given.force_N) > kContactShare * order.force_N;
-  if (!has_touched(state)) state.touch_ticks = feels_contact ? narrow<std::uint16_t>(state.touch_ticks + 1) : 0;
-  state.set_N = has_touched(state) ? order.force_N : kApproachShare * order.force_N;
+  feel(order, state);
+  state.set_N = state.resist_ticks >= kResistTicks ? order.force_N : kApproachShare * order.force_N;
   const double pull_m = order.depth_m + order.force_N / order.gains[kStiffness];
   state.approach_m = smaller(pull_m, state.approach_m + order.gains[kApproachSpeed] * table.tick_s);
   if (!says_captured(in.adapter)) return;

@@ -101,6 +101,7 @@ void visit(A& a, T& s) {
   a("forward", s.forward);
   a("approach_m", s.approach_m);
   a("touch_ticks", s.touch_ticks);
+  a("resist_ticks", s.resist_ticks);
   a("adapter_spoke", s.adapter_spoke);
   a("overload_ticks", s.overload_ticks);
   a("lost", s.lost);
