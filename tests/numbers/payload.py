@@ -2,7 +2,7 @@
 as a servo leaves it, 100 more for each misalignment up to what the adapter's funnels take, whole flights with programs, buses and drives, and
 flights that begin misaligned before the adapter, on the soft base and on the stiff one.
 
-Alone: payload.py [--bin DIR] [--count PUSHES] [--flights N] [--misaligned N] [--keep FOLDER] [--json]. --keep: reports of flights are left
+Alone: payload.py [--bin DIR] [--count PUSHES] [--flights N] [--misaligned SOFT STIFF] [--keep FOLDER] [--json]. --keep: reports of flights are left
 in FOLDER, and those that are there already are not flown again.
 """
 import argparse
@@ -10,6 +10,8 @@ import concurrent.futures
 import json
 import os
 import pathlib
+import re
+import shutil
 import statistics
 import subprocess
 import sys
@@ -21,7 +23,8 @@ from page import table
 PUSHES = 500
 FLIGHTS = 10
 FIRST_FLIGHT = 175001
-MISALIGNED = 20
+MISSION = "payload_install"
+MISALIGNED = [8, 12]  # on the soft base, on the stiff one
 FIRST_MISALIGNED = {"macro_micro": 180001, "macro_micro_stiff": 181001}
 PUSH = "3 push"
 HEAD = ["asked", "least", "median", "95 %", "most"]
@@ -93,35 +96,56 @@ def spread(name, asked, values):
     return [name, asked, *(f"{value:.3g}" for value in of)]
 
 
-def flight(binaries, seed, file, words):
+def flight(binaries, mission, seed, file, words):
     if not file.exists():
-        call = [binaries / "liana", "run", "payload_install", "--time", "fast", "--seed", seed, "--json", file, *words]
+        call = [binaries / "liana", "run", mission, "--time", "fast", "--seed", seed, "--json", file, *words]
         subprocess.run([str(word) for word in call], capture_output=True, check=False)
     report = json.loads(file.read_text()) if file.exists() else {"outcome": "no report"}
     print(f"   flight {seed}: {report['outcome']}", file=sys.stderr, flush=True)
     return {"seed": seed, **report}
 
 
-def flights(binaries, cases, folder):
+def flights(binaries, mission, cases, folder):
     """`cases`: (seed, name of its report, further words)."""
-    folder.mkdir(parents=True, exist_ok=True)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        jobs = [pool.submit(flight, binaries, seed, folder / f"{name}.json", words) for seed, name, words in cases]
+        jobs = [
+            pool.submit(flight, binaries, mission, seed, folder / f"{name}.json", words) for seed, name, words in cases
+        ]
         return [job.result() for job in jobs]
 
 
 def whole_flights(binaries, count, folder):
-    return flights(
-        binaries, [(seed, f"whole_{seed}", []) for seed in range(FIRST_FLIGHT, FIRST_FLIGHT + count)], folder
-    )
+    cases = [(seed, f"whole_{seed}", []) for seed in range(FIRST_FLIGHT, FIRST_FLIGHT + count)]
+    return flights(binaries, MISSION, cases, folder)
 
 
-def misaligned_flights(binaries, count, folder):
-    cases = []
-    for robot, first in FIRST_MISALIGNED.items():
+def from_the_adapter(folder):
+    """The mission without what the station does and what comes before the adapter: it begins with the payload on the arm."""
+    missions = ROOT / "lua" / "missions"
+    shutil.copytree(missions / MISSION, folder / MISSION, dirs_exist_ok=True)
+    text = (missions / f"{MISSION}.lua").read_text(encoding="utf-8")
+    head, *steps = re.split(r'(?m)^  (?=step "[1-4] )', text)
+    named = {re.match(r'step "([^"]+)"', step)[1]: re.sub(r"(?m)^  --.*\n", "", step) for step in steps}
+    names = list(named)
+    kept = names[names.index("3 servo to the adapter") : names.index("3 out of the mode") + 1]
+    kept.remove("3 mutual mode")
+    ways = 'on_fail = "hold",\n    next = { { step = "3 push", at_most = 9 } },'
+    begin = named["3 mutual mode"].replace('on_fail = "hold",', ways)
+    rest = [
+        named[name].replace('{ step = "3 mutual mode" }', '{ step = "3 mutual mode", at_most = 9 }') for name in kept
+    ]
+    head = head.replace(f'liana.mission "{MISSION}"', 'liana.mission "from_the_adapter"')
+    file = folder / "from_the_adapter.lua"
+    file.write_text(head + "".join(f"  {step}" for step in (begin, *rest)) + "}\n", encoding="utf-8")
+    return file
+
+
+def misaligned_flights(binaries, counts, folder):
+    cases, mission = [], from_the_adapter(folder)
+    for (robot, first), count in zip(FIRST_MISALIGNED.items(), counts):
         words = ["--scene", "payload_misaligned", "--bus", "embedded_payload", "--robot", robot]
-        cases += [(seed, f"misaligned_{seed}", words) for seed in range(first, first + count // 2)]
-    return flights(binaries, cases, folder)
+        cases += [(seed, f"misaligned_{seed}", words) for seed in range(first, first + count)]
+    return flights(binaries, mission, cases, folder)
 
 
 def flight_rows(rows, good):
@@ -136,7 +160,7 @@ def not_installed(flown):
 def misaligned_text(flown):
     good = [one for one in flown if one["outcome"] == "success"]
     text = (
-        "\n\nThe same mission begun with the payload before the adapter, beside its axis by up to 28 mm (20 mm in x and in y)"
+        "\n\nThe same mission begun (without the station's steps) with the payload before the adapter, beside its axis by up to 28 mm (20 mm in x and in y)"
         " and turned by up to 1 deg (scene `payload_misaligned`); a push that jams is given up, backed off from, servoed and"
         f" begun again. {len(good)} of {len(flown)} installed.\n\n"
     )
@@ -155,8 +179,10 @@ def measure(binaries, count=PUSHES, flown=FLIGHTS, misaligned=MISALIGNED, keep=N
     groups = {name: [one for one in every if begun(one) == name] for name in dict.fromkeys(map(begun, every))}
     pushed = groups[begun(every[0])]
     with tempfile.TemporaryDirectory() as folder:
-        whole = whole_flights(binaries, flown, pathlib.Path(keep or folder))
-        begun_aside = misaligned_flights(binaries, misaligned, pathlib.Path(keep or folder))
+        reports = pathlib.Path(keep or folder)
+        reports.mkdir(parents=True, exist_ok=True)
+        whole = whole_flights(binaries, flown, reports)
+        begun_aside = misaligned_flights(binaries, misaligned, reports)
     captured = [one for one in pushed if one["captured_s"] > 0]
     rows = [spread(name, asked, [f * one[key] for one in captured]) for name, asked, key, f in PUSH_ROWS]
     text = (
@@ -182,7 +208,7 @@ def main():
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/bin")
     parser.add_argument("--count", type=int, default=PUSHES)
     parser.add_argument("--flights", type=int, default=FLIGHTS)
-    parser.add_argument("--misaligned", type=int, default=MISALIGNED)
+    parser.add_argument("--misaligned", type=int, nargs=2, metavar=("SOFT", "STIFF"), default=MISALIGNED)
     parser.add_argument("--keep", type=pathlib.Path)
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()
