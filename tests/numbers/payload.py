@@ -25,7 +25,7 @@ FLIGHTS = 10
 FIRST_FLIGHT = 175001
 MISSION = "payload_install"
 MISALIGNED = [8, 12]  # on the soft base, on the stiff one
-FIRST_MISALIGNED = {"macro_micro": 180001, "macro_micro_stiff": 181001}
+FIRST_MISALIGNED = {"macro_micro": 182001, "macro_micro_stiff": 183001}
 PUSH = "3 push"
 HEAD = ["asked", "least", "median", "95 %", "most"]
 # Name in the row, what is asked, field, factor.
