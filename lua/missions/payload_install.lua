@@ -22,8 +22,9 @@ local kBackOff_m = 0.05
 local kCarryLimit_s = 600 -- the large arm takes 240 s
 local kForce_N = 30 -- source
 local kMostTravel_m, kMostAside_m = 0.08, 0.03 -- of a push, from as far beside the axis as a funnel takes
--- The way in of a push that no servo has aligned, which may meet the wall of a funnel: a payload of a ton at 5 mm/s gives a stiff one 100 N.
-local kGently = { axial_damping_Ns_per_m = 5500 }
+-- The way in of a push that nothing has aligned to so much, which may meet the wall of a funnel: a payload of a ton at 5 mm/s gives a stiff
+-- one 100 N.
+local kAligned_m, kGently = 0.005, { axial_damping_Ns_per_m = 5500 }
 local kPushLimit_s = 40 -- a push that has not captured by then is jammed; source: 7 to 8 s
 local kTries = 2 -- more, after the first
 local kIn_m = 0.018 -- what every pin's sensor reads of a payload that is captured; the adapter itself wants 19.5 mm
@@ -148,17 +149,22 @@ local function servo_to(target, before_m, how, swings, point)
   end
 end
 
-local is_aligned = false -- by a servo
+local has_servoed = false
 
 local function servo_to_adapter(arm)
   servo_to("adapter", kBeforeAdapter_m, kServoToAdapter, loaded, pins)(arm)
-  is_aligned = true
+  has_servoed = true
+end
+
+-- Where no servo was needed, by how the scene says that it begins.
+local function is_aligned(arm)
+  return has_servoed or (arm.part_of_scene("payload").start_lateral_m or 0) <= kAligned_m
 end
 
 -- No tare: on a base that swings, what the payload's mass gives on the sensor is far more than the sensor's bias.
 local function push_in(arm)
   arm.push {
-    force_N = kForce_N, tare = false, travel_m = kMostTravel_m, aside_m = kMostAside_m, gains = not is_aligned and kGently or nil,
+    force_N = kForce_N, tare = false, travel_m = kMostTravel_m, aside_m = kMostAside_m, gains = not is_aligned(arm) and kGently or nil,
   }
 end
 

@@ -236,6 +236,34 @@ TEST(Force, SomethingInTheHoleIsHeldWithTheSetForceAndAWayTooLongEndsThePush) {
   EXPECT_EQ(free.out().at_rest, 1);
 }
 
+// What a payload of a ton lets the sensor feel on a base that swings is less, and a pin that slips off an edge is free.
+TEST(Force, AllOfTheForceIsForWhatResistsAndNotForWhatSwingsNorForAPinThatHasSlipped) {
+  ForceCase far;
+  far.before_m = 0.2;
+  ForceRig rig(far);
+  double felt_N = 4.0, jitter_N = 0.02;
+  rig.meddle([&](serial::Sensors& s) { s.wrist.on_arm.force_N = {jitter_N = -jitter_N, 0.0, -felt_N}; });
+  rig.enable();
+  serial::Setpoint push = rig.push(30.0);
+  push.push.tares = 0;
+  push.push.travel_m = 0.2;
+  rig.ask(push);
+  rig.run_s(3.0);
+  EXPECT_EQ(rig.out().push.touched, 1);
+  EXPECT_EQ(rig.out().push.set_N, 12.0) << "4 N of 30";
+  felt_N = 8.0;
+  rig.run_s(0.2);
+  EXPECT_EQ(rig.out().push.set_N, 12.0) << "for a moment only";
+  rig.run_s(0.2);
+  EXPECT_EQ(rig.out().push.set_N, 30.0);
+  felt_N = 4.0;
+  rig.run_s(0.2);
+  EXPECT_EQ(rig.out().push.set_N, 30.0) << "it still resists";
+  felt_N = 2.0;
+  rig.run_s(0.02);
+  EXPECT_EQ(rig.out().push.set_N, 12.0) << "free again";
+}
+
 TEST(Force, ABlowAtTheTipEndsThePushAsOverload) {
   Pressing at;
   at.rig.push_tip({{400.0, 0.0, 0.0}, {}});

@@ -70,6 +70,17 @@ class Payload(SystemTest):
         self.assertLess(report["lateral_sway_m"], 0.015)
         self.assertTrue(0.0195 <= report["insertion_m"] <= 0.023, report["insertion_m"])
 
+    # req:B19 req:B26
+    def test_a_push_that_begins_as_far_aside_as_the_funnels_take_and_jams_is_begun_again_aligned(self):
+        words = ("--robot", "macro_micro_stiff", "--bus", "embedded_payload", "--seed", "181004")
+        done, report = self.flown(*words, scene="payload_misaligned")
+        self.assertEqual((done.returncode, report["outcome"]), (0, "success"), report.get("reason"))
+        pushes = [step["outcome"] for step in report["steps"] if step["name"] == "3 push"]
+        self.assertEqual(pushes, ["failed", "success"], "the first one jams")
+        self.assertTrue(0.0195 <= report["insertion_m"] <= 0.023, report["insertion_m"])
+        self.assertLess(report["peak_force_N"], 60)
+        self.assertLess(report["peak_joint_torque_Nm"], 100)
+
     # req:B26
     def test_a_sensor_that_fails_while_it_pushes_ends_in_an_arm_that_holds(self):
         done, report = self.flown("--seed", "8002", "--fault", "sensor_failed")
