@@ -22,7 +22,7 @@ from page import table
 
 PUSHES = 500
 FLIGHTS = 10
-FIRST_FLIGHT = 175001
+FIRST_FLIGHT = 187001
 MISSION = "payload_install"
 MISALIGNED = [8, 12]  # on the soft base, on the stiff one
 FIRST_MISALIGNED = {"macro_micro": 182001, "macro_micro_stiff": 183001}
