@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <vector>
@@ -36,7 +37,8 @@ haptic::Delays delays_of(const LinkOptions& options) {
 }
 
 api::UniqueFd listener_of(const LinkOptions& options) {
-  if (options.listen == options.devices)
+  const auto whole = [](const std::string& path) { return std::filesystem::weakly_canonical(path); };
+  if (whole(options.listen) == whole(options.devices))
     throw system::BadInput("--listen: " + options.listen +
                            ": allowed is another socket than that of --devices: name a file for the devices' side");
   try {

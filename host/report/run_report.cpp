@@ -266,8 +266,9 @@ std::string report_text(const Json& report) {
       "outcome " + report.value("outcome", "") + line(", arm time %.1f s\n", report.value("duration_s", 0.0));
   if (!report.value("reason", "").empty()) text += "reason: " + report.value("reason", "") + "\n";
   for (const Json& fault : report.value("faults", Json::array())) {
-    text += "fault " + std::to_string(fault.value("number", 0)) + " " + fault.value("name", "") + ": " +
-            fault.value("text", "") + "\n";
+    const int detail = fault.value("detail", 0);
+    text += "fault " + std::to_string(fault.value("number", 0)) + " " + fault.value("name", "") +
+            (detail != 0 ? " (detail " + std::to_string(detail) + "): " : ": ") + fault.value("text", "") + "\n";
   }
   if (report.contains("fault")) text += fault_text(report["fault"]);
   for (const Json& step : report.value("steps", Json::array())) {

@@ -301,9 +301,15 @@ end
 
 -- ---- failing ------------------------------------------------------------------------------------------------------
 
+-- Number, name, and where they are told, drive or bus and detail.
+local function name_of(fault)
+  local index, detail = fault.index or -1, fault.detail or 0
+  return fault.number .. " " .. fault.name .. (index >= 0 and " " .. index or "") .. (detail ~= 0 and " (detail " .. detail .. ")" or "")
+end
+
 function Runner:fault_names()
   local names = {}
-  for i, fault in ipairs(self.arm.state.faults) do names[i] = fault.number .. " " .. fault.name .. " " .. (fault.index or "") end
+  for i, fault in ipairs(self.arm.state.faults) do names[i] = name_of(fault) end
   return #names > 0 and table.concat(names, ", ") or "none named"
 end
 

@@ -25,7 +25,7 @@ local kMostTravel_m, kMostAside_m = 0.08, 0.03 -- of a push, from as far beside 
 -- The way in of a push that nothing has aligned to so much, which may meet the wall of a funnel: a payload of a ton at 5 mm/s gives a stiff
 -- one 100 N.
 local kAligned_m, kGently = 0.005, { axial_damping_Ns_per_m = 5500 }
-local kPushLimit_s = 40 -- a push that has not captured by then is jammed; source: 7 to 8 s
+local kPushLimit_s, kGentleLimit_s = 40, 60 -- a push that has not captured by then is jammed; source: 7 to 8 s
 local kTries = 2 -- more, after the first
 local kIn_m = 0.018 -- what every pin's sensor reads of a payload that is captured; the adapter itself wants 19.5 mm
 local kHeard_s = 0.1 -- since the adapter's last message
@@ -197,6 +197,12 @@ local push_failed = { text = "push ended without a capture", met = function(arm)
   return false
 end }
 
+local is_jammed = { text = "jammed", met = function(arm)
+  local limit_s = is_aligned(arm) and kPushLimit_s or kGentleLimit_s
+  if arm.elapsed_s(arm.begin_tick) <= limit_s then return false end
+  return true, ("jammed: no capture within %g s"):format(limit_s)
+end }
+
 local light = condition(("less than %g N on the adapter"):format(kLight_N), function(arm)
   return geometry.length(arm.state.push.given.force_N) < kLight_N
 end)
@@ -357,8 +363,8 @@ return liana.mission "payload_install" {
     device = "none",
     run = push_in,
     exit = captured,
-    fail_when = push_failed,
-    time_limit_s = kPushLimit_s,
+    fail_when = any { push_failed, is_jammed },
+    time_limit_s = kGentleLimit_s + 5,
     on_fail = "hold",
     next = { { step = "3 away from the adapter", when = latch_is "open", on = "failure", at_most = kTries } }, -- not against a latch
   },
