@@ -253,10 +253,20 @@ void look_at_mission(const Json& mission, const config::SceneConfig& scene, bool
   for (const Json& each : mission.value("notes", Json::array())) note(each.text());
 }
 
+// The bench has a payload for an arm whose drives follow torques only.
+void check_payload_is_simulated(const RunOptions& options, const config::SceneConfig& scene, bool gives_torque) {
+  if (!options.simulated_arm || !scene.payload || gives_torque) return;
+  throw BadInput(
+      "--scene: " + scene.name + ": has a payload, and robot " + options.robot +
+      " has no drives that follow torques: allowed is a robot with drives.mode = \"torque\", as macro_micro, or a "
+      "scene without a payload");
+}
+
 // The start pose, too, is looked at: a robot that begins inside a body fails much later, and for no visible reason.
 std::string check_options_of_cable_robot(const RunOptions& options, const std::string& text, const SystemLayout& plan) {
   const config::RobotConfig robot =
       checked([&] { return config::parse_robot(text, options.robot, options.physics, plan.buses); });
+  check_payload_is_simulated(options, plan.scene, false);
   if (!options.calibration.empty())
     checked([&] { return calibration::load_calibration(options.calibration, robot, calibration::today_utc()); });
   if (!options.in_pose.empty()) check_in_pose(robot, options.in_pose);
@@ -290,6 +300,7 @@ std::string check_options_of_serial_robot(const RunOptions& options, const std::
   refuse("--true-physics", is_unknown(options.true_physics), "its bench knows nominal only; leave it out");
   refuse("--operator", options.people.who == "human", "no hand steers it yet; leave it out");
   refuse("mission", is_plan(options), "plans are for cable arms; give a mission");
+  check_payload_is_simulated(options, plan.scene, config::gives_torque(robot));
   const StartPose start = start_pose_of(robot, options.start_pose);
   if (options.simulated_arm) check_start_is_free(robot, plan.scene, start);
   return start.text;

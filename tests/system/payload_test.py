@@ -119,6 +119,13 @@ class Payload(SystemTest):
         done, report = self.flown("--seed", "8002", "--fault", "duplicate_capture")
         self.assertEqual((done.returncode, report["outcome"]), (0, "success"), done.stderr)
 
+    def test_a_payload_for_an_arm_without_torque_drives_is_refused_before_anything_starts(self):
+        for mission, robot in (("micro_reach", "micro"), ("lab_tour", "three_segment_lab")):
+            done = run("liana", "run", mission, "--robot", robot, "--scene", "payload_at_adapter")
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn('drives.mode = "torque"', done.stderr)
+            self.assertNotIn("liana-bench", done.stderr)
+
     def test_an_unknown_fault_is_refused_with_the_names_there_are(self):
         done = run("liana", "run", "payload_install", "--fault", "meteor")
         self.assertEqual(done.returncode, 2)
