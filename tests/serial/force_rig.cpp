@@ -63,7 +63,7 @@ ForceCase drawn_case(std::uint64_t seed) {
   const double tilt = numbers.in(0.0, 0.5) * 3.14159265358979 / 180.0, towards = numbers.in(0.0, 6.28);
   out.tilt_rad = {tilt * std::cos(towards), tilt * std::sin(towards), 0.0};
   out.adapter.friction = numbers.in(0.05, 0.3);
-  out.noise_N = numbers.in(0.0, 1.0);
+  out.noise_N = numbers.in(0.05, 1.0);  // over what is sent in steps of 0.02 N: less is a stuck sensor
   out.payload_kg = numbers.in(300.0, 1000.0);
   out.base_share = numbers.in(0.8, 1.2);
   out.gear_share = numbers.in(0.7, 1.3);
