@@ -18,4 +18,10 @@ void read_adapter(const AdapterReading& reading, AdapterState& state) noexcept {
   state.age_ticks = reading.age_ticks;
 }
 
+bool pins_are_in(const AdapterState& state) noexcept {
+  bool in = is_heard(state);
+  for (const std::uint8_t depth_01mm : state.last.depth_01mm) in = in && depth_01mm > kPastFace_01mm;
+  return in;
+}
+
 }  // namespace liana::serial

@@ -112,8 +112,9 @@ void relieve(PushState& state) noexcept {
   }
 }
 
-// A pin that slips off an edge is free again: with all of the force it would meet the next wall twice as fast. And what
-// a heavy payload on a base that swings lets the sensor feel is contact for none.
+// All of the force is for what resists, and for pins that are in. A pin that slips off an edge is free again: with all
+// of the force it would meet the next wall twice as fast. And what a heavy payload on a base that swings lets the sensor
+// feel is contact for none.
 void feel(const Push& order, PushState& state) noexcept {
   const double felt_N = dot(order.axis_in_tip, state.given.force_N);
   const bool feels_contact = felt_N > kContactShare * order.force_N;
@@ -128,7 +129,8 @@ void feel(const Push& order, PushState& state) noexcept {
 void press(const RobotTable& table, const PushInputs& in, PushState& state) noexcept {
   const Push& order = state.order;
   feel(order, state);
-  state.set_N = state.resist_ticks >= kResistTicks ? order.force_N : kApproachShare * order.force_N;
+  const bool takes_all = state.resist_ticks >= kResistTicks || pins_are_in(in.adapter);
+  state.set_N = takes_all ? order.force_N : kApproachShare * order.force_N;
   const double pull_m = order.depth_m + order.force_N / order.gains[kStiffness];
   state.approach_m = smaller(pull_m, state.approach_m + order.gains[kApproachSpeed] * table.tick_s);
   if (!says_captured(in.adapter)) return;

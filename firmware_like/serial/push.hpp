@@ -21,7 +21,7 @@ constexpr double kRelieved_N = 2.0;
 constexpr double kRelieved_Nm = 1.0;
 constexpr double kContactShare = 0.1;       // of the set force, along the axis: the payload has met the adapter ...
 constexpr std::uint16_t kTouchTicks = 150;  // ... when felt so long in a row; what speeding up takes fades sooner
-constexpr double kApproachShare = 0.4;      // of the set force, where nothing resists: a wall is met gently
+constexpr double kApproachShare = 0.3;      // of the set force, where nothing resists: a wall is met gently
 constexpr double kResistShare = 0.2;        // of the set force, felt along the axis: something resists ...
 constexpr std::uint16_t kResistTicks = 75;  // ... when felt so long, until less than kContactShare is felt
 constexpr std::uint16_t kOverloadTicks = 3;
@@ -63,7 +63,7 @@ struct PushState {
   Wrench forward{};                // F_e as the torque feed-forward has it, base frame
   double approach_m = 0.0;         // impedance: of the point that it pulls to, from the start
   std::uint16_t touch_ticks = 0;   // force of contact was felt, in a row; from kTouchTicks on it stays there
-  std::uint16_t resist_ticks = 0;  // in which something resisted; all of the set force is for it
+  std::uint16_t resist_ticks = 0;  // in which something resisted
   std::uint8_t adapter_spoke = 0;  // when it began
   std::uint16_t overload_ticks = 0;
   WristHealth lost = WristHealth::kGood;  // kSensorLost: what is wrong with it

@@ -24,7 +24,7 @@ local kForce_N = 30 -- source
 local kMostTravel_m, kMostAside_m = 0.08, 0.03 -- of a push, from as far beside the axis as a funnel takes
 -- The way in of a push that nothing has aligned to so much, which may meet the wall of a funnel: a payload of a ton at 5 mm/s gives a stiff
 -- one 100 N.
-local kAligned_m, kGently = 0.005, { axial_damping_Ns_per_m = 5500 }
+local kAligned_m, kGently = 0.005, { axial_damping_Ns_per_m = 4200 }
 local kPushLimit_s, kGentleLimit_s = 40, 60 -- a push that has not captured by then is jammed; source: 7 to 8 s
 local kTries = 2 -- more, after the first
 local kIn_m = 0.018 -- what every pin's sensor reads of a payload that is captured; the adapter itself wants 19.5 mm

@@ -24,14 +24,14 @@ micro.force_control = { -- assumed, as tuned in a prototype of this arm on its b
   gains = { -- what a push has, the least and the most that one may ask for
     mass_kg = { 500, 50, 5000 }, -- M_d
     inertia_kgm2 = { 100, 10, 1000 },
-    axial_damping_Ns_per_m = { 3200, 800, 8000 }, -- K_D
+    axial_damping_Ns_per_m = { 2400, 800, 8000 }, -- K_D
     lateral_damping_Ns_per_m = { 3000, 800, 8000 },
     turn_damping_Nms_per_rad = { 1500, 200, 5000 },
     force_gain = { 1, 0.5, 2 }, -- K_P C_F
     stiffness_N_per_m = { 3000, 100, 10000 }, -- K_P, impedance only
     turn_stiffness_Nm_per_rad = { 900, 10, 5000 },
     approach_m_s = { 0.0035, 0.0005, 0.01 },
-    unload_damping_Ns_per_m = { 400, 100, 8000 }, -- K_D along the axis from capture on
+    unload_damping_Ns_per_m = { 300, 100, 8000 }, -- K_D along the axis from capture on
   },
 }
 return micro

@@ -22,10 +22,10 @@ from page import table
 
 PUSHES = 500
 FLIGHTS = 10
-FIRST_FLIGHT = 187001
+FIRST_FLIGHT = 192001
 MISSION = "payload_install"
 MISALIGNED = [8, 12]  # on the soft base, on the stiff one
-FIRST_MISALIGNED = {"macro_micro": 182001, "macro_micro_stiff": 183001}
+FIRST_MISALIGNED = {"macro_micro": 193001, "macro_micro_stiff": 194001}
 PUSH = "3 push"
 HEAD = ["asked", "least", "median", "95 %", "most"]
 # Name in the row, what is asked, field, factor.

@@ -10,7 +10,7 @@
 namespace liana::numbers {
 namespace {
 
-constexpr std::uint64_t kFirstSeed = 185001;
+constexpr std::uint64_t kFirstSeed = 191001;
 constexpr double kMost_s = 40.0;  // as the mission allows
 
 constexpr double kDeg = 3.14159265358979 / 180.0;

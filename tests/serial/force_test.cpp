@@ -250,10 +250,10 @@ TEST(Force, AllOfTheForceIsForWhatResistsAndNotForWhatSwingsNorForAPinThatHasSli
   rig.ask(push);
   rig.run_s(3.0);
   EXPECT_EQ(rig.out().push.touched, 1);
-  EXPECT_EQ(rig.out().push.set_N, 12.0) << "4 N of 30";
+  EXPECT_EQ(rig.out().push.set_N, 9.0) << "4 N of 30";
   felt_N = 8.0;
   rig.run_s(0.2);
-  EXPECT_EQ(rig.out().push.set_N, 12.0) << "for a moment only";
+  EXPECT_EQ(rig.out().push.set_N, 9.0) << "for a moment only";
   rig.run_s(0.2);
   EXPECT_EQ(rig.out().push.set_N, 30.0);
   felt_N = 4.0;
@@ -261,7 +261,25 @@ TEST(Force, AllOfTheForceIsForWhatResistsAndNotForWhatSwingsNorForAPinThatHasSli
   EXPECT_EQ(rig.out().push.set_N, 30.0) << "it still resists";
   felt_N = 2.0;
   rig.run_s(0.02);
-  EXPECT_EQ(rig.out().push.set_N, 12.0) << "free again";
+  EXPECT_EQ(rig.out().push.set_N, 9.0) << "free again";
+}
+
+TEST(Force, AllOfTheForceIsForPinsThatAreAllPastTheFaceEvenBeforeAnythingResists) {
+  ForceCase far;
+  far.before_m = 0.2;
+  ForceRig rig(far);
+  std::array<std::uint8_t, 3> depth_01mm{12, 12, 10};
+  rig.meddle([&](serial::Sensors& s) { s.adapter.depth_01mm = depth_01mm; });
+  rig.enable();
+  rig.ask(rig.push(30.0));
+  rig.run_s(3.0);
+  EXPECT_EQ(rig.out().push.set_N, 9.0) << "one is at the face";
+  depth_01mm[2] = 12;
+  rig.run_s(0.1);
+  EXPECT_EQ(rig.out().push.set_N, 30.0);
+  depth_01mm[2] = 8;
+  rig.run_s(0.1);
+  EXPECT_EQ(rig.out().push.set_N, 9.0) << "out again";
 }
 
 TEST(Force, ABlowAtTheTipEndsThePushAsOverload) {

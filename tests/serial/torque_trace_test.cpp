@@ -13,7 +13,7 @@ namespace {
 constexpr double kMean_s = 0.5;  // what a level is the mean over: a swing of the payload does not count for it
 
 // Beside friction: what the drives' damping adds while told changes within kMean_s, and what swings on at rest.
-constexpr double kLag_Nm = 6.0, kRest_Nm = 1.5;
+constexpr double kLag_Nm = 8.0, kRest_Nm = 2.5;
 
 using Torques = serial::JointVector;
 

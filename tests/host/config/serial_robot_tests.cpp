@@ -135,7 +135,7 @@ TEST(SerialRobot, TorqueDrivesHaveMassesGainsAndBounds) {
   EXPECT_EQ(torque.masses.link[6].mass_kg, robot.masses.link[6].mass_kg);
   EXPECT_EQ(torque.most_force_N, 60.0);
   EXPECT_EQ(torque.most_joint_Nm, 100.0);
-  EXPECT_EQ(robot.push_gains[serial::kAxialDamping], 3200.0);
+  EXPECT_EQ(robot.push_gains[serial::kAxialDamping], 2400.0);
   EXPECT_EQ(torque.gain_low[serial::kAxialDamping], 800.0);
   EXPECT_EQ(torque.gain_high[serial::kAxialDamping], 8000.0);
 }
