@@ -22,8 +22,8 @@ local kBackOff_m = 0.05
 local kCarryLimit_s = 600 -- the large arm takes 240 s
 local kForce_N = 30 -- source
 local kMostTravel_m, kMostAside_m = 0.08, 0.03 -- of a push, from as far beside the axis as a funnel takes
--- The way in of a push that nothing has aligned to so much, which may meet the wall of a funnel: a payload of a ton at 5 mm/s gives a stiff
--- one 100 N.
+-- The way in of a push that nothing has aligned to so much, and of one after another that failed: it may meet the wall of a funnel, and a
+-- payload of a ton at 5 mm/s gives a stiff one 100 N.
 local kAligned_m, kGently = 0.005, { axial_damping_Ns_per_m = 4200 }
 local kPushLimit_s, kGentleLimit_s = 40, 60 -- a push that has not captured by then is jammed; source: 7 to 8 s
 local kTries = 2 -- more, after the first
@@ -149,22 +149,18 @@ local function servo_to(target, before_m, how, swings, point)
   end
 end
 
-local has_servoed = false
+local has_pushed, is_gentle = false, false
 
-local function servo_to_adapter(arm)
-  servo_to("adapter", kBeforeAdapter_m, kServoToAdapter, loaded, pins)(arm)
-  has_servoed = true
-end
-
--- Where no servo was needed, by how the scene says that it begins.
-local function is_aligned(arm)
-  return has_servoed or (arm.part_of_scene("payload").start_lateral_m or 0) <= kAligned_m
+-- Before the first push either a servo has aligned it or, where none was needed, the scene.
+local function may_meet_walls(arm)
+  return has_pushed or (arm.part_of_scene("payload").start_lateral_m or 0) > kAligned_m
 end
 
 -- No tare: on a base that swings, what the payload's mass gives on the sensor is far more than the sensor's bias.
 local function push_in(arm)
+  is_gentle, has_pushed = may_meet_walls(arm), true
   arm.push {
-    force_N = kForce_N, tare = false, travel_m = kMostTravel_m, aside_m = kMostAside_m, gains = not is_aligned(arm) and kGently or nil,
+    force_N = kForce_N, tare = false, travel_m = kMostTravel_m, aside_m = kMostAside_m, gains = is_gentle and kGently or nil,
   }
 end
 
@@ -198,7 +194,7 @@ local push_failed = { text = "push ended without a capture", met = function(arm)
 end }
 
 local is_jammed = { text = "jammed", met = function(arm)
-  local limit_s = is_aligned(arm) and kPushLimit_s or kGentleLimit_s
+  local limit_s = is_gentle and kGentleLimit_s or kPushLimit_s
   if arm.elapsed_s(arm.begin_tick) <= limit_s then return false end
   return true, ("jammed: no capture within %g s"):format(limit_s)
 end }
@@ -333,7 +329,7 @@ return liana.mission "payload_install" {
   step "3 servo to the adapter" {
     device = "none",
     enter = at_rest(),
-    run = servo_to_adapter,
+    run = servo_to("adapter", kBeforeAdapter_m, kServoToAdapter, loaded, pins),
     exit = all { servo_done(), at_rest() },
     fail_when = servo_failed(), -- target lost, base moving, not there in time
     time_limit_s = 270,
