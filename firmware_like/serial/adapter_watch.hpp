@@ -8,7 +8,7 @@
 namespace liana::serial {
 
 constexpr std::uint16_t kAdapterSilentTicks = 12;  // it sends a message every fourth tick
-constexpr std::uint8_t kPastFace_01mm = 10;         // a pin so deep has left the mouth of its funnel [0.1 mm]
+constexpr std::uint8_t kPastFace_01mm = 10;        // a pin so deep has left the mouth of its funnel [0.1 mm]
 
 struct AdapterState {
   AdapterReading last{};                  // newest message; its age is that of the sequence
@@ -23,7 +23,8 @@ void read_adapter(const AdapterReading& reading, AdapterState& state) noexcept;
 // It speaks: a new message came within kAdapterSilentTicks.
 inline bool is_heard(const AdapterState& state) noexcept { return state.age_ticks < kAdapterSilentTicks; }
 
-// Every pin is past the adapter's face, as its depth sensors say: what is left to meet is the holes, and they are narrow.
+// Every pin is past the adapter's face, as its depth sensors say: what is left to meet is the holes, and they are
+// narrow.
 bool pins_are_in(const AdapterState& state) noexcept;
 
 // It says in this tick, with a message of its own, that the payload is captured.

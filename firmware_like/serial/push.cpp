@@ -113,8 +113,8 @@ void relieve(PushState& state) noexcept {
 }
 
 // All of the force is for what resists, and for pins that are in. A pin that slips off an edge is free again: with all
-// of the force it would meet the next wall twice as fast. And what a heavy payload on a base that swings lets the sensor
-// feel is contact for none.
+// of the force it would meet the next wall twice as fast. And what a heavy payload on a base that swings lets the
+// sensor feel is contact for none.
 void feel(const Push& order, PushState& state) noexcept {
   const double felt_N = dot(order.axis_in_tip, state.given.force_N);
   const bool feels_contact = felt_N > kContactShare * order.force_N;

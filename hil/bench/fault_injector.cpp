@@ -18,6 +18,7 @@ bool FaultInjector::holds(const FaultCondition& when, std::uint32_t slot, const 
   if (when.depth_below_m && (arm.depth_m >= *when.depth_below_m || arm.depth_m <= kNoDepth_m)) return false;
   if (when.contact_above_N && arm.contact_N <= *when.contact_above_N) return false;
   if (when.captured && !arm.captured) return false;
+  if (when.carried_above && arm.carried <= *when.carried_above) return false;
   if (when.after_first_slots && (!courses_[0].begun || slot < *courses_[0].begun + *when.after_first_slots))
     return false;
   return !when.moving || std::any_of(arm.rate_rad_s.begin(), arm.rate_rad_s.end(),

@@ -23,6 +23,7 @@ struct TrueMotion {
   double depth_m = kNoDepth_m;  // of the tip past the mouth of the slit, of a payload's pins past the adapter's face
   double contact_N = 0.0;       // of the payload on the adapter
   bool captured = false;        // the adapter has the payload
+  double carried = 0.0;         // share of its way that the arm that carries is told to have gone
 };
 
 class FaultInjector {

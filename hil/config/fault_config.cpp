@@ -62,7 +62,7 @@ std::uint32_t read_slots(const JsonFile& file, const std::string& field, int low
 FaultCondition read_condition(const JsonFile& file, const std::string& field, std::size_t theta_count) {
   refuse_others(file, field,
                 {"theta", "above_deg", "below_deg", "enabled", "moving", "depth_above_m", "depth_below_m",
-                 "contact_above_N", "captured", "after_first_slots", "for_slots"});
+                 "contact_above_N", "captured", "carried_above", "after_first_slots", "for_slots"});
   FaultCondition when;
   const bool above = file.has(field + "/above_deg");
   const bool below = file.has(field + "/below_deg");
@@ -84,14 +84,15 @@ FaultCondition read_condition(const JsonFile& file, const std::string& field, st
   if (file.has(field + "/depth_above_m")) when.depth_above_m = file.number(field + "/depth_above_m", -10.0, 10.0);
   if (file.has(field + "/depth_below_m")) when.depth_below_m = file.number(field + "/depth_below_m", -10.0, 10.0);
   if (file.has(field + "/contact_above_N")) when.contact_above_N = file.number(field + "/contact_above_N", 0.0, 1000.0);
+  if (file.has(field + "/carried_above")) when.carried_above = file.number(field + "/carried_above", 0.0, 1.0);
   if (file.has(field + "/after_first_slots"))
     when.after_first_slots = read_slots(file, field + "/after_first_slots", 0);
-  const bool about_contact = when.contact_above_N || when.captured;
+  const bool about_payload = when.contact_above_N || when.captured || when.carried_above;
   const bool about_depth = when.depth_above_m || when.depth_below_m;
-  if (!when.theta && !when.enabled && !when.moving && !about_depth && !about_contact && !when.after_first_slots)
+  if (!when.theta && !when.enabled && !when.moving && !about_depth && !about_payload && !when.after_first_slots)
     file.fail(field,
               "names no condition; add theta, enabled, moving, depth_above_m, depth_below_m, contact_above_N, "
-              "captured or after_first_slots");
+              "captured, carried_above or after_first_slots");
   if (file.has(field + "/for_slots")) when.for_slots = read_slots(file, field + "/for_slots", 1);
   return when;
 }
@@ -153,9 +154,9 @@ void refuse_faults(const std::vector<FaultConfig>& faults, const std::vector<Fau
 void refuse_payload_faults(const std::vector<FaultConfig>& faults, const std::string& why) {
   refuse_faults(faults, {FaultOf::kPayload}, "happens where a payload is installed" + why);
   for (const FaultConfig& fault : faults)
-    if (fault.when.contact_above_N || fault.when.captured)
-      throw std::runtime_error("--faults: kind \"" + fault.name + "\": when waits for contact or capture of a payload" +
-                               why);
+    if (fault.when.contact_above_N || fault.when.captured || fault.when.carried_above)
+      throw std::runtime_error("--faults: kind \"" + fault.name +
+                               "\": when waits for contact, capture or carrying of a payload" + why);
 }
 
 std::vector<FaultConfig> load_faults(const std::string& path, std::size_t drive_count, std::size_t theta_count) {

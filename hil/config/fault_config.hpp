@@ -97,6 +97,7 @@ struct FaultCondition {
   std::optional<double> depth_below_m;    // the same, not so far
   std::optional<double> contact_above_N;  // the payload gives the adapter more than this
   bool captured = false;                  // the adapter truly has the payload
+  std::optional<double> carried_above;    // the arm that carries is told to have gone more than this share of its way
   std::optional<std::uint32_t> after_first_slots;  // the first fault of the list began so many slots ago
   std::uint32_t for_slots = 1;
 };

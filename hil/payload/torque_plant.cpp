@@ -123,6 +123,7 @@ void TorquePlant::inject(std::uint32_t slot, FaultInjector& injector) {
     if (site_->holder() == Holder::kArm && std::hypot(plate.x, plate.y) < kBeforeSocket_m) motion.depth_m = plate.z;
     motion.contact_N = norm(contact_N_);
     motion.captured = site_->adapter().captured();
+    motion.carried = way_ ? way_->share : 0.0;
   }
   injector.step(slot, motion, drives_);
   sensor_.suffer(wrist_defects(injector));

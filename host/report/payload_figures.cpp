@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/json/json.hpp"
+#include "host/report/push_loads.hpp"
 #include "host/report/truth_figures.hpp"
 
 namespace liana::report {
@@ -129,6 +130,14 @@ double deepest_m(const TruthLog& truth, const Rows& rows) {
   return deepest;
 }
 
+// The most that was set in a push.
+double set_N(const std::vector<Stage>& stages, const Span& push) {
+  double most = 0.0;
+  for (const Stage& stage : stages)
+    if (stage.tick >= push.begin_tick && stage.tick <= push.end_tick) most = std::fmax(most, stage.set_N);
+  return most;
+}
+
 void add_push(Json& report, const PayloadSources& from) {
   const std::vector<Span> pushes = pushes_of(from.stages);
   if (pushes.empty()) return;
@@ -144,6 +153,8 @@ void add_push(Json& report, const PayloadSources& from) {
   report["peak_force_N"] = truth.largest("contact_peak_N", loaded.first, loaded.last);
   report["peak_joint_torque_Nm"] = most_torque_Nm(truth, loaded);
   report["base_deflection_m"] = truth.largest("base_deflection_m", loaded.first, loaded.last);
+  add_wrenches(report, truth, loaded);
+  if (captured <= rows.last) add_margin(report, truth, captured, set_N(from.stages, pushes.back()));
   if (!is_unloaded) return;
   const std::size_t touched = first_row(loaded, [&](std::size_t row) { return truth.at(row, "contact_peak_N") > 0.0; });
   report["unload_s"] = static_cast<double>(unloaded - captured) * from.period_s;
@@ -156,6 +167,7 @@ bool has_payload(const TruthLog& truth) { return truth.has("plate_x_m"); }
 
 void add_payload_figures(Json& report, const PayloadSources& sources) {
   for (const char* figure : kFigures) report[figure] = nullptr;
+  for (const char* figure : kPushLoads) report[figure] = nullptr;
   if (sources.truth.row_count() == 0 || sources.period_s <= 0.0) return;
   add_servo(report, sources);
   add_push(report, sources);

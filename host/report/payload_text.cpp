@@ -32,7 +32,8 @@ std::string payload_text(const Json& report) {
                                                                words(report, "unload_s", ", unloaded %.2f s later")) +
          line_of(words(report, "peak_joint_torque_Nm", "joint torque %.1f N m at most meanwhile"),
                  words(report, "base_deflection_m", ", base gives way %.1f mm", 1e3) +
-                     words(report, "load_duration_s", ", under load for %.1f s"));
+                     words(report, "load_duration_s", ", under load for %.1f s")) +
+         line_of(words(report, "resisted_N", "overcame %.1f N"), words(report, "margin_N", ", with %.1f N to spare"));
 }
 
 }  // namespace liana::report

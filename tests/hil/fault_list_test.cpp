@@ -92,9 +92,12 @@ TEST(FaultList, OfAPayloadNamesNoDrive) {
 }
 
 TEST(FaultList, OfAPayloadIsRefusedByACableArmAndSoIsOneThatWaitsForContact) {
-  for (const auto& [faults, words] : std::vector<std::pair<std::string, std::string>>{
-           {R"([{"kind":"sensor_failed","at_slot":3}])", "sensor_failed"},
-           {R"([{"drive":3,"kind":"sto","when":{"contact_above_N":3}}])", "when waits for contact or capture"}}) {
+  for (const auto& [faults, words] :
+       std::vector<std::pair<std::string, std::string>>{{R"([{"kind":"sensor_failed","at_slot":3}])", "sensor_failed"},
+                                                        {R"([{"drive":3,"kind":"sto","when":{"contact_above_N":3}}])",
+                                                         "when waits for contact, capture or carrying"},
+                                                        {R"([{"drive":3,"kind":"sto","when":{"carried_above":0.5}}])",
+                                                         "when waits for contact, capture or carrying"}}) {
     try {
       run_with(faults, 5);
       ADD_FAILURE() << faults << " was accepted";
@@ -157,6 +160,7 @@ TEST(FaultList, RefusesWhatItDoesNotUnderstandWithFieldAndWhatIsAllowed) {
       {R"({"kind":"camera_late","at_slot":1,"seconds":0})", {"/0/seconds", "0"}},
       {R"({"drive":3,"kind":"sto","when":{"depth_above_m":11}})", {"/0/when/depth_above_m", "11"}},
       {R"({"kind":"lock_fails","when":{"captured":false}})", {"/0/when/captured", "true"}},
+      {R"({"kind":"tool_jams","when":{"carried_above":1.5}})", {"/0/when/carried_above", "1.5"}},
       {R"({"kind":"lock_fails","when":{"contact_above_N":-1}})", {"/0/when/contact_above_N", "-1"}},
       {R"(5)", {"/0"}}};
   for (const Case& test : cases) {

@@ -144,10 +144,11 @@ TEST(Eval, RefusesWhatIsNoShapeFile) {
 TEST(Eval, NamesWhatThereIsWhenANameIsUnknown) {
   const Ended ended = run_program("eval buses can9");
   EXPECT_EQ(ended.code, 2);
-  EXPECT_NE(ended.error.find(
-                "can9: allowed embedded, embedded_500, embedded_macro_micro, embedded_micro, embedded_micro_single, "
-                "embedded_payload, embedded_single, embedded_three_segment_lab, vcan"),
-            std::string::npos)
+  EXPECT_NE(
+      ended.error.find(
+          "can9: allowed embedded, embedded_500, embedded_macro_micro, embedded_macro_micro_stiff, embedded_micro, "
+          "embedded_micro_single, embedded_payload, embedded_single, embedded_three_segment_lab, vcan"),
+      std::string::npos)
       << ended.error;
 }
 

@@ -28,12 +28,12 @@ void print(std::uint64_t seed, const test::Misalignment& most, const test::Force
   const char* form =
       json ? "{\"seed\": %d, \"most_aside_mm\": %.1f, \"most_tilt_deg\": %.1f, \"captured_s\": %.3f, "
              "\"peak_N\": %.2f, \"peak_Nm\": %.2f, \"base_m\": %.5f, \"after_1s_N\": %.2f, "
-             "\"loaded_s\": %.3f, \"unload_ticks\": %d, \"end\": %d, \"faults\": %d}\n"
+             "\"loaded_s\": %.3f, \"unload_ticks\": %d, \"resisted_N\": %.2f, \"end\": %d, \"faults\": %d}\n"
            : "seed %d, to %.1f mm and %.1f deg: captured %.3f s, %.2f N, %.2f N m, base %.5f m, after 1 s "
-             "%.2f N, loaded %.3f s, %d ticks, end %d, %d faults\n";
+             "%.2f N, loaded %.3f s, %d ticks, overcame %.2f N, end %d, %d faults\n";
   std::printf(form, static_cast<int>(seed), 1e3 * most.aside_m, most.tilt_rad / kDeg, run.captured_s, run.peak_N,
-              run.peak_Nm, run.base_m, run.after_1s_N, run.loaded_s, run.unload_ticks, static_cast<int>(run.end),
-              static_cast<int>(run.faults));
+              run.peak_Nm, run.base_m, run.after_1s_N, run.loaded_s, run.unload_ticks, run.resisted_N,
+              static_cast<int>(run.end), static_cast<int>(run.faults));
   std::fflush(stdout);
 }
 

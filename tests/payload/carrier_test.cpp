@@ -129,6 +129,26 @@ TEST(CarriedPlant, TheAdapterIsWhereTheTableHasItOnceTheBaseIsLockedThere) {
   EXPECT_LT(summary["peaks"]["base_deflection_m"], 0.002);
 }
 
+// req:B26
+TEST(CarriedPlant, AFaultMayWaitForAShareOfTheWay) {
+  const Json scene = scene_table("payload_adapter");
+  bench::TorquePlant plant = plant_of(stiff_pair(10.0), scene);
+  bench::FaultConfig jam;
+  jam.kind = bench::FaultKind::kToolJams;
+  jam.when.carried_above = 0.5;
+  bench::FaultInjector injector({jam});
+  const auto equipment = plant.make_equipment(bench_scene(scene), 1);
+  plant.inject(0, injector);
+  equipment->ask({1, "carry", 0.0});
+  for (std::uint32_t slot = 0; slot < 2750 && !injector.is_on(0); ++slot) {
+    equipment->act(0.004 * slot);
+    plant.integrate(0.004);
+    plant.inject(slot, injector);
+  }
+  ASSERT_TRUE(injector.courses()[0].begun);
+  EXPECT_NEAR(*injector.courses()[0].begun, 1250.0, 2.0) << "half of 10 s at 250 Hz";
+}
+
 TEST(CarriedPlant, APoseThatTheLargeArmDoesNotHaveIsRefused) {
   Json scene = scene_table("payload_adapter");
   scene["payload"]["fetch_pose"] = "nowhere";

@@ -32,6 +32,7 @@ PushRun run_push(ForceRig& rig, serial::PushLaw law, double most_s) {
     if (out.push.end != serial::PushEnd::kCaptured) continue;
     if (run.captured_s < 0.0) {
       run.captured_s = rig.time_s() - began_s;
+      run.resisted_N = rig.axial_N();
       run.unload_ticks = since_message;
     }
     run.set_after_N = std::max(run.set_after_N, out.push.set_N);

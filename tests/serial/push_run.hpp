@@ -13,6 +13,7 @@ struct PushRun {
   double peak_Nm = 0.0;      // of any joint's gear
   double base_m = 0.0;       // the most that the base moved
   double after_1s_N = 0.0;   // at the wrist, a second after capture
+  double resisted_N = 0.0;   // what had to be overcome at the capture, along the axis
   double loaded_s = 0.0;     // from the first contact until less than 5 N are left
   double set_after_N = 0.0;  // the most that is set from the capture on
   int unload_ticks = -1;     // from the message to no set force

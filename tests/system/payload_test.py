@@ -10,7 +10,7 @@ from liana.system import run
 
 FIGURES = (
     "servo_error_m servo_error_deg settling_s lateral_sway_m force_rise_s force_N load_duration_s peak_joint_torque_Nm "
-    "insertion_m unload_s base_deflection_m"
+    "insertion_m unload_s base_deflection_m resisted_N margin_N end_force_N end_torque_Nm base_force_N base_torque_Nm"
 ).split()
 WHOLE_FLIGHT_S = 900  # of wall time, where much else goes on
 TIMELINE = SOURCE / "lua" / "missions" / "payload_timeline.json"

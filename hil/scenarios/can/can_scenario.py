@@ -60,8 +60,9 @@ class CanScenario:
         self.numbers = [] if number is None else number if isinstance(number, list) else [number]
 
     def fault_count(self):
-        planted = self.do or "cross_wired" in (self.calibrate or {}) or "planted" in (self.mission or {})
-        return 1 if planted else 0
+        mission = self.mission or {}
+        planted = self.do or "cross_wired" in (self.calibrate or {}) or "planted" in mission
+        return len(mission.get("faults", [])) or (1 if planted else 0)
 
     def run(self, stand):
         if self.mission:

@@ -10,9 +10,9 @@ from can.system import kHardwarePriority, reset_interfaces
 from liana.system import program
 from scenario_file import expect_that
 
-kFields = {"name": str, "robot": str, "bus": str, "scene": str, "planted": str, "seed": int}
+kFields = {"name": str, "robot": str, "bus": str, "scene": str, "planted": str, "faults": list, "seed": int}
 kOptions = {"robot": "--robot", "scene": "--scene", "planted": "--fault", "seed": "--seed"}
-kExpected = {"outcome": str, "says": str}
+kExpected = {"outcome": str, "says": str, "failed": dict}
 
 
 def put_bench_first(process):
@@ -43,15 +43,25 @@ class MissionRun:
     def go(self):
         reset_interfaces(self.stand.kind)
         with tempfile.TemporaryDirectory(prefix="liana-mission-") as folder:
-            report = self.fly(f"{folder}/report.json")
+            report = self.fly(pathlib.Path(folder))
         self.notes.append(f"{report['duration_s']:.0f} s")
         said = f"{report['outcome']}: {report.get('reason', '')}"
         expect_that(report["outcome"] == self.expect["outcome"], f"the mission ended with {said}")
         expect_that(self.expect.get("says", "") in said, f"'{self.expect.get('says')}' is not in: {said}")
 
-    def fly(self, file):
-        mission = self.scenario.mission
+        for name, why in self.expect.get("failed", {}).items():
+            reasons = [
+                step["reason"] for step in report["steps"] if step["name"] == name and step["outcome"] == "failed"
+            ]
+            expect_that(any(why in reason for reason in reasons), f"no '{name}' failed with '{why}': {reasons}")
+
+    def fly(self, folder):
+        mission, file = self.scenario.mission, folder / "report.json"
         words = [mission["name"], "--bus", mission["bus"], "--time", "real", "--json", file]
+        if "faults" in mission:
+            faults = folder / "faults.json"
+            faults.write_text(json.dumps(mission["faults"]), encoding="utf-8")
+            words += ["--faults", faults]
         for field, option in kOptions.items():
             if field in mission:
                 words += [option, str(mission[field])]

@@ -167,6 +167,7 @@ TEST(SerialRobot, ItsDrivesFollowWhatTheTypesOfItsBusesFollow) {
   EXPECT_EQ(on("micro", "embedded_micro"), "accepted");
   EXPECT_EQ(on("macro_micro", "embedded_payload"), "accepted");
   EXPECT_EQ(on("macro_micro", "embedded_macro_micro"), "accepted");
+  EXPECT_EQ(on("macro_micro_stiff", "embedded_macro_micro_stiff"), "accepted");
   EXPECT_NE(on("macro_micro", "embedded_micro").find("node 1 of bus table embedded_micro is a cia402_csp"),
             std::string::npos);
   EXPECT_NE(on("micro", "embedded_payload").find("use buses whose drives follow positions"), std::string::npos);

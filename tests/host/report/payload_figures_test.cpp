@@ -14,7 +14,8 @@ namespace liana::report {
 namespace {
 
 constexpr double kPeriod_s = 0.01;
-constexpr double kBefore_m = 0.005;  // of the pins from the face, where the servo ends
+constexpr double kHalf = 0.70710678118654752;  // the tip looks along x, two metres before the base
+constexpr double kBefore_m = 0.005;            // of the pins from the face, where the servo ends
 
 // What the truth has in a slot; what is left out is 0.
 struct Moment {
@@ -26,20 +27,24 @@ struct Moment {
 TruthLog truth_of(const std::vector<Moment>& moments) {
   const std::string file =
       testing::TempDir() + "liana-payload-" + testing::UnitTest::GetInstance()->current_test_info()->name() + ".bin";
-  const Json columns = {"slot",        "torque_Nm_1", "base_deflection_m", "contact_x_N",
-                        "contact_y_N", "contact_z_N", "contact_peak_N",    "plate_x_m",
-                        "plate_y_m",   "plate_z_m",   "plate_tilt_deg",    "depth_m_1",
-                        "depth_m_2",   "depth_m_3",   "captured",          "latch",
-                        "lock",        "holder",      "joint_deg_1"};
+  const Json columns = {
+      "slot",           "torque_Nm_1", "base_deflection_m", "contact_x_N", "contact_y_N",    "contact_z_N",
+      "contact_peak_N", "plate_x_m",   "plate_y_m",         "plate_z_m",   "plate_tilt_deg", "depth_m_1",
+      "depth_m_2",      "depth_m_3",   "captured",          "latch",       "lock",           "holder",
+      "joint_deg_1",    "wrist_fx_N",  "wrist_fy_N",        "wrist_fz_N",  "wrist_tx_Nm",    "wrist_ty_Nm",
+      "wrist_tz_Nm",    "tip_x_m",     "tip_y_m",           "tip_z_m",     "tip_qw",         "tip_qx",
+      "tip_qy",         "tip_qz"};
   {
     std::ofstream out(file, std::ios::binary);
     out << Json{{"columns", columns}}.dump() << '\n';
     double slot = 0.0;
     for (const Moment& m : moments) {
       const double row[] = {
-          slot++,     m.torque_Nm, m.base_m, 0.0,        0.0,        -m.pushed_N, std::fabs(m.pushed_N),
-          m.x_m,      m.y_m,       m.z_m,    m.tilt_deg, m.depth_m,  m.depth_m,   m.depth_m,
-          m.captured, 0.0,         m.lock,   1.0,        m.joint_deg};
+          slot++,      m.torque_Nm, m.base_m, 0.0,        0.0,         -m.pushed_N, std::fabs(m.pushed_N),
+          m.x_m,       m.y_m,       m.z_m,    m.tilt_deg, m.depth_m,   m.depth_m,   m.depth_m,
+          m.captured,  0.0,         m.lock,   1.0,        m.joint_deg, 0.0,         0.0,
+          -m.pushed_N, 0.2,         -0.1,     0.0,        2.0,         0.0,         0.0,
+          kHalf,       0.0,         kHalf,    0.0};
       out.write(reinterpret_cast<const char*>(row), sizeof row);
     }
   }
@@ -139,6 +144,22 @@ TEST(PayloadFigures, APushIsJudgedFromItsBeginUntilTheContactIsGone) {
   EXPECT_DOUBLE_EQ(report["base_deflection_m"], 0.005);
 }
 
+// req:B25
+TEST(PayloadFigures, APushTellsSixAxesAtEndAndBaseAndWhatItOvercame) {
+  std::vector<Moment> moments = insertion();
+  moments[50].pushed_N = 70.0;  // before the push: counts for nothing
+  const Json report = figures_of(truth_of(moments), kPush);
+  const double most_N = 25.0 * 699.0 / 700.0;
+  EXPECT_NEAR(report["end_force_N"][2], most_N, 1e-9);
+  EXPECT_NEAR(report["end_torque_Nm"][0], 0.2, 1e-9);
+  EXPECT_NEAR(report["base_force_N"][0], most_N, 1e-9) << "the tip's z is the base's x";
+  EXPECT_NEAR(report["base_force_N"][2], 0.0, 1e-9);
+  EXPECT_NEAR(report["base_torque_Nm"][1], 0.1, 1e-9) << "the force goes through the base";
+  EXPECT_NEAR(report["base_torque_Nm"][2], 0.2, 1e-9);
+  EXPECT_NEAR(report["resisted_N"], 10.0, 1e-9) << "in the slot of the capture";
+  EXPECT_NEAR(report["margin_N"], 20.0, 1e-9) << "of the 30 that were set";
+}
+
 TEST(PayloadFigures, AContactThatComesBackWithinASecondIsNotGone) {
   std::vector<Moment> moments = insertion();
   moments[1050].pushed_N = 6.0;
@@ -155,6 +176,7 @@ TEST(PayloadFigures, ACaptureThatIsOnlyToldUnloadsNothing) {
   for (Moment& m : moments) m.captured = 0.0;
   const Json report = figures_of(truth_of(moments), kPush);
   EXPECT_TRUE(report["unload_s"].is_null());
+  EXPECT_TRUE(report["margin_N"].is_null());
   EXPECT_NEAR(report["insertion_m"], 0.0205, 1e-3);
 }
 

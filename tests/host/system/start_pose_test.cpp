@@ -76,6 +76,7 @@ TEST(Buses, AreTheUsersElseTheRobotsOwnElseMadeForItsDrives) {
   EXPECT_EQ(name("tdcr_benchmark", ""), "bench_6");
   EXPECT_EQ(name("micro", ""), "embedded_micro");
   EXPECT_EQ(name("macro_micro", ""), "embedded_macro_micro");
+  EXPECT_EQ(name("macro_micro_stiff", ""), "embedded_macro_micro_stiff");
 }
 
 }  // namespace
