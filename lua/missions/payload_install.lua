@@ -26,6 +26,7 @@ local kMostTravel_m, kMostAside_m = 0.08, 0.03 -- of a push, from as far beside 
 -- payload of a ton at 5 mm/s gives a stiff one 100 N.
 local kAligned_m, kGently = 0.005, { axial_damping_Ns_per_m = 4200 }
 local kPushLimit_s, kGentleLimit_s = 40, 60 -- a push that has not captured by then is jammed; source: 7 to 8 s
+local kAlmostIn_s = 20 -- more, for one with every pin in but for the last bit: the latch would close while the arm backs off
 local kTries = 2 -- more, after the first
 local kIn_m = 0.018 -- what every pin's sensor reads of a payload that is captured; the adapter itself wants 19.5 mm
 local kHeard_s = 0.1 -- since the adapter's last message
@@ -193,8 +194,11 @@ local push_failed = { text = "push ended without a capture", met = function(arm)
   return false
 end }
 
+local function pins_are_in(arm) return math.min(table.unpack(arm.state.adapter.depth_m)) > kIn_m end
+
 local is_jammed = { text = "jammed", met = function(arm)
   local limit_s = is_gentle and kGentleLimit_s or kPushLimit_s
+  if pins_are_in(arm) then limit_s = limit_s + kAlmostIn_s end
   if arm.elapsed_s(arm.begin_tick) <= limit_s then return false end
   return true, ("jammed: no capture within %g s"):format(limit_s)
 end }
@@ -208,8 +212,7 @@ local function latch_is(state)
 end
 
 local capture_is_a_lie = condition("captured is told, and a pin is not in", function(arm)
-  local adapter = arm.state.adapter
-  return adapter.captured and math.min(table.unpack(adapter.depth_m)) < kIn_m
+  return arm.state.adapter.captured and not pins_are_in(arm)
 end)
 
 local capture_lost = condition("capture lost", function(arm) return not arm.state.adapter.captured end)
@@ -360,7 +363,7 @@ return liana.mission "payload_install" {
     run = push_in,
     exit = captured,
     fail_when = any { push_failed, is_jammed },
-    time_limit_s = kGentleLimit_s + 5,
+    time_limit_s = kGentleLimit_s + kAlmostIn_s + 5,
     on_fail = "hold",
     next = { { step = "3 away from the adapter", when = latch_is "open", on = "failure", at_most = kTries } }, -- not against a latch
   },
