@@ -35,7 +35,7 @@ PUSH_ROWS = [
     ("peak joint torque, N m", "100", "peak_Nm", 1.0),
     ("base gives way, mm", "", "base_m", 1e3),
     ("left 1 s after the capture, N", "5", "after_1s_N", 1.0),
-    ("overcome at the capture, N", "below 30", "resisted_N", 1.0),
+    ("overcome at the capture, N", "30 are set", "resisted_N", 1.0),
     ("loaded, s", "", "loaded_s", 1.0),
     ("ticks from the message to no set force", "2", "unload_ticks", 1),
 ]
@@ -70,7 +70,7 @@ FLIGHT_ROWS = [
     ("insertion, mm", "about 20 (source)", "insertion_m", 1e3),
     ("below 5 N after, s", "1", "unload_s", 1.0),
     ("base gives way, mm", "", "base_deflection_m", 1e3),
-    ("overcome at the capture, N", "below 30", "resisted_N", 1.0),
+    ("overcome at the capture, N", "30 are set", "resisted_N", 1.0),
 ]
 
 

@@ -43,7 +43,7 @@ class Payload(SystemTest):
         self.assertLess(report["unload_s"], 5)
         order = [
             "force control begins",
-            "set force 12.0",
+            "set force 9.0",
             "contact",
             "set force 30.0",
             "captured",
