@@ -108,6 +108,7 @@ void CableArm::take_geometry() noexcept {
 // Targets are not live: lengths follow the drives, and the next enabling starts anew.
 void CableArm::stop_planning() noexcept {
   live_ = false;
+  plan_rate_rad_s_ = ThetaVector{};
   ramp_ = 0.0;
   damping_ = DampingState{};
   lift_N_ = SegmentVector{};
@@ -139,6 +140,25 @@ void CableArm::aim_tensions(const TensionPlan& plan) noexcept {
   tension_.motor_N = in_force_N;
 }
 
+// What the arm's mass takes, as the command has accelerated since the last plan.
+ThetaVector CableArm::inertia_load_Nm() noexcept {
+  const ThetaVector& rate_rad_s = motion_.limiter.rate_rad_s;
+  const Index thetas = as_index(table_.theta_count());
+  ThetaVector accel_rad_s2{}, load_Nm{};
+  for (Index k = 0; k < thetas; ++k)
+    accel_rad_s2[k] = (rate_rad_s[k] - plan_rate_rad_s_[k]) / (kPlanTicks * table_.tick_s);
+  plan_rate_rad_s_ = rate_rad_s;
+  for (Index k = 0; k < thetas; ++k)
+    load_Nm[k] = inertia_torque_Nm(table_, motion_.governor.mass_kg_m2, accel_rad_s2, k);
+  return load_Nm;
+}
+
+void CableArm::govern() noexcept {
+  if (plans_now()) take_room(table_, tension_, motion_.governor);
+  look_at_load(table_, model_.geometry, ratio_, motion_.arm, motion_.held_mask, motion_.shape.tick, !live_,
+               motion_.governor);
+}
+
 std::uint32_t CableArm::plan_tensions(bool plans_now, bool is_sound) noexcept {
   if (ramp_ >= 1.0 && is_sound) keep_taut(table_, estimator_.tension_N, lift_N_);
   if (is_let_go(let_go_)) {  // nothing may lag now
@@ -147,7 +167,7 @@ std::uint32_t CableArm::plan_tensions(bool plans_now, bool is_sound) noexcept {
     planned_N_ = tension_.motor_N;
     tension_change_N_ = CableVector{};
   } else if (plans_now) {
-    aim_tensions(plan_tension(table_, model_.geometry, ratio_, lift_N_));
+    aim_tensions(plan_tension(table_, model_.geometry, ratio_, lift_N_, inertia_load_Nm()));
   }
   // The sum of even parts may end a last bit over the ceiling, and the gate would refuse that.
   for (Index c = 0; c < cables(); ++c)
@@ -179,6 +199,7 @@ std::uint32_t CableArm::propose(const Orders& orders, const DriveCommands& sent,
   const bool is_sound = no_fault && !is_let_go(let_go_);
   std::uint32_t limits = plan_tensions(plans, is_sound);
   dither(is_sound);
+  govern();
   if (!live_) start_ramp(sent);
   CableVector wanted_m = payout_for(table_, layout_, model_.geometry.part_m, ratio_, pull_N_);
   if (ramp_ < 1.0) {

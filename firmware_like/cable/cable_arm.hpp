@@ -114,6 +114,7 @@ class CableArm {
     v("ratio", self.ratio_);
     v("damping", self.damping_);
     v("lift_N", self.lift_N_);
+    v("plan_rate_rad_s", self.plan_rate_rad_s_);
     v("let_go", self.let_go_);
     v("lets_out", self.lets_out_);
     v("tension", self.tension_);
@@ -147,6 +148,8 @@ class CableArm {
   }
   bool plans_now() const noexcept { return !live_ || motion_.shape.tick % kPlanTicks == kPlanTick; }
   void aim_tensions(const TensionPlan& plan) noexcept;
+  ThetaVector inertia_load_Nm() noexcept;
+  void govern() noexcept;
   std::uint32_t plan_tensions(bool plans_now, bool is_sound) noexcept;
   void dither(bool is_sound) noexcept;
   void ramp_payouts(CableVector& wanted_m) const noexcept;
@@ -187,6 +190,7 @@ class CableArm {
   TensionRatio ratio_{};      // planned friction
   DampingState damping_{};
   SegmentVector lift_N_{};          // pulled tighter than planned
+  ThetaVector plan_rate_rad_s_{};   // commanded, when tensions were planned last
   LetGoState let_go_{};             // cables of a segment that has lost one
   std::int32_t missed_ = -1;        // cable, found by watch_drive and judged by watch in the same tick; else -1
   bool lets_out_ = false;           // drums have somewhere to go yet

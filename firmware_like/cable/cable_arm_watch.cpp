@@ -67,11 +67,9 @@ void CableArm::watch_balance(std::uint64_t tick, const FaultList& faults) noexce
     if (friction_.axis != 0 || !balance_.whole) return;
     end_round(table_, torque_limits_, motion_.limiter.rate_rad_s, balance_);
     watch_contact(table_, motion_.arm, balance_, {is_moving(), is_dithering(dither_)}, contact_);
-  } else if (phase == kFrictionTicks - 1) {
-    if (friction_.axis == 0) feel_inertia(table_, motion_.arm, inertia_);
   } else {
-    const std::uint32_t slots = (kFrictionTicks - 3) * narrow<std::uint32_t>(table_.theta_count());
-    const std::uint32_t slot = friction_.axis * (kFrictionTicks - 3) + phase - (phase > kFrictionTicks / 2 ? 2 : 1);
+    const std::uint32_t slots = (kFrictionTicks - 2) * narrow<std::uint32_t>(table_.theta_count());
+    const std::uint32_t slot = friction_.axis * (kFrictionTicks - 2) + phase - (phase > kFrictionTicks / 2 ? 2 : 1);
     const std::uint32_t place = (slot + slots - (kFrictionTicks / 2 - 1)) % slots;  // 0 after the look itself
     if (balance_.whole && place < kPlaces * narrow<std::uint32_t>(table_.segment_count))
       try_place(table_, motion_.arm, place, contact_);
@@ -87,7 +85,7 @@ void CableArm::balance_next_axis(std::uint64_t tick) noexcept {
   // After a dither friction is nowhere, and what angles creep by says nothing of it.
   if (is_dithering(dither_) || contact_.state == ContactState::kDithered)
     fade_slip(layout_, kFrictionTicks * kDitherFade_1_s * kDitherMost * table_.tick_s, balance_.slip);
-  const double inertia_Nm = inertia_torque_Nm(table_, motion_.arm, inertia_, axis);
+  const double inertia_Nm = inertia_torque_Nm(table_, motion_.governor.mass_kg_m2, inertia_.accel_rad_s2, axis);
   const FrictionReadings planned{
       model_.geometry, ratio_,     slip_, wrap_rad_, inertia_.tension_N, table_.friction_mu, motion_.limiter.rate_rad_s,
       inertia_Nm,      is_moving()};

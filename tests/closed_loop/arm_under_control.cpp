@@ -99,16 +99,21 @@ void ArmUnderControl::boot() {
   throw std::runtime_error("closed loop: not enabled within 10 s; first fault " + std::to_string(fault));
 }
 
+void ArmUnderControl::interval(const cable::Telecommand& telecommand, const Observer& observer) {
+  in_.telecommand = telecommand;
+  for (std::int32_t i = 0; i < table_.interval_ticks; ++i) {
+    step();
+    if (observer) observer(*this);
+  }
+}
+
 void ArmUnderControl::follow(double seconds, const Path& path, const Observer& observer) {
   const std::int32_t intervals = to_counts(seconds / (table_.tick_s * table_.interval_ticks)).value;
   for (std::int32_t k = 1; k <= intervals; ++k) {
     const std::uint64_t now = in_.tick + 1;
-    in_.telecommand = Release::make(++sequence_, now, now + narrow<std::uint64_t>(table_.interval_ticks), 1,
-                                    path(static_cast<double>(k) / static_cast<double>(intervals)));
-    for (std::int32_t i = 0; i < table_.interval_ticks; ++i) {
-      step();
-      if (observer) observer(*this);
-    }
+    interval(Release::make(++sequence_, now, now + narrow<std::uint64_t>(table_.interval_ticks), 1,
+                           path(static_cast<double>(k) / static_cast<double>(intervals))),
+             observer);
   }
 }
 

@@ -38,12 +38,15 @@ class ArmUnderControl {
   void wait(double seconds);
   // One telecommand every T_c along `path`.
   void follow(double seconds, const Path& path, const Observer& observer = {});
+  // One interval with this telecommand, or none.
+  void interval(const cable::Telecommand& telecommand, const Observer& observer = {});
   // Minimum jerk in joint space to `goal_rad`.
   void move_joints(const cable::ThetaVector& goal_rad, double seconds, const Observer& observer = {});
   // Asks for where the arm is commanded to be, again and again.
   void hold(double seconds, const Observer& observer = {});
 
   const cable::Outputs& outputs() const { return out_; }
+  const cable::Inputs& inputs() const { return in_; }
   const cable::Controller& controller() const { return controller_; }
   Plant& plant() { return plant_; }
   const cable::RobotTable& table() const { return table_; }

@@ -11,7 +11,6 @@
 #include "firmware_like/math/trig.hpp"
 
 namespace liana::closed_loop {
-namespace {
 
 const config::RobotConfig& robot(const std::string& physics) {
   static std::map<std::string, config::RobotConfig> loaded;
@@ -20,8 +19,6 @@ const config::RobotConfig& robot(const std::string& physics) {
   const config::BusesConfig buses = config::load_buses(CLOSED_LOOP_DATA "/buses.json");
   return loaded.emplace(physics, config::load_robot(CLOSED_LOOP_DATA "/robot.json", physics, buses)).first->second;
 }
-
-}  // namespace
 
 const cable::RobotTable& robot_table(const std::string& physics) { return robot(physics).table; }
 

@@ -5,12 +5,17 @@ namespace {
 
 using Index = std::size_t;
 
-double half_mass_kg(const SegmentTable& segment) noexcept { return 0.5 * segment.modules * segment.module_mass_kg; }
+using NodeVectors = std::array<Vec3, kMaxSegments + 1>;  // [0] = base
 
-// Half of the segment before the node, and of the one after it.
-double node_mass_kg(const RobotTable& table, Index segment) noexcept {
-  const bool is_last = segment + 1 == static_cast<Index>(table.segment_count);
-  return half_mass_kg(table.segment[segment]) + (is_last ? 0.0 : half_mass_kg(table.segment[segment + 1]));
+// What accelerates every node, from segment `first` on, so.
+NodeVectors forces(const RobotTable& table, Index first, const NodeVectors& accel) noexcept {
+  NodeVectors force{};
+  for (Index j = first; j < static_cast<Index>(table.segment_count); ++j) {
+    const double sixth_kg = table.segment[j].modules * table.segment[j].module_mass_kg / 6.0;
+    force[j] = add(force[j], scale(add(scale(accel[j], 2.0), accel[j + 1]), sixth_kg));
+    force[j + 1] = scale(add(accel[j], scale(accel[j + 1], 2.0)), sixth_kg);
+  }
+  return force;
 }
 
 }  // namespace
@@ -36,26 +41,25 @@ void follow_acceleration(const RobotTable& table, const ThetaVector& theta_rad, 
   }
 }
 
-void feel_inertia(const RobotTable& table, const ArmKinematics& kinematics, BodyInertiaState& state) noexcept {
-  for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j) {
-    Vec3 accel_m_s2{};
-    const auto node = static_cast<std::int32_t>(j + 1);
-    for (std::int32_t k = 0; k < 2 * node; ++k) {
-      const double angle_rad_s2 = state.accel_rad_s2[static_cast<Index>(k)];
-      accel_m_s2 = add(accel_m_s2, scale(node_jacobian_column(kinematics, node, k), angle_rad_s2));
+void update_mass_matrix(const RobotTable& table, const ArmKinematics& kinematics, MassMatrix& mass) noexcept {
+  const Index thetas = static_cast<Index>(table.theta_count()), segments = thetas / 2;
+  std::array<NodeVectors, kMaxTheta> moves{};  // of every node when theta k turns by 1 rad
+  for (Index k = 0; k < thetas; ++k) {
+    for (Index i = k / 2 + 1; i <= segments; ++i)
+      moves[k][i] = node_jacobian_column(kinematics, static_cast<std::int32_t>(i), static_cast<std::int32_t>(k));
+    const NodeVectors force = forces(table, k / 2, moves[k]);
+    for (Index l = 0; l <= k; ++l) {
+      double torque_Nm = 0.0;
+      for (Index i = k / 2; i <= segments; ++i) torque_Nm += dot(moves[l][i], force[i]);
+      mass[k][l] = mass[l][k] = torque_Nm;
     }
-    state.force_N[j] = scale(accel_m_s2, node_mass_kg(table, j));
   }
 }
 
-double inertia_torque_Nm(const RobotTable& table, const ArmKinematics& kinematics, const BodyInertiaState& state,
+double inertia_torque_Nm(const RobotTable& table, const MassMatrix& mass, const ThetaVector& accel_rad_s2,
                          Index axis) noexcept {
   double torque_Nm = 0.0;
-  for (Index j = axis / 2; j < static_cast<Index>(table.segment_count); ++j) {
-    const Vec3 column =
-        node_jacobian_column(kinematics, static_cast<std::int32_t>(j + 1), static_cast<std::int32_t>(axis));
-    torque_Nm += dot(column, state.force_N[j]);
-  }
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) torque_Nm += mass[axis][k] * accel_rad_s2[k];
   return torque_Nm;
 }
 

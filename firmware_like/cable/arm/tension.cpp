@@ -17,12 +17,6 @@ double smooth_maximum(double a, double b, double width) noexcept {
   return 0.5 * (a + b + std::sqrt(d * d + width * width));
 }
 
-// The two equations of one segment, [p; q] x = rhs, over its own cables.
-struct SegmentBalance {
-  AnchoredVector p{}, q{};
-  double pp = 0.0, pq = 0.0, qq = 0.0, det = 0.0;
-};
-
 void complete(Index n, SegmentBalance& b) noexcept {
   for (Index i = 0; i < n; ++i) {
     b.pp += b.p[i] * b.p[i];
@@ -74,36 +68,77 @@ Shifts shifts_for(const AnchoredVector& t, const AnchoredVector& null, Index n, 
   return s;
 }
 
+// What the cables from `first` on, those of later segments, turn segment j's angles by.
+std::array<double, 2> torque_beyond(const RobotTable& table, const TensionSolver& solver, const CableVector& tension_N,
+                                    Index first, Index j) noexcept {
+  double pitch = 0.0, yaw = 0.0;
+  for (Index c = first; c < static_cast<Index>(table.cable_count()); ++c) {
+    pitch += solver.pull_m[c][2 * j] * tension_N[c];
+    yaw += solver.pull_m[c][2 * j + 1] * tension_N[c];
+  }
+  return {pitch, yaw};
+}
+
+double spread_of(const AnchoredVector& t, const CableVector& pull_N, Index first, Index n) noexcept {
+  double least = t[0] - pull_N[first], most = least;
+  for (Index i = 1; i < n; ++i) {
+    least = smaller(least, t[i] - pull_N[first + i]);
+    most = larger(most, t[i] - pull_N[first + i]);
+  }
+  return most - least;
+}
+
 }  // namespace
 
+TensionSolver tension_solver(const RobotTable& table, const CableGeometry& geometry,
+                             const TensionRatio& ratio) noexcept {
+  TensionSolver solver;
+  Index c = 0;
+  for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
+    const Index n = static_cast<Index>(table.segment[m].cables);
+    for (Index i = 0; i < n; ++i, ++c) {
+      for (Index k = 0; k < 2 * (m + 1); ++k) solver.pull_m[c][k] = geometry.jacobian_m_rad[c][k] * ratio[c][k / 2];
+      solver.segment[m].p[i] = solver.pull_m[c][2 * m];
+      solver.segment[m].q[i] = solver.pull_m[c][2 * m + 1];
+    }
+    complete(n, solver.segment[m]);
+  }
+  return solver;
+}
+
+CableVector pulls_for(const RobotTable& table, const TensionSolver& solver, const ThetaVector& load_Nm) noexcept {
+  CableVector pull_N{};
+  Index first = static_cast<Index>(table.cable_count());
+  for (Index j = static_cast<Index>(table.segment_count); j-- > 0;) {
+    const Index n = static_cast<Index>(table.segment[j].cables);
+    const auto beyond = torque_beyond(table, solver, pull_N, first, j);
+    first -= n;
+    if (!is_solvable(solver.segment[j])) continue;
+    const AnchoredVector t =
+        solve(solver.segment[j], n, -load_Nm[2 * j] - beyond[0], -load_Nm[2 * j + 1] - beyond[1]);
+    for (Index i = 0; i < n; ++i) pull_N[first + i] = t[i];
+  }
+  return pull_N;
+}
+
 TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio,
-                         const SegmentVector& lift_N) noexcept {
+                         const SegmentVector& lift_N, const ThetaVector& load_Nm) noexcept {
   TensionPlan plan;
-  const Index cables = static_cast<Index>(table.cable_count());
-  Index first = cables;
+  const TensionSolver solver = tension_solver(table, geometry, ratio);
+  const CableVector pull_N = pulls_for(table, solver, load_Nm);
+  Index first = static_cast<Index>(table.cable_count());
   const double scale = table.tension.scale(), width_N = kSmoothWidth_N * scale;
   const double margin_N =
       scale *
       (table.friction_mu > kMarginFriction ? kFloorMargin_N * kMarginFriction / table.friction_mu : kFloorMargin_N);
-  for (std::int32_t m = table.segment_count - 1; m >= 0; --m) {
-    const Index j = static_cast<Index>(m);
+  for (Index j = static_cast<Index>(table.segment_count); j-- > 0;) {
     const Index n = static_cast<Index>(table.segment[j].cables);
+    const auto beyond = torque_beyond(table, solver, plan.motor_N, first, j);
     first -= n;
-    double rhs_pitch = 0.0, rhs_yaw = 0.0;  // torque of the cables that go on to later segments
-    for (Index c = first + n; c < cables; ++c) {
-      const double t = ratio[c][j] * plan.motor_N[c];
-      rhs_pitch -= geometry.jacobian_m_rad[c][2 * j] * t;
-      rhs_yaw -= geometry.jacobian_m_rad[c][2 * j + 1] * t;
-    }
-    SegmentBalance balance;
-    for (Index i = 0; i < n; ++i) {
-      balance.p[i] = geometry.jacobian_m_rad[first + i][2 * j] * ratio[first + i][j];
-      balance.q[i] = geometry.jacobian_m_rad[first + i][2 * j + 1] * ratio[first + i][j];
-    }
-    complete(n, balance);
+    const SegmentBalance& balance = solver.segment[j];
     AnchoredVector t{}, null{};
     if (is_solvable(balance)) {
-      t = solve(balance, n, rhs_pitch, rhs_yaw);
+      t = solve(balance, n, -load_Nm[2 * j] - beyond[0], -load_Nm[2 * j + 1] - beyond[1]);
       null = pull_together(balance, n);
       const double level_N = table.tension.plan_N + smaller(0.0, lift_N[j]);
       for (Index i = 0; i < n; ++i) t[i] += level_N * null[i];
@@ -111,6 +146,7 @@ TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry,
       plan.balanced = false;
       t.fill(table.tension.plan_N);
     }
+    plan.spread_N[j] = spread_of(t, pull_N, first, n);
     // The margin over the floor gives way to the ceiling, the floor itself does not.
     const Shifts s = shifts_for(t, null, n, table.tension, margin_N + lift_N[j], width_N);
     const double shift = smooth_maximum(s.least, -smooth_maximum(-s.wanted, -s.most, width_N), width_N);

@@ -1,6 +1,7 @@
 // Tension plan and elongation: what the motors must pull so that the arm stands where the kinematics says.
 //
-// Balance B^T t = 0 with B = dL/dtheta weighted by friction (physics study, section 2). Segments are swept from the tip
+// Balance B^T t = -Q with B = dL/dtheta weighted by friction (physics study, section 2) and Q the torque that the arm's
+// mass takes as it is commanded to accelerate: cables that are pulled so, and lengthened so, leave no swing behind. Segments are swept from the tip
 // to the root: the cables of a segment are the only ones left that turn its two angles, so each sweep solves two
 // equations for its cables and has freedom left to bring them near the planned tension and above the floor. All
 // formulas are smooth, so that tensions never jump.
@@ -25,16 +26,33 @@ constexpr double kCeilingShare = 0.8;
 
 struct TensionPlan {
   CableVector motor_N{};
+  SegmentVector spread_N{};       // between the cables of each segment, without the load
   bool floor_acted = false;       // tension was raised to keep the floor
   bool ceiling_exceeded = false;  // a planned tension is over the ceiling of free motion
   bool balanced = true;           // false: a segment's cables cannot turn both angles (degenerate table)
 };
 
+// The two equations of one segment, [p; q] t = rhs, over its own cables, and what all cables do to its angles.
+struct SegmentBalance {
+  std::array<double, kMaxSegmentCables> p{}, q{};
+  double pp = 0.0, pq = 0.0, qq = 0.0, det = 0.0;
+};
+struct TensionSolver {
+  std::array<SegmentBalance, kMaxSegments> segment{};
+  std::array<ThetaVector, kMaxCables> pull_m{};  // torque about each theta per newton at the motor
+};
+TensionSolver tension_solver(const RobotTable& table, const CableGeometry& geometry,
+                             const TensionRatio& ratio) noexcept;
+
+// Least changes of tension, segment by segment from the tip, that give `load_Nm` about each theta; zero where a segment
+// cannot turn both of its angles. Linear. Cost: two operations per cable and theta that it passes.
+CableVector pulls_for(const RobotTable& table, const TensionSolver& solver, const ThetaVector& load_Nm) noexcept;
+
 // Plan at one pose around the table's level at the motor, every segment `lift_N` further above the floor (zero: as
-// planned without measurements; below zero: so much lower, the floor itself kept). Residual torque is below 1e-9 N m
-// when balanced.
+// planned without measurements; below zero: so much lower, the floor itself kept), with `load_Nm` about each theta for
+// the cables to give. Residual torque is below 1e-9 N m when balanced.
 TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio,
-                         const SegmentVector& lift_N) noexcept;
+                         const SegmentVector& lift_N, const ThetaVector& load_Nm = {}) noexcept;
 
 // Friction that the plan does not know can take a cable further down than the margin. A segment whose lowest measured
 // tension nears the floor is pulled tighter, which turns no joint. First order, slower than the arm's modes. The more

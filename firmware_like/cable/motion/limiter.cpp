@@ -44,7 +44,7 @@ void reset_limiter(const ThetaVector& theta_rad, LimiterState& state) noexcept {
 }
 
 StepShare allowed_share(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& step_rad,
-                        const LimiterState& state) noexcept {
+                        const GovernorState& governor, const LimiterState& state) noexcept {
   constexpr double kPathShare = 0.95;  // of speeds; the rest is for making up a lag
   const double change = table.limits.theta_accel_rad_s2 * table.tick_s;
   ThetaVector rate{};
@@ -60,7 +60,8 @@ StepShare allowed_share(const RobotTable& table, const CableGeometry& geometry, 
   const double allowed = kPathShare * table.limits.theta_rate_rad_s;
   const double by_rate = fastest > allowed ? allowed / fastest : 1.0;
   const double by_cable = cable_factor(table, geometry, rate, kPathShare * kCableShare);
-  const double by_accel = larger(most, least);
+  const LoadShares load = shares_in_room(table, rate, state.rate_rad_s, governor);
+  const double by_accel = larger(smaller(most, load.most), larger(least, load.least));
   StepShare out{smaller(smaller(by_rate, by_cable), by_accel), 0};
   if (out.share == 1.0) return out;
   if (by_rate <= out.share) out.limits |= kLimitThetaRate;

@@ -5,6 +5,7 @@
 
 #include "firmware_like/cable/arm/cables.hpp"
 #include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/motion/governor.hpp"
 
 namespace liana::cable {
 
@@ -18,7 +19,7 @@ struct LimiterState {
 // Starts at rest at theta.
 void reset_limiter(const ThetaVector& theta_rad, LimiterState& state) noexcept;
 
-// Share (0..1) of a step of one tick [rad] that rate, cable speed and acceleration allow, and the LimitBits that keep
+// Share (0..1) of a step of one tick [rad] that rate, cable speed, acceleration and the room for it allow, and the LimitBits that keep
 // it below 1. Whoever takes only this share of his motion slows down on his path instead of being left behind by the
 // limiter. Joints that would have to brake harder than they can come before joints that would have to speed up faster.
 struct StepShare {
@@ -26,7 +27,7 @@ struct StepShare {
   std::uint32_t limits = 0;
 };
 StepShare allowed_share(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& step_rad,
-                        const LimiterState& state) noexcept;
+                        const GovernorState& governor, const LimiterState& state) noexcept;
 
 // One tick towards `reference` (which may move). Follows exactly while its rate and acceleration are inside the limits;
 // otherwise it lags and comes back along a braking parabola, past a standing reference by accel tick^2 / 8 at most

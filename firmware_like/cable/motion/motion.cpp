@@ -14,6 +14,7 @@ using Index = std::size_t;
 constexpr double kHeldShare = 0.4;  // of the theta limits that held variables use on their way
 constexpr double kHeldBrakeAccel =
     0.3;  // of the theta acceleration limit; others make up for it with up to three times
+constexpr double kBrakeRoom = 0.8;  // of the room for acceleration, where joints brake
 constexpr double kBehind =
     1e-4;  // m and rad: from here the target does not wait, or a blocked arm could not be led away
 constexpr double kHeldNear_rad = 2e-6;    // from here a held variable that has slowed down
@@ -118,7 +119,7 @@ FollowStep follow_tip(const RobotTable& table, const CableGeometry& geometry, bo
                       MotionState& state) noexcept {
   const Pose target_before = state.filter.pose;
   const ThetaVector ik_before = state.ik_rad;
-  const TipFilterConfig config = tip_filter_config(table, state.to.tip_speed_m_s);
+  const TipFilterConfig config = tip_filter_config(table, state.to.tip_speed_m_s, state.governor);
   if (braking) {
     brake_tip(config, state.filter);
     brake_held(table, state);
@@ -132,7 +133,7 @@ FollowStep follow_tip(const RobotTable& table, const CableGeometry& geometry, bo
 
   ThetaVector step{};
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) step[k] = state.ik_rad[k] - ik_before[k];
-  const StepShare allowed = allowed_share(table, geometry, step, state.limiter);
+  const StepShare allowed = allowed_share(table, geometry, step, state.governor, state.limiter);
   state.limits |= allowed.limits;
   if (allowed.share < 1.0) slow_down(table, allowed.share, target_before, ik_before, ik_step, state);
   return ik_step;
@@ -160,7 +161,8 @@ void brake_joints(const RobotTable& table, MotionState& state) noexcept {
   const double per_m = fastest / larger(norm(tip.linear_m_s), 1e-9);
   const double per_rad = fastest / larger(norm(tip.angular_rad_s), 1e-9);
   const MotionLimits& limits = table.limits;
-  const double own = limits.theta_accel_rad_s2;
+  const double taken = room_taken(table, state.limiter.rate_rad_s, state.governor);
+  const double own = smaller(limits.theta_accel_rad_s2, kBrakeRoom * fastest / (kBrakeAccel * larger(taken, 1e-9)));
   const FilterBounds bounds{
       limits.theta_rate_rad_s,
       smaller(kBrakeAccel * own, smaller(per_m * limits.tip_accel_m_s2, per_rad * limits.tip_angular_accel_rad_s2)),
@@ -181,11 +183,15 @@ void take_kinematics(const RobotTable& table, MotionState& state) noexcept {
 
 }  // namespace
 
-TipFilterConfig tip_filter_config(const RobotTable& table, double tip_speed_m_s) noexcept {
+TipFilterConfig tip_filter_config(const RobotTable& table, double tip_speed_m_s,
+                                  const GovernorState& governor) noexcept {
   const MotionLimits& limits = table.limits;
   const bool lowered = tip_speed_m_s > 0.0 && tip_speed_m_s < limits.tip_speed_m_s;
-  const FilterBounds linear{limits.tip_speed_m_s, limits.tip_accel_m_s2, limits.tip_jerk_m_s3};
-  const FilterBounds angular{limits.tip_rate_rad_s, limits.tip_angular_accel_rad_s2, limits.tip_angular_jerk_rad_s3};
+  const double linear_share = governor.linear_share, angular_share = governor.angular_share;
+  const FilterBounds linear{limits.tip_speed_m_s, linear_share * limits.tip_accel_m_s2,
+                            linear_share * limits.tip_jerk_m_s3};
+  const FilterBounds angular{limits.tip_rate_rad_s, angular_share * limits.tip_angular_accel_rad_s2,
+                             angular_share * limits.tip_angular_jerk_rad_s3};
   return {with_lag(linear, limits.tip_lag_s, lowered ? tip_speed_m_s : limits.tip_speed_m_s),
           with_lag(angular, limits.tip_lag_s, limits.tip_rate_rad_s), table.tick_s};
 }
@@ -203,6 +209,7 @@ Twist tip_twist(const RobotTable& table, const MotionState& state) noexcept {
 void reset_motion(const RobotTable& table, const ThetaVector& theta_rad, MotionState& state) noexcept {
   state = MotionState{};
   state.ik_rad = theta_rad;
+  state.governor.room_N.fill(kGovernorLeast_N * table.tension.scale());
   reset_limiter(theta_rad, state.limiter);
   take_kinematics(table, state);
   state.filter.pose = state.arm.tip_in_base;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "firmware_like/cable/arm/setpoint.hpp"
+#include "firmware_like/cable/motion/governor.hpp"
 #include "firmware_like/cable/motion/limiter.hpp"
 #include "firmware_like/cable/motion/servo_ik.hpp"
 #include "firmware_like/cable/shape/shape.hpp"
@@ -35,11 +36,14 @@ struct MotionState {
   ArmTrig trig{};        // of the commanded angles (limiter.theta_rad)
   ArmKinematics arm{};   // at the commanded angles
   IkReport ik{};
+  GovernorState governor{};  // of where the command stands, a moment ago
   std::uint32_t limits = 0;  // LimitBit of this tick
 };
 
-// Bounds of the tip filter from the robot table; `tip_speed_m_s` may lower the linear speed (0 = the robot's).
-TipFilterConfig tip_filter_config(const RobotTable& table, double tip_speed_m_s) noexcept;
+// Bounds of the tip filter from the robot table; `tip_speed_m_s` may lower the linear speed (0 = the robot's), the
+// governor the accelerations.
+TipFilterConfig tip_filter_config(const RobotTable& table, double tip_speed_m_s,
+                                  const GovernorState& governor = {}) noexcept;
 
 // Stands still at theta.
 void reset_motion(const RobotTable& table, const ThetaVector& theta_rad, MotionState& state) noexcept;

@@ -1,0 +1,50 @@
+// How hard the arm may be accelerated here: as hard as its cables can, between their floor and the ceiling of free
+// motion, at the pose where it stands.
+//
+// Torque that accelerates the arm is a change of tensions, planned with the motion (arm/tension.hpp). What a pose leaves
+// of the way from floor to ceiling is the room for it. The governor keeps, for every cable, the tension that a unit of
+// acceleration of each angle takes: G = D M, M the mass matrix and D the plan's own sweep from torques to tensions.
+// The tip filter's accelerations are bounded so that G a stays in the room whichever way the tip goes, and a tick's
+// motion so that it does in fact: an explicit reference governor (docs/governor.md, where others are compared).
+#pragma once
+
+#include "firmware_like/cable/arm/body_inertia.hpp"
+#include "firmware_like/cable/arm/tension.hpp"
+
+namespace liana::cable {
+
+// Newtons below are those of an arm that plans 40 N, taken times TensionLimits::scale.
+constexpr double kGovernorKeep_N = 8.0;         // over the floor, for friction and swing that no plan knows
+constexpr double kGovernorCeiling = 0.95;       // of the ceiling
+constexpr double kGovernorLeast_N = 4.0;        // room where a pose leaves none: the way out of it
+constexpr double kGovernorTip = 0.7;            // of the room, for the tip's way alone and for its turn alone
+constexpr std::uint32_t kGovernorTicks = 10;    // it looks anew in so many ticks
+
+struct GovernorState {
+  MassMatrix mass_kg_m2{};
+  std::array<ThetaVector, kMaxCables> pull_N_s2{};  // G: newtons per rad/s2
+  SegmentVector room_N{};                           // of each segment's cables, up as down
+  double linear_share = 1.0, angular_share = 1.0;   // of the table's limits of the tip's acceleration and jerk
+};
+
+// Room for the cables of every segment under a plan at rest.
+void take_room(const RobotTable& table, const TensionPlan& plan, GovernorState& state) noexcept;
+
+// One tick of the look: dear work is spread over the cycle's ticks 5, 6, 8 and 9, which have little else to do; all of
+// it at once with `whole`. Cost: 5,000 instructions in one of these ticks.
+void look_at_load(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio,
+                  const ArmKinematics& arm, std::uint32_t held_mask, std::uint32_t tick, bool whole,
+                  GovernorState& state) noexcept;
+
+// Share of the room that this acceleration takes; over 1: more than there is.
+double room_taken(const RobotTable& table, const ThetaVector& accel_rad_s2, const GovernorState& state) noexcept;
+
+// Shares s of a tick's step with least <= |s| <= most for which acceleration from `now` stays in the room: (s asked -
+// now) / tick.
+struct LoadShares {
+  double least = 0.0, most = 1.0;
+};
+LoadShares shares_in_room(const RobotTable& table, const ThetaVector& asked_rad_s, const ThetaVector& now_rad_s,
+                          const GovernorState& state) noexcept;
+
+}  // namespace liana::cable

@@ -1,0 +1,68 @@
+#include "verified_arm.hpp"
+
+#include "fixture.hpp"
+#include "host/verify/model_watch.hpp"
+#include "host/verify/verify.hpp"
+
+namespace liana::closed_loop {
+
+namespace {
+
+using cable::CableArm;
+
+arbiter::SpeedZone zone_of(const config::SceneConfig& scene) {
+  return {scene.slit, robot_table().limits.tip_speed_slit_m_s};
+}
+
+const config::SceneConfig& scene_if(bool with_scene) {
+  static const config::SceneConfig none;
+  return with_scene ? scene() : none;
+}
+
+}  // namespace
+
+VerifiedArm::VerifiedArm(const PlantSetup& setup, bool with_scene)
+    : zone_(zone_of(scene_if(with_scene))),
+      arm_(setup),
+      arbiter_(arm_.table(), zone_),
+      end_(simulate::arm_model(robot(setup.physics)),
+           verify::MotionRules{arm_.table(), scene_if(with_scene), zone_, {}, robot(setup.physics).module_radius_m}) {
+  arm_.boot();
+}
+
+void VerifiedArm::interval(const ArmUnderControl::Observer& observer) {
+  const cable::Telecommand in_force = next_;
+  verify_next(in_force);
+  arm_.interval(in_force, observer);
+}
+
+void VerifiedArm::verify_next(const cable::Telecommand& in_force) {
+  next_ = {};
+  const auto interval = static_cast<std::uint64_t>(arm_.table().interval_ticks);
+  verify::TwinImage<CableArm> image(arm_.table());
+  image.next_tick = arm_.inputs().tick + 1;
+  image.fresh = false;
+  image.controller = arm_.controller();
+  image.last_inputs = arm_.inputs();
+  image.last_outputs = arm_.outputs();
+  const auto setpoint = arbiter_.next_setpoint(image.next_tick, arm_.outputs());
+  end_.watch(image);
+  if (!setpoint) return;
+  const verify::Candidate<CableArm> candidate =
+      release_.candidate(*setpoint, 1, image.next_tick + interval, interval);
+  verify::Twin<CableArm>::run(image, {&in_force, 1}, candidate, verify::max_stop_ticks(arm_.table().tick_s),
+                              prediction_);
+  end_.begin(image, candidate, prediction_);
+  verify::ExecutionVerdict execution = verify::judge_execution<CableArm>(arm_.table(), candidate, prediction_, zone_);
+  simulation_ = end_.verdict(verify::kWhenever);
+  verify::judge_model(arm_.table(), arm_.outputs(), execution);
+  if (const auto released = release_.release(candidate, execution, simulation_)) {
+    next_ = *released;
+    return;
+  }
+  const verify::Verdict& worst = execution.passed() ? static_cast<const verify::Verdict&>(simulation_) : execution;
+  refused_.push_back({time_s(), worst.code, worst.text});
+  arbiter_.refused(worst.text);
+}
+
+}  // namespace liana::closed_loop
