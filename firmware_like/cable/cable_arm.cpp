@@ -129,7 +129,11 @@ void CableArm::start_ramp(const DriveCommands& sent) noexcept {
 // What is in force goes evenly to where the plan will be when the next one is made: it never jumps, and does not lag.
 void CableArm::aim_tensions(const TensionPlan& plan) noexcept {
   const CableVector in_force_N = live_ ? tension_.motor_N : plan.motor_N;
-  if (!live_) planned_N_ = plan.motor_N;
+  const ThetaVector in_force_Nm = live_ ? tension_.load_Nm : plan.load_Nm;
+  if (!live_) planned_N_ = plan.motor_N, planned_Nm_ = plan.load_Nm;
+  for (Index k = 0; k < as_index(table_.theta_count()); ++k)
+    load_change_Nm_[k] = (2.0 * plan.load_Nm[k] - planned_Nm_[k] - in_force_Nm[k]) / kPlanTicks;
+  planned_Nm_ = plan.load_Nm;
   for (Index c = 0; c < cables(); ++c) {
     const double ahead_N = smaller(table_.tension.ceiling_free_N, 2.0 * plan.motor_N[c] - planned_N_[c]);
     const double next_N = larger(table_.tension.floor_motor_N, ahead_N);
@@ -138,6 +142,7 @@ void CableArm::aim_tensions(const TensionPlan& plan) noexcept {
   planned_N_ = plan.motor_N;
   tension_ = plan;
   tension_.motor_N = in_force_N;
+  tension_.load_Nm = in_force_Nm;
 }
 
 // What the arm's mass takes, as the command has accelerated since the last plan.
@@ -165,6 +170,7 @@ std::uint32_t CableArm::plan_tensions(bool plans_now, bool is_sound) noexcept {
     tension_ = is_loose(let_go_) ? plan_without(table_, layout_, model_.geometry, ratio_, let_go_.segment)
                                  : plan_tension(table_, model_.geometry, ratio_, lift_N_);
     planned_N_ = tension_.motor_N;
+    planned_Nm_ = load_change_Nm_ = ThetaVector{};
     tension_change_N_ = CableVector{};
   } else if (plans_now) {
     aim_tensions(plan_tension(table_, model_.geometry, ratio_, lift_N_, inertia_load_Nm()));
@@ -172,6 +178,7 @@ std::uint32_t CableArm::plan_tensions(bool plans_now, bool is_sound) noexcept {
   // The sum of even parts may end a last bit over the ceiling, and the gate would refuse that.
   for (Index c = 0; c < cables(); ++c)
     tension_.motor_N[c] = smaller(table_.tension.ceiling_free_N, tension_.motor_N[c] + tension_change_N_[c]);
+  for (Index k = 0; k < as_index(table_.theta_count()); ++k) tension_.load_Nm[k] += load_change_Nm_[k];
   std::uint32_t limits = 0;
   if (tension_.floor_acted) limits |= kLimitTensionFloor;
   if (tension_.ceiling_exceeded) limits |= kLimitTensionCeiling;
@@ -292,6 +299,7 @@ void CableArm::report(Report& out) const noexcept {
   out.tip_rate_rad_s = norm(tip.angular_rad_s);
   for (Index m = 0; m < as_index(table_.segment_count); ++m)
     out.node_command_m[m] = motion_.arm.node_in_base[m + 1].position_m;
+  out.load_Nm = tension_.load_Nm;
   out.tension_plan_N = pull_N_;
   out.tension_measured_N = tension_measured_N_;
   out.payout_command_m = payout_command_m_;

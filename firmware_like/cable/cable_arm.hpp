@@ -120,6 +120,8 @@ class CableArm {
     v("tension", self.tension_);
     v("tension_change_N", self.tension_change_N_);
     v("planned_N", self.planned_N_);
+    v("load_change_Nm", self.load_change_Nm_);
+    v("planned_Nm", self.planned_Nm_);
     v("dither", self.dither_);
     v("pull_N", self.pull_N_);
     v("payout_command_m", self.payout_command_m_);
@@ -197,6 +199,7 @@ class CableArm {
   TensionPlan tension_{};           // in force
   CableVector tension_change_N_{};  // of it in each tick until the next plan
   CableVector planned_N_{};         // of the last plan
+  ThetaVector load_change_Nm_{}, planned_Nm_{};  // the same of the load
   DitherState dither_{};
   CableVector pull_N_{};  // planned, with the dither in it
   CableVector payout_command_m_{};

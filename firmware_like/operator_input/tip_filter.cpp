@@ -44,6 +44,19 @@ Vec3 ahead(const FilterBounds& bounds, const Vec3& target_velocity) noexcept {
   return scale(saturate(target_velocity, bounds.speed).value, bounds.lead_s);
 }
 
+// Takes the outward part of a channel's velocity away as far as the leash says; returns what was taken.
+Vec3 taken_back(double free, double most, const Vec3& lead, ChannelState& channel) noexcept {
+  const double far = norm(lead);
+  if (far <= free) return {};
+  const Vec3 outward = scale(lead, 1.0 / far);
+  const double speed = dot(channel.velocity, outward), accel = dot(channel.acceleration, outward);
+  if (speed <= 0.0) return {};
+  const Vec3 taken = scale(outward, speed * smaller(1.0, (far - free) / (most - free)));
+  channel.velocity = subtract(channel.velocity, taken);
+  if (accel > 0.0) channel.acceleration = subtract(channel.acceleration, scale(outward, accel));
+  return taken;
+}
+
 // Integrates both channels into the pose.
 void move_pose(double tick_s, TipFilterState& state) noexcept {
   state.pose.position_m = add(state.pose.position_m, scale(state.linear.velocity, tick_s));
@@ -105,6 +118,14 @@ void filter_tip(const TipFilterConfig& config, const Pose& target, TipFilterStat
   state.speed_limited = linear.speed || angular.speed;
   state.accel_limited = linear.accel || angular.accel;
   move_pose(config.tick_s, state);
+}
+
+void hold_back(const Leash& leash, const std::array<double, 6>& lead, double tick_s, TipFilterState& state) noexcept {
+  const Vec3 move = taken_back(leash.free_m, leash.most_m, {lead[0], lead[1], lead[2]}, state.linear);
+  const Vec3 turn = taken_back(leash.free_rad, leash.most_rad, {lead[3], lead[4], lead[5]}, state.angular);
+  state.pose.position_m = subtract(state.pose.position_m, scale(move, tick_s));
+  if (dot(turn, turn) > 0.0)
+    state.pose.quaternion = normalize(multiply(quaternion_of(scale(turn, -tick_s)), state.pose.quaternion));
 }
 
 void brake_tip(const TipFilterConfig& config, TipFilterState& state) noexcept {

@@ -11,6 +11,7 @@
 // (least_lag_s()).
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "firmware_like/math/pose.hpp"
@@ -76,6 +77,16 @@ FilterBounds with_lag(const FilterBounds& bounds, double lag_s, double speed) no
 
 // One tick towards `target`. A target that is not a valid pose is ignored: the filter brakes instead.
 void filter_tip(const TipFilterConfig& config, const Pose& target, TipFilterState& state) noexcept;
+
+// How far the filter may lead an arm that does not come after it: freely up to `free`, and not beyond `most`.
+struct Leash {
+  double free_m = 0.0, most_m = 0.0;
+  double free_rad = 0.0, most_rad = 0.0;
+};
+
+// Takes back, of the tick just made, what leads further away from an arm that is `lead` behind already (position [m],
+// rotation vector [rad]; filter less arm). What leads back, or beside, stays: a blocked arm can be led away.
+void hold_back(const Leash& leash, const std::array<double, 6>& lead, double tick_s, TipFilterState& state) noexcept;
 
 // One tick of braking along the path: velocity to zero within the same bounds (brake_channel).
 void brake_tip(const TipFilterConfig& config, TipFilterState& state) noexcept;

@@ -82,13 +82,14 @@ CablePaths cable_paths(const ArmModel& model, const ThetaVector& theta_rad) {
   return paths;
 }
 
-CableColumn balanced_tensions(const CablePaths& paths, const CableColumn& wanted_N, double floor_N) {
+CableColumn balanced_tensions(const CablePaths& paths, const CableColumn& wanted_N, double floor_N,
+                              const algebra::ThetaColumn& load_Nm) {
   const CableMatrix& jacobian = paths.jacobian_m_rad;
   const algebra::ThetaMatrix normal = jacobian.transpose().lazyProduct(jacobian);
   const Eigen::LLT<algebra::ThetaMatrix> solver(normal);
   CableColumn tension_N = wanted_N;
   for (int turn = 0; turn < kMostTurns; ++turn) {
-    const algebra::ThetaColumn torque = jacobian.transpose().lazyProduct(tension_N);
+    const algebra::ThetaColumn torque = load_Nm + jacobian.transpose().lazyProduct(tension_N);
     tension_N -= jacobian.lazyProduct(algebra::ThetaColumn(solver.solve(torque)));
     if (tension_N.minCoeff() >= floor_N - kFloorRounding_N) break;
     if (turn + 1 < kMostTurns) tension_N = tension_N.cwiseMax(floor_N + 1.0);

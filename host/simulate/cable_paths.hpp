@@ -21,9 +21,13 @@ struct CablePaths {
 };
 CablePaths cable_paths(const ArmModel& model, const ThetaVector& theta_rad);
 
-// Tensions [N] that hold the arm still, J^T t = 0, none below `floor_N`: nearest to `wanted_N`, by turns projected on
-// balance and raised to the floor. They are balanced to rounding; the floor is kept where 50 turns reach it.
-CableColumn balanced_tensions(const CablePaths& paths, const CableColumn& wanted_N, double floor_N);
+// Tensions [N] that give `load_Nm` about each theta, J^T t = -load, none below `floor_N`: nearest to `wanted_N`, by turns
+// projected on balance and raised to the floor. They are balanced to rounding; the floor is kept where 50 turns reach it.
+CableColumn balanced_tensions(const CablePaths& paths, const CableColumn& wanted_N, double floor_N,
+                              const algebra::ThetaColumn& load_Nm);
+inline CableColumn balanced_tensions(const CablePaths& paths, const CableColumn& wanted_N, double floor_N) {
+  return balanced_tensions(paths, wanted_N, floor_N, algebra::ThetaColumn::Zero(paths.jacobian_m_rad.cols()));
+}
 
 // Most that friction may turn every angle by [N m]: what cables of these tensions would hold at one end of the band
 // more than at its middle, all the same way.

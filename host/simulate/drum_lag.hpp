@@ -1,34 +1,33 @@
-// Where the drums want the angles while the drives follow what they are told: first order, the same for all of them.
+// Where drums, or angles, are while the drives follow what they are told: first order, the same for all of them.
 #pragma once
 
 #include <cmath>
 
-#include "host/algebra/thetas.hpp"
-
 namespace liana::simulate {
 
+template <class Column>
 class DrumLag {
  public:
-  // At the start the drives have followed a motion of `rate_rad_s` for long.
-  DrumLag(double time_constant_s, double step_s, const algebra::ThetaColumn& told_rad,
-          const algebra::ThetaColumn& rate_rad_s)
+  DrumLag() = default;
+  // At the start the drives have followed a motion of `rate` for long.
+  DrumLag(double time_constant_s, double step_s, const Column& told, const Column& rate)
       : tau_s_(time_constant_s),
         step_s_(step_s),
         left_(std::exp(-step_s / time_constant_s)),
-        told_rad_(told_rad),
-        drums_rad_(told_rad - time_constant_s * rate_rad_s) {}
+        told_(told),
+        now_(told - time_constant_s * rate) {}
 
-  // A step in which the drives are told a straight way on to `told_rad`: the exact solution.
-  void step(const algebra::ThetaColumn& told_rad) {
-    const algebra::ThetaColumn behind_rad = tau_s_ / step_s_ * (told_rad - told_rad_);
-    drums_rad_ = told_rad - behind_rad + left_ * (drums_rad_ - told_rad_ + behind_rad);
-    told_rad_ = told_rad;
+  // A step in which the drives are told a straight way on to `told`: the exact solution.
+  void step(const Column& told) {
+    const Column behind = tau_s_ / step_s_ * (told - told_);
+    now_ = told - behind + left_ * (now_ - told_ + behind);
+    told_ = told;
   }
-  const algebra::ThetaColumn& drums_rad() const { return drums_rad_; }
+  const Column& now() const { return now_; }
 
  private:
-  double tau_s_, step_s_, left_;
-  algebra::ThetaColumn told_rad_, drums_rad_;
+  double tau_s_ = 0.0, step_s_ = 0.0, left_ = 0.0;
+  Column told_, now_;
 };
 
 }  // namespace liana::simulate

@@ -25,12 +25,12 @@ bool LinearArm::solve(const ArmModel& model, const ThetaVector& about_rad, doubl
   if (moving.info() != Eigen::Success || standing.info() != Eigen::Success) return false;
   keep_ = moving.solve(mass_);
   follow_ = moving.solve(0.5 * step_s * stiffness_);
-  give_rad_Nm_ = standing.solve(ThetaMatrix::Identity(mass_.rows(), mass_.cols())).cwiseAbs();
+  by_torque_rad_Nm_ = standing.solve(ThetaMatrix::Identity(mass_.rows(), mass_.cols()));
   return true;
 }
 
-void LinearArm::step(const ThetaColumn& drums_rad, Swing& swing) const {
-  const ThetaColumn push = swing.rate_rad_s + 0.5 * damping_1_s_ * (drums_rad - swing.drums_rad);
+void LinearArm::step(const ThetaColumn& drums_rad, const ThetaColumn& told_rad, Swing& swing) const {
+  const ThetaColumn push = swing.rate_rad_s + 0.5 * damping_1_s_ * told_rad;
   const ThetaColumn pull = 0.5 * (drums_rad + swing.drums_rad) - swing.theta_rad;
   ThetaColumn middle(push.size());
   middle.noalias() = keep_ * push;

@@ -1,6 +1,6 @@
 // Arm and drives about one pose: inertia, elasticity and damping held constant there, the equations solved once.
 //
-//   M v' = -K (x - w) - D v - c M (v - w'),   w: where the drums want the angles x
+//   M v' = -K (x - w) - D v - c M (v - u'),   w: where the drums want the angles x, u: what they are told to be
 //
 // D is the joints' viscous friction, c the core's damping of swings. What is left out: Coriolis forces (rates below
 // 2 deg/s make them a ten-thousandth of the others), the change of M and K with the pose (Simulation solves anew after
@@ -23,16 +23,18 @@ class LinearArm {
   // cannot hold the arm). About 60,000 instructions for ten angles.
   bool solve(const ArmModel& model, const ThetaVector& about_rad, double step_s);
 
-  // One step while the drums go on to `drums_rad`: the rule of the middle point, which neither adds energy nor takes
-  // any and is stable for steps of any length.
-  void step(const algebra::ThetaColumn& drums_rad, Swing& swing) const;
+  // One step while the drums go on to `drums_rad` and the arm is told to turn by `told_rad`, which it is damped about:
+  // the rule of the middle point, which neither adds energy nor takes any and is stable for steps of any length.
+  void step(const algebra::ThetaColumn& drums_rad, const algebra::ThetaColumn& told_rad, Swing& swing) const;
 
-  // How much tighter every cable is than at rest [N] when the arm is that far from where the drums want it.
-  CableColumn stretch_N(const Swing& swing) const {
-    return pull_N_rad_ * algebra::ThetaColumn(swing.theta_rad - swing.drums_rad);
-  }
+  // By how much the drums want the angles beyond where they are to be, for cables that give this torque there.
+  algebra::ThetaColumn beyond_rad(const algebra::ThetaColumn& load_Nm) const { return by_torque_rad_Nm_ * load_Nm; }
+  // How much tighter every cable is [N] when the arm is that far from where they were planned for.
+  CableColumn stretch_N(const algebra::ThetaColumn& off_rad) const { return pull_N_rad_ * off_rad; }
   // By how much torques that do not tell their sign may turn every angle.
-  algebra::ThetaColumn band_rad(const algebra::ThetaColumn& torque_Nm) const { return give_rad_Nm_ * torque_Nm; }
+  algebra::ThetaColumn band_rad(const algebra::ThetaColumn& torque_Nm) const {
+    return by_torque_rad_Nm_.cwiseAbs() * torque_Nm;
+  }
 
   const CablePaths& paths() const { return paths_; }
   const algebra::ThetaMatrix& mass() const { return mass_; }
@@ -44,7 +46,7 @@ class LinearArm {
   CablePaths paths_;
   algebra::ThetaMatrix mass_, stiffness_;
   algebra::ThetaMatrix keep_, follow_;  // v_middle = keep (v + h c / 2 w') + follow (w_middle - x)
-  algebra::ThetaMatrix give_rad_Nm_;    // |K^-1|, entry by entry
+  algebra::ThetaMatrix by_torque_rad_Nm_;  // K^-1
   CableMatrix pull_N_rad_;
 };
 

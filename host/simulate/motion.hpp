@@ -10,7 +10,8 @@ namespace liana::simulate {
 // Where the arm is found when the sequence begins.
 struct StartState {
   ThetaVector theta_rad{};   // measured
-  ThetaVector rate_rad_s{};  // measured
+  ThetaVector rate_rad_s{};  // estimated (ArmObserver)
+  ThetaVector ahead_rad{};   // where the drums want the arm, less where it is, friction left out: what swings it
   CableVector tension_N{};   // measured, at the motor; all zero: as the simulation itself would plan them
   Pose drawing_in_base{};    // where the scene stands: of the frame that its table is drawn in
 };
@@ -22,7 +23,12 @@ struct ToldRows {
   double interval_s = 0.0;
   std::vector<Joints> rows_rad;
 };
-using JointSequence = ToldRows<ThetaVector>;
+
+// The same of a cable arm, with what its tensions are planned to do; both empty: as planned_with makes them.
+struct JointSequence : ToldRows<ThetaVector> {
+  std::vector<ThetaVector> loads_Nm;    // about each theta
+  std::vector<CableVector> tensions_N;  // at the motor
+};
 
 // The arm at one moment.
 struct Moment {

@@ -14,19 +14,10 @@ using algebra::ThetaColumn;
 using algebra::view;
 using Index = std::size_t;
 
-constexpr double kPlannedFloor =
-    1.5;  // assumed, times the table's floor: where tensions are planned without measured ones
-
-ThetaColumn column(const ThetaVector& theta, Eigen::Index count) { return view(theta, count); }
-
 ThetaVector vector(const ThetaColumn& theta) {
   ThetaVector out{};
   view(out, theta.size()) = theta;
   return out;
-}
-
-double largest_change(const ThetaColumn& a, const ThetaVector& b) {
-  return (a - view(b, a.size())).cwiseAbs().maxCoeff();
 }
 
 double length_m(const RobotTable& table) {
@@ -57,32 +48,21 @@ double turn_between_rad(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 
 }  // namespace
 
-bool Simulation::solve(const ThetaVector& about_rad) {
-  about_rad_ = about_rad;
-  return arm_.solve(model_, about_rad, step_s_);
+ToldNow Simulation::told(const JointSequence& sequence, std::size_t row) const {
+  const Eigen::Index thetas = algebra::theta_count(model_.table);
+  return {view(sequence.rows_rad[row], thetas), view(sequence.loads_Nm[row], thetas),
+          Eigen::Map<const CableColumn>(sequence.tensions_N[row].data(), model_.table.cable_count())};
 }
 
-// What is measured differs from what would be planned here by friction, gains and the core's own way of planning: taken
-// as it is all the way.
-void Simulation::plan_tensions(const StartState* start) {
-  const Eigen::Index cables = arm_.paths().stiffness_N_per_m.size();
-  const TensionLimits& limits = model_.table.tension;
-  tension_N_ = balanced_tensions(arm_.paths(), CableColumn::Constant(cables, limits.plan_N),
-                                 kPlannedFloor * limits.floor_motor_N);
-  if (start != nullptr) {
-    const Eigen::Map<const CableColumn> measured_N(start->tension_N.data(), cables);
-    tension_measured_N_ =
-        measured_N.isZero() ? CableColumn(CableColumn::Zero(cables)) : CableColumn(measured_N - tension_N_);
-  }
-  tension_N_ += tension_measured_N_;
-
-  const ThetaColumn band_rad = arm_.band_rad(friction_torque(model_, arm_.paths(), tension_N_));
+void Simulation::look_at_friction(const CableColumn& tension_N) {
+  const CablePaths& paths = arm_.equations().paths();
+  const ThetaColumn band_rad = arm_.equations().band_rad(friction_torque(model_, paths, tension_N));
   auto most_rad = view(motion_.friction_band_rad, band_rad.size());
   most_rad = most_rad.cwiseMax(band_rad);
   const double mu = (1.0 + model_.friction_band) * model_.table.friction_mu;
-  for (Eigen::Index c = 0; c < cables; ++c) {
+  for (Eigen::Index c = 0; c < tension_N.size(); ++c) {
     double& least = motion_.least_passed_share[static_cast<Index>(c)];
-    least = std::min(least, std::exp(-mu * arm_.paths().wrap_rad[c]));
+    least = std::min(least, std::exp(-mu * paths.wrap_rad[c]));
   }
 }
 
@@ -95,8 +75,9 @@ void Simulation::add_to_way(const ThetaVector& theta_rad) {
   way_.add({axis_m.data(), points}, turned_rad);
 }
 
-void Simulation::note(const Swing& swing) {
+void Simulation::note() {
   const std::vector<Moment>& so_far = motion_.moments;
+  const Swing& swing = arm_.swing();
   const Eigen::Matrix3d tip_before = chain_.rotation[static_cast<Index>(chain_.links)];
   Moment now;
   now.time_s = static_cast<double>(so_far.size()) * step_s_;
@@ -112,20 +93,9 @@ void Simulation::note(const Swing& swing) {
       now.node_speed_m_s[m] = norm(subtract(now.node_in_base_m[m], so_far.back().node_in_base_m[m])) / step_s_;
   }
   if (!so_far.empty()) now.tip_rate_rad_s = turn_between_rad(tip_before, chain_.rotation[link]) / step_s_;
-  const CableColumn tension_N = tension_N_ + arm_.stretch_N(swing);
+  const CableColumn tension_N = arm_.tension_N();
   Eigen::Map<CableColumn>(now.tension_N.data(), tension_N.size()) = tension_N;
   motion_.moments.push_back(now);
-}
-
-void Simulation::step(DrumLag& lag, const ThetaColumn& told_rad, Swing& swing) {
-  const ThetaColumn before_rad = lag.drums_rad();
-  lag.step(told_rad);
-  arm_.step(swing.drums_rad + (lag.drums_rad() - before_rad), swing);
-  if (largest_change(swing.theta_rad, about_rad_) > kNewPose_rad) {
-    motion_.solved = motion_.solved && solve(vector(swing.theta_rad));
-    if (motion_.solved) plan_tensions(nullptr);
-  }
-  note(swing);
 }
 
 void Simulation::place_told(const JointSequence& sequence) {
@@ -147,29 +117,39 @@ void Simulation::measure_distances(const Pose& drawing_in_base) {
   measure_to_itself(way_, step_s_, look, motion_.distances);
 }
 
-const Motion& Simulation::run(const StartState& start, const JointSequence& sequence) {
-  const Eigen::Index thetas = algebra::theta_count(model_.table);
+void Simulation::follow(const JointSequence& sequence) {
+  const auto step = [&](const ToldNow& told) {
+    const int solved = arm_.times_solved();
+    motion_.solved = arm_.step(told);
+    note();
+    if (arm_.times_solved() != solved) look_at_friction(arm_.tension_N());
+  };
+  const std::size_t last = sequence.rows_rad.size() - 1;
+  for (Index row = 1; row <= last && motion_.solved; ++row) {
+    const ToldNow from = told(sequence, row - 1), to = told(sequence, row);
+    for (int i = 1; i <= kStepsPerInterval && motion_.solved; ++i)
+      step(from.to(to, static_cast<double>(i) / kStepsPerInterval));
+  }
+  const int after = static_cast<int>(std::ceil(kSwingOut_s / step_s_));
+  for (int i = 0; i < after && motion_.solved; ++i) step(told(sequence, last));
+}
+
+const Motion& Simulation::run(const StartState& start, const JointSequence& asked) {
+  const JointSequence made = asked.loads_Nm.empty() ? planned_with(model_, asked) : JointSequence{};
+  const JointSequence& sequence = asked.loads_Nm.empty() ? made : asked;
   step_s_ = sequence.interval_s / kStepsPerInterval;
   motion_.moments.clear();
   place_told(sequence);
   motion_.friction_band_rad.fill(0.0);
   motion_.least_passed_share.fill(1.0);
   way_.begin(length_m(model_.table));
-  motion_.solved = solve(start.theta_rad);
+  // The drives have followed an even motion to the first row, as it goes on from there.
+  const ToldNow now = told(sequence, 0), next = told(sequence, 1);
+  motion_.solved = arm_.begin(start, next.to(now, 2.0), now, sequence.interval_s, step_s_);
   if (!motion_.solved) return motion_;
-  plan_tensions(&start);
-
-  const auto told = [&](Index row) { return column(sequence.rows_rad[row], thetas); };
-  DrumLag lag(model_.table.servo_time_constant_s, step_s_, told(0), (told(1) - told(0)) / sequence.interval_s);
-  // The arm is where it is measured: where it stands beside the drums' angles it is held by friction, and stays so.
-  Swing swing{column(start.theta_rad, thetas), column(start.rate_rad_s, thetas), column(start.theta_rad, thetas)};
-  note(swing);
-  for (Index row = 1; row < sequence.rows_rad.size() && motion_.solved; ++row) {
-    for (int i = 1; i <= kStepsPerInterval; ++i)
-      step(lag, told(row - 1) + (told(row) - told(row - 1)) * (static_cast<double>(i) / kStepsPerInterval), swing);
-  }
-  const int after = static_cast<int>(std::ceil(kSwingOut_s / step_s_));
-  for (int i = 0; i < after && motion_.solved; ++i) step(lag, told(sequence.rows_rad.size() - 1), swing);
+  note();
+  look_at_friction(arm_.tension_N());
+  follow(sequence);
   measure_distances(start.drawing_in_base);
   return motion_;
 }

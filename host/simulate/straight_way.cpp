@@ -42,8 +42,8 @@ JointSequence straight_way(const RobotTable& table, const ThetaVector& from_rad,
                            double duration_s, double interval_s) {
   double way_rad = 0.0;
   for (std::size_t k = 0; k < from_rad.size(); ++k) way_rad = std::max(way_rad, std::fabs(to_rad[k] - from_rad[k]));
-  return way_between(from_rad, to_rad, end_s(way_rad, table.limits.theta_accel_rad_s2, duration_s), duration_s,
-                     interval_s);
+  const double ends_s = end_s(way_rad, table.limits.theta_accel_rad_s2, duration_s);
+  return {way_between(from_rad, to_rad, ends_s, duration_s, interval_s), {}, {}};
 }
 
 ToldRows<serial::JointVector> straight_way(const serial::RobotTable& table, const serial::JointVector& from_rad,

@@ -9,7 +9,39 @@ namespace {
 
 using cable::CableArm;
 
-constexpr double kRateFilter_s = 0.4;
+simulate::ToldNow told_now(const cable::RobotTable& table, const cable::Outputs& now) {
+  const Eigen::Index thetas = algebra::theta_count(table);
+  return {algebra::view(now.theta_command_rad, thetas), algebra::view(now.load_Nm, thetas),
+          Eigen::Map<const simulate::CableColumn>(now.tension_plan_N.data(), table.cable_count())};
+}
+
+template <class Vector>
+Vector between(const Vector& from, const Vector& to, double share) {
+  Vector out = from;
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] += share * (to[i] - from[i]);
+  return out;
+}
+
+// What tensions are planned to do at the rows.
+void read_plan(const TwinImage<CableArm>& image, const Candidate<CableArm>& candidate,
+               const Prediction<CableArm>& prediction, simulate::JointSequence& out) {
+  const auto interval = static_cast<std::size_t>(image.controller.table().interval_ticks);
+  const std::size_t last = prediction.ticks.size() - 1;
+  const cable::Outputs &now = image.last_outputs, &begins = prediction.ticks.front();
+  out.loads_Nm.assign(1, now.load_Nm);
+  out.tensions_N.assign(1, now.tension_plan_N);
+  const auto rows = (candidate.first_tick() - image.next_tick) / interval;
+  for (std::uint64_t row = 1; row <= rows; ++row) {
+    const double share = static_cast<double>(row * interval) / static_cast<double>(rows * interval + 1);
+    out.loads_Nm.push_back(between(now.load_Nm, begins.load_Nm, share));
+    out.tensions_N.push_back(between(now.tension_plan_N, begins.tension_plan_N, share));
+  }
+  for (std::size_t tick = interval - 1; tick < last + interval; tick += interval) {
+    const cable::Outputs& told = prediction.ticks[std::min(tick, last)];
+    out.loads_Nm.push_back(told.load_Nm);
+    out.tensions_N.push_back(told.tension_plan_N);
+  }
+}
 
 }  // namespace
 
@@ -42,34 +74,23 @@ LIANA_READ_SEQUENCE(serial::SerialArm);
 #undef LIANA_READ_SEQUENCE
 
 SimulationEnd<CableArm>::SimulationEnd(const simulate::ArmModel& arm, const MotionRules& rules)
-    : rules_(rules), worker_(arm, rules.scene, kEnough_m) {}
+    : rules_(rules), worker_(arm, rules.scene, kEnough_m), observer_(arm) {}
 
-// Rates: what the drives are told now, and how much faster or slower the arm was measured to go of late. The measured
-// change alone would be noise over 20 ms, and too late over longer times. Before the arm is homed its angles mean
-// nothing.
+// Before the arm is homed its angles mean nothing.
 void SimulationEnd<CableArm>::watch(const TwinImage<CableArm>& image) {
   const cable::Outputs& now = image.last_outputs;
   const double since_s = static_cast<double>(image.next_tick - watched_tick_) * rules_.table.tick_s;
   if (since_s <= 0.0) return;
   if (now.state != OperatingState::kEnabled) too_near_.forget();
-  const double share = std::fmin(1.0, since_s / kRateFilter_s);
-  for (std::size_t k = 0; k < start_.theta_rad.size(); ++k) {
-    const double measured_rad = now.theta_measured_rad[k] - start_.theta_rad[k];
-    const double told_rad = now.theta_command_rad[k] - told_rad_[k];
-    ahead_rad_s_[k] += share * ((measured_rad - told_rad) / since_s - ahead_rad_s_[k]);
-    if (now.homed == 0 || std::fabs(ahead_rad_s_[k]) > rules_.table.limits.theta_rate_rad_s) ahead_rad_s_[k] = 0.0;
-    start_.rate_rad_s[k] = now.theta_rate_rad_s[k] + ahead_rad_s_[k];
-  }
-  start_.theta_rad = now.theta_measured_rad;
-  start_.tension_N = now.tension_measured_N;
-  told_rad_ = now.theta_command_rad;
+  if (now.homed == 0) observer_.forget();
+  observer_.watch(now.theta_measured_rad, now.tension_measured_N, told_now(rules_.table, now), since_s);
   watched_tick_ = image.next_tick;
 }
 
 void SimulationEnd<CableArm>::believe(const cable::ThetaVector& theta_off_rad, const Pose& drawing_in_base,
                                       double prediction_m) {
   theta_off_rad_ = theta_off_rad;
-  start_.drawing_in_base = rules_.drawing_in_base = drawing_in_base;
+  rules_.drawing_in_base = drawing_in_base;
   rules_.scene.margins.prediction_m = prediction_m;
 }
 
@@ -78,7 +99,9 @@ void SimulationEnd<CableArm>::begin(const TwinImage<CableArm>& image, const Cand
   number_ = candidate.sequence();
   comes_to_rest_ = prediction.comes_to_rest;
   read_sequence(image, candidate, prediction, sequence_);
-  simulate::StartState start = start_;
+  read_plan(image, candidate, prediction, sequence_);
+  simulate::StartState start = observer_.now();
+  start.drawing_in_base = rules_.drawing_in_base;
   for (std::size_t k = 0; k < start.theta_rad.size(); ++k) start.theta_rad[k] += theta_off_rad_[k];
   begun_ = worker_.begin(start, sequence_);
 }

@@ -5,6 +5,7 @@
 
 #include "host/arbiter/cable_kind.hpp"
 #include "host/arbiter/serial_kind.hpp"
+#include "host/simulate/arm_observer.hpp"
 #include "host/simulate/worker.hpp"
 #include "host/verify/judge_serial.hpp"
 #include "host/verify/judge_simulated.hpp"
@@ -37,6 +38,8 @@ class SimulationEnd<cable::CableArm> {
   // From now on: what is known of arm and scene beside the measured angles and the drawing. `prediction_m` takes the
   // place of the scene's own; angles and placement are those of a StartState.
   void believe(const cable::ThetaVector& theta_off_rad, const Pose& drawing_in_base, double prediction_m);
+  // How the arm is and swings, as watched last.
+  const simulate::StartState& estimate() const { return observer_.now(); }
   // Begins with what the candidate makes the controller tell its drives, from where the arm is measured to be.
   void begin(const TwinImage<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction);
   // The verdict on what was begun; refused as kNoVerdict where it takes longer than `patience_s`.
@@ -45,10 +48,8 @@ class SimulationEnd<cable::CableArm> {
  private:
   MotionRules rules_;
   simulate::Worker worker_;
-  simulate::StartState start_;
+  simulate::ArmObserver observer_;
   cable::ThetaVector theta_off_rad_{};  // believed angles less measured ones
-  cable::ThetaVector told_rad_{};       // when last watched
-  cable::ThetaVector ahead_rad_s_{};    // by how much the arm goes faster than it is told
   simulate::JointSequence sequence_;
   TooNear too_near_;
   std::uint64_t number_ = 0;  // of the candidate

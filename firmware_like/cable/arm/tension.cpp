@@ -124,6 +124,7 @@ CableVector pulls_for(const RobotTable& table, const TensionSolver& solver, cons
 TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio,
                          const SegmentVector& lift_N, const ThetaVector& load_Nm) noexcept {
   TensionPlan plan;
+  plan.load_Nm = load_Nm;
   const TensionSolver solver = tension_solver(table, geometry, ratio);
   const CableVector pull_N = pulls_for(table, solver, load_Nm);
   Index first = static_cast<Index>(table.cable_count());

@@ -21,11 +21,12 @@ namespace liana::cable {
 constexpr double kFloorMargin_N = 22.0;
 constexpr double kMarginFriction =
     0.08;  // above this mu the margin shrinks with 1 / mu: friction spreads tensions, and less fits under the ceiling
-// Of the ceiling, up to which that margin may raise tensions: with 0.7 a cable came down to 12.8 N in a crossing.
-constexpr double kCeilingShare = 0.8;
+// Of the ceiling, up to which that margin may raise tensions.
+constexpr double kCeilingShare = 0.92;
 
 struct TensionPlan {
   CableVector motor_N{};
+  ThetaVector load_Nm{};          // that they give about each theta
   SegmentVector spread_N{};       // between the cables of each segment, without the load
   bool floor_acted = false;       // tension was raised to keep the floor
   bool ceiling_exceeded = false;  // a planned tension is over the ceiling of free motion

@@ -73,6 +73,19 @@ void update_shares(const RobotTable& table, const Jacobian& J, std::uint32_t hel
   state.angular_share = angular > kGovernorTip ? kGovernorTip / angular : 1.0;
 }
 
+// What each theta may brake with by itself, with a part of the room.
+void update_accels(const RobotTable& table, GovernorState& state) noexcept {
+  for (Index k = 0; k < thetas(table); ++k) {
+    double taken = kGovernorTip / (kGovernorAlone * table.limits.theta_accel_rad_s2);
+    Index c = 0;
+    for (Index j = 0; j < thetas(table) / 2; ++j) {
+      for (std::int32_t i = 0; i < table.segment[j].cables; ++i, ++c)
+        taken = larger(taken, std::fabs(state.pull_N_s2[c][k]) / state.room_N[j]);
+    }
+    state.accel_rad_s2[k] = kGovernorTip / taken;
+  }
+}
+
 double dot_thetas(const RobotTable& table, const ThetaVector& a, const ThetaVector& b) noexcept {
   double sum = 0.0;
   for (Index k = 0; k < thetas(table); ++k) sum += a[k] * b[k];
@@ -84,7 +97,7 @@ double dot_thetas(const RobotTable& table, const ThetaVector& a, const ThetaVect
 void take_room(const RobotTable& table, const TensionPlan& plan, GovernorState& state) noexcept {
   const TensionLimits& limits = table.tension;
   const double between_N =
-      kGovernorCeiling * limits.ceiling_free_N - limits.floor_motor_N - kGovernorKeep_N * limits.scale();
+      kCeilingShare * limits.ceiling_free_N - limits.floor_motor_N - kGovernorKeep_N * limits.scale();
   for (Index j = 0; j < thetas(table) / 2; ++j)
     state.room_N[j] = larger(kGovernorLeast_N * limits.scale(), 0.5 * (between_N - plan.spread_N[j]));
 }
@@ -99,7 +112,10 @@ void look_at_load(const RobotTable& table, const CableGeometry& geometry, const 
     if (whole || tick == 6) update_pulls(table, solver, 0, half, state);
     if (whole || tick == 8) update_pulls(table, solver, half, thetas(table), state);
   }
-  if (whole || tick == 9) update_shares(table, arm.tip_jacobian, held_mask, state);
+  if (whole || tick == 9) {
+    update_shares(table, arm.tip_jacobian, held_mask, state);
+    update_accels(table, state);
+  }
 }
 
 double room_taken(const RobotTable& table, const ThetaVector& accel_rad_s2, const GovernorState& state) noexcept {

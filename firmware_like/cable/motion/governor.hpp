@@ -14,9 +14,9 @@
 namespace liana::cable {
 
 // Newtons below are those of an arm that plans 40 N, taken times TensionLimits::scale.
-constexpr double kGovernorKeep_N = 8.0;         // over the floor, for friction and swing that no plan knows
-constexpr double kGovernorCeiling = 0.95;       // of the ceiling
+constexpr double kGovernorKeep_N = 15.0;        // over the floor, for friction and swing that no plan knows
 constexpr double kGovernorLeast_N = 4.0;        // room where a pose leaves none: the way out of it
+constexpr double kGovernorAlone = 0.4;          // of a theta's acceleration limit, where it slows down by itself
 constexpr double kGovernorTip = 0.7;            // of the room, for the tip's way alone and for its turn alone
 constexpr std::uint32_t kGovernorTicks = 10;    // it looks anew in so many ticks
 
@@ -24,6 +24,7 @@ struct GovernorState {
   MassMatrix mass_kg_m2{};
   std::array<ThetaVector, kMaxCables> pull_N_s2{};  // G: newtons per rad/s2
   SegmentVector room_N{};                           // of each segment's cables, up as down
+  ThetaVector accel_rad_s2{};                       // of each theta alone that stays in the room
   double linear_share = 1.0, angular_share = 1.0;   // of the table's limits of the tip's acceleration and jerk
 };
 

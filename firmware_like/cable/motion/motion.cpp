@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "firmware_like/cable/shape/shape.hpp"
+#include "firmware_like/math/braking.hpp"
 #include "firmware_like/math/scalar.hpp"
 #include "firmware_like/safety/limits.hpp"
 
@@ -14,6 +15,7 @@ using Index = std::size_t;
 constexpr double kHeldShare = 0.4;  // of the theta limits that held variables use on their way
 constexpr double kHeldBrakeAccel =
     0.3;  // of the theta acceleration limit; others make up for it with up to three times
+constexpr Leash kLeash{0.001, 0.004, 0.001, 0.008};  // the target waits for an arm that does not come after it
 constexpr double kBrakeRoom = 0.8;  // of the room for acceleration, where joints brake
 constexpr double kBehind =
     1e-4;  // m and rad: from here the target does not wait, or a blocked arm could not be led away
@@ -99,12 +101,28 @@ const ShapePace& shape_pace(const RobotTable& table, bool braking, const MotionS
 
 IkGoal ik_goal(const MotionState& state) noexcept { return {state.filter.pose, state.held_mask, kTipCurvature_m}; }
 
+// How far every theta may go in this tick so that it can brake before its limit with what it may brake with by itself:
+// the others take over smoothly, before it stands. One that is faster already slows down so.
+FollowBounds bounds_before_limits(const RobotTable& table, const MotionState& state) noexcept {
+  const double h = table.tick_s;
+  FollowBounds out{state.limiter.theta_rad, {}, {}};
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
+    const double theta = state.limiter.theta_rad[k], rate = state.limiter.rate_rad_s[k];
+    const double accel = state.governor.accel_rad_s2[k], limit = table.segment[k / 2].theta_limit_rad;
+    const double up = larger(braking_speed(larger(0.0, limit - theta), accel, h), rate - accel * h);
+    const double down = larger(braking_speed(larger(0.0, limit + theta), accel, h), -rate - accel * h);
+    out.most_rad[k] = smaller(limit, theta + up * h);
+    out.least_rad[k] = larger(-limit, theta - down * h);
+  }
+  return out;
+}
+
 // Shape and servo IK: angles for the filtered target, from kinematics where the command stands.
 FollowStep solve_tip(const RobotTable& table, bool braking, MotionState& state) noexcept {
   const ThetaVector move = shape_move(table, state.arm, state.to.node, state.to.clear, state.held_mask, braking,
                                       shape_pace(table, braking, state), state.ik_rad, state.shape);
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) state.ik_rad[k] += move[k];
-  return follow_ik(table, ik_goal(state), state.arm, state.limiter.theta_rad, state.ik_rad);
+  return follow_ik(table, ik_goal(state), state.arm, bounds_before_limits(table, state), state.ik_rad);
 }
 
 // How the servo IK did, where the command stands now.
@@ -125,6 +143,7 @@ FollowStep follow_tip(const RobotTable& table, const CableGeometry& geometry, bo
     brake_held(table, state);
   } else {
     filter_tip(config, interpolated_target(table, state), state.filter);
+    hold_back(kLeash, state.ik.residual, table.tick_s, state.filter);
     advance_held(table, state);
   }
   if (state.filter.speed_limited) state.limits |= kLimitTipSpeed;
@@ -210,6 +229,7 @@ void reset_motion(const RobotTable& table, const ThetaVector& theta_rad, MotionS
   state = MotionState{};
   state.ik_rad = theta_rad;
   state.governor.room_N.fill(kGovernorLeast_N * table.tension.scale());
+  state.governor.accel_rad_s2.fill(kGovernorAlone * table.limits.theta_accel_rad_s2);
   reset_limiter(theta_rad, state.limiter);
   take_kinematics(table, state);
   state.filter.pose = state.arm.tip_in_base;

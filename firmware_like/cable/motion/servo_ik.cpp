@@ -117,12 +117,14 @@ void take_share(const Jacobian& J, Index k, double moved, Task& e) noexcept {
 // Sets thetas that the step would carry over their limit onto it; returns those newly fixed and takes their share from
 // e.
 std::uint32_t clip_to_limits(const RobotTable& table, const Jacobian& J, std::uint32_t fixed, const ThetaVector& step,
-                             ThetaVector& theta, Task& e) noexcept {
+                             const FollowBounds* within, ThetaVector& theta, Task& e) noexcept {
   std::uint32_t clipped = 0;
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
     const double limit = limit_of(table, k), wanted = theta[k] + step[k];
-    if ((wanted <= limit && wanted >= -limit) || is_set(fixed, k)) continue;
-    const double bound = wanted > limit ? limit : -limit;
+    const double most = within != nullptr ? within->most_rad[k] : limit;
+    const double least = within != nullptr ? within->least_rad[k] : -limit;
+    if ((wanted <= most && wanted >= least) || is_set(fixed, k)) continue;
+    const double bound = wanted > most ? most : least;
     const double moved = bound - theta[k];
     clipped |= 1u << k;
     theta[k] = bound;  // theta + moved may be a rounding beyond it
@@ -145,7 +147,7 @@ struct DampedMove {
 };
 
 DampedMove move_damped(const RobotTable& table, const Jacobian& J, std::uint32_t held_mask, double damping, Task e,
-                       ThetaVector& theta) noexcept {
+                       const FollowBounds* within, ThetaVector& theta) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
   DampedMove move;
   TaskSum sum{};
@@ -154,7 +156,7 @@ DampedMove move_damped(const RobotTable& table, const Jacobian& J, std::uint32_t
     factor_task(sum, held_mask | move.limit_mask, damping, move.solver);
     const Step step = solve_step(move.solver, J, n, e);
     move.left2 = step.left2;
-    const std::uint32_t clipped = clip_to_limits(table, J, move.solver.fixed, step.theta_rad, theta, e);
+    const std::uint32_t clipped = clip_to_limits(table, J, move.solver.fixed, step.theta_rad, within, theta, e);
     if (clipped == 0) {
       add_free(move.solver, n, step.theta_rad, theta);
       break;
@@ -199,7 +201,7 @@ IkReport ik_step(const RobotTable& table, const IkGoal& goal, double damping, Th
   const ArmKinematics arm = forward_kinematics(table, theta_rad);
   const Task e = pose_error(goal.tip_in_base, arm.tip_in_base);
   IkReport report = report_of(e);
-  const DampedMove move = move_damped(table, arm.tip_jacobian, goal.held_mask, damping, e, theta_rad);
+  const DampedMove move = move_damped(table, arm.tip_jacobian, goal.held_mask, damping, e, nullptr, theta_rad);
   report.limit_mask = move.limit_mask;
   report.outcome = outcome_of(table, goal, report, kIkConverged, size2(e), move.left2);
   return report;
@@ -210,7 +212,7 @@ IkReport servo_ik(const RobotTable& table, const IkGoal& goal, const ArmKinemati
   const Index n = static_cast<Index>(table.theta_count());
   const Task asked = pose_error(goal.tip_in_base, arm.tip_in_base);
   const DampedMove move =
-      move_damped(table, arm.tip_jacobian, goal.held_mask, damping_for(goal, asked), asked, theta_rad);
+      move_damped(table, arm.tip_jacobian, goal.held_mask, damping_for(goal, asked), asked, nullptr, theta_rad);
   ArmTrig trig;  // only what the table uses is written, and read
   update_trig(table, theta_rad, trig);
   const Task rest = pose_error(goal.tip_in_base, tip_pose(table, trig));
@@ -227,13 +229,13 @@ IkReport servo_ik(const RobotTable& table, const IkGoal& goal, const ArmKinemati
   return report;
 }
 
-FollowStep follow_ik(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm, const ThetaVector& arm_rad,
+FollowStep follow_ik(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm, const FollowBounds& bounds,
                      ThetaVector& theta_rad) noexcept {
   Task asked = pose_error(goal.tip_in_base, arm.tip_in_base);
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k)
-    take_share(arm.tip_jacobian, k, theta_rad[k] - arm_rad[k], asked);
+    take_share(arm.tip_jacobian, k, theta_rad[k] - bounds.arm_rad[k], asked);
   const DampedMove move =
-      move_damped(table, arm.tip_jacobian, goal.held_mask, damping_for(goal, asked), asked, theta_rad);
+      move_damped(table, arm.tip_jacobian, goal.held_mask, damping_for(goal, asked), asked, &bounds, theta_rad);
   return {size2(asked), move.left2, move.limit_mask};
 }
 

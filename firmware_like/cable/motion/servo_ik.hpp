@@ -58,7 +58,11 @@ struct FollowStep {
   double asked2 = 0.0, left2 = 0.0;  // squared error before the step, and what it is expected to leave
   std::uint32_t limit_mask = 0;      // as in IkReport
 };
-FollowStep follow_ik(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm, const ThetaVector& arm_rad,
+struct FollowBounds {
+  ThetaVector arm_rad{};                // of `arm`
+  ThetaVector least_rad{}, most_rad{};  // where theta may go: within its limits, and so near that it can brake
+};
+FollowStep follow_ik(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm, const FollowBounds& bounds,
                      ThetaVector& theta_rad) noexcept;
 
 // What became of it, with the kinematics at the angles that the arm then took.
