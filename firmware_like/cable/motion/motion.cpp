@@ -205,14 +205,16 @@ void take_kinematics(const RobotTable& table, MotionState& state) noexcept {
 TipFilterConfig tip_filter_config(const RobotTable& table, double tip_speed_m_s,
                                   const GovernorState& governor) noexcept {
   const MotionLimits& limits = table.limits;
-  const bool lowered = tip_speed_m_s > 0.0 && tip_speed_m_s < limits.tip_speed_m_s;
   const double linear_share = governor.linear_share, angular_share = governor.angular_share;
-  const FilterBounds linear{limits.tip_speed_m_s, linear_share * limits.tip_accel_m_s2,
+  // What turns as it moves is accelerated by its speed squared.
+  const FilterBounds linear{std::sqrt(linear_share) * limits.tip_speed_m_s, linear_share * limits.tip_accel_m_s2,
                             linear_share * limits.tip_jerk_m_s3};
-  const FilterBounds angular{limits.tip_rate_rad_s, angular_share * limits.tip_angular_accel_rad_s2,
+  const FilterBounds angular{std::sqrt(angular_share) * limits.tip_rate_rad_s,
+                             angular_share * limits.tip_angular_accel_rad_s2,
                              angular_share * limits.tip_angular_jerk_rad_s3};
-  return {with_lag(linear, limits.tip_lag_s, lowered ? tip_speed_m_s : limits.tip_speed_m_s),
-          with_lag(angular, limits.tip_lag_s, limits.tip_rate_rad_s), table.tick_s};
+  const bool lowered = tip_speed_m_s > 0.0 && tip_speed_m_s < linear.speed;
+  return {with_lag(linear, limits.tip_lag_s, lowered ? tip_speed_m_s : linear.speed),
+          with_lag(angular, limits.tip_lag_s, angular.speed), table.tick_s};
 }
 
 Twist tip_twist(const RobotTable& table, const MotionState& state) noexcept {
