@@ -29,7 +29,7 @@ Eigen::Index at(Index i) { return static_cast<Eigen::Index>(i); }
 struct FrictionFit::Moment {
   CableGeometry geometry;
   SegmentVector wrap_rad;
-  ArmKinematics arm;
+  MassMatrix mass_kg_m2;
   const Sample& sample;
   BodyInertiaState inertia;  // with the forces that it takes
 
@@ -65,7 +65,7 @@ void FrictionFit::add(const ThetaVector& commanded_rad, const CableVector& tensi
 // The balance about one axis with the parameters as they are, and how it changes with them.
 FrictionFit::Equation FrictionFit::equation(const Moment& now, Index axis, const Fit& fit) const {
   const Index own = axis / 2;
-  Equation out{inertia_torque_Nm(table_, now.arm, now.inertia, axis), kBalanceNoise_Nm * kBalanceNoise_Nm,
+  Equation out{inertia_torque_Nm(table_, now.mass_kg_m2, now.sample.inertia.accel_rad_s2, axis), kBalanceNoise_Nm * kBalanceNoise_Nm,
                Eigen::VectorXd::Zero(fit.value.size())};
   for (Index c = 0; c < static_cast<Index>(layout_.cable_count); ++c) {
     if (static_cast<Index>(layout_.segment[c]) < own) continue;
@@ -99,9 +99,8 @@ void FrictionFit::improve(Fit& fit) const {
   Eigen::VectorXd right = -normal.diagonal().cwiseProduct(fit.value);
   for (const Sample& sample : samples_) {
     const ArmTrig trig = arm_trig(table_, sample.theta_rad);
-    Moment now{cable_geometry(table_, layout_, trig), cable_wraps(table_, trig), forward_kinematics(table_, trig),
-               sample, sample.inertia};
-    feel_inertia(table_, now.arm, now.inertia);
+    Moment now{cable_geometry(table_, layout_, trig), cable_wraps(table_, trig), {}, sample};
+    update_mass_matrix(table_, forward_kinematics(table_, trig), now.mass_kg_m2);
     for (Index axis = 0; axis < static_cast<Index>(table_.theta_count()); ++axis) {
       const Equation one = equation(now, axis, fit);
       normal += one.row * one.row.transpose() / one.variance_Nm2;
