@@ -45,6 +45,9 @@ constexpr std::array kHello{
 };
 constexpr std::array kDone{integer("tick", 0.0, kBiggestWhole, "of the state that is answered")};
 
+constexpr std::array kAcquire{
+    text("from", 64, "owner that motion is taken from: after an emergency stop, or 5 s without a sign of life of it")
+        .optional()};
 constexpr std::array kStateCommand{word("command", kCommands, "what the arm should do")};
 
 // What a setpoint tells of itself.

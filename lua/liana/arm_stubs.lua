@@ -47,9 +47,14 @@ function arm.elapsed_s(since) end
 
 -- ---- commanding, made by ./dev docs ----
 
+---@class arm.acquire
+---owner that motion is taken from: after an emergency stop, or 5 s without a sign of life of it
+---@field from? string
+
 ---Own motion; one client at a time, and the death of the owner is a hold.
+---@param fields arm.acquire
 ---@return integer id
-function arm.acquire() end
+function arm.acquire(fields) end
 
 ---Give motion back; the arm holds.
 ---@return integer id
