@@ -131,7 +131,7 @@ std::string places_of(const std::vector<api::Unseen>& unseen) {
 }
 
 std::string nothing_stopped(const std::string& why) {
-  return "NOTHING WAS STOPPED: " + why + ". If an arm moves, cut its power";
+  return "NOTHING WAS STOPPED. If an arm moves, cut its power. " + why;
 }
 
 // Every stop is on its way before the next place is looked at.
@@ -147,7 +147,7 @@ std::vector<api::Unseen> call_all(const std::string& given, std::vector<StopCall
 }
 
 [[noreturn]] void end_without_systems(const std::vector<api::Unseen>& unseen, bool all_seen) {
-  const std::string text = nothing_stopped("no running system was found in " + api::places_to_look() +
+  const std::string text = nothing_stopped("No running system was found in " + api::places_to_look() +
                                            (unseen.empty() ? "" : "; could not look at " + places_of(unseen)));
   if (all_seen) throw system::NothingStopped(text);
   throw std::runtime_error(text);
