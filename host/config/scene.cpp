@@ -55,7 +55,7 @@ SceneSphere read_sphere(const Field& field) {
 }
 
 constexpr std::size_t kMostConvex = 64;
-constexpr std::size_t kMostBytes = 114688;  // as canonical JSON, all of it: a client gets it in one packet
+constexpr std::size_t kMostBytes = 122880;  // as canonical JSON, all of it: a client gets it in one packet
 constexpr double kLeastThickness_m = 1e-6;
 
 std::vector<Vec3> read_points(const Field& field, std::size_t least, std::size_t most, const char* what_to_do) {

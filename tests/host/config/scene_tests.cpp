@@ -232,7 +232,7 @@ TEST(Scene, BodiesThatTogetherFillMoreThanAPacketAreRefusedWithTheBytes) {
     parse_scene(scene_of(9, 1.0 / 3.0), "own");
     FAIL() << "9 bodies of 256 points are larger than a packet";
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("allowed are 114688"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("allowed are 122880"), std::string::npos) << error.what();
   }
 }
 
