@@ -7,7 +7,7 @@ namespace liana::operator_side {
 namespace {
 
 constexpr std::uint64_t kTremorPurpose = 21;
-constexpr std::uint64_t kLivelyPurpose = 81;  // to 86
+constexpr std::uint64_t kLivelyHandPurpose = 81;  // to 86
 constexpr double kSampleStep_s = 0.001;
 constexpr double kLongestGap_s = 0.1;  // pictures further apart count as this far apart
 constexpr double kSpeedMargin = 0.9;
@@ -22,7 +22,7 @@ HandPerson::HandPerson(const HandGains& gains, const SlitDrawing& drawing, std::
       tremor_(gains.tremor_m, gains.tremor_rad, seed, kTremorPurpose),
       aim_(gains),
       grip_(gains, drawing.slit_in_base.quaternion) {
-  if (temper == Temper::kLively) lively_.emplace(LivelyTable{}, seed, kLivelyPurpose);
+  if (temper == Temper::kLively) lively_.emplace(LivelyTable{}, seed, kLivelyHandPurpose);
 }
 
 void HandPerson::begin(HandTask task, const HandMapping& mapping, double now_s) {

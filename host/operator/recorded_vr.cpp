@@ -12,13 +12,13 @@ namespace {
 constexpr std::uint64_t kRightTremorPurpose = 11;
 constexpr std::uint64_t kLeftTremorPurpose = 12;
 constexpr std::uint64_t kGlitchPurpose = 13;
-constexpr std::uint64_t kLivelyPurpose = 91;  // to 96
-constexpr double kCareful_s = 6.0;            // before its end no gesture begins: where it ends, nobody looks
+constexpr std::uint64_t kLivelyRecordingPurpose = 91;  // to 96
+constexpr double kCareful_s = 6.0;                     // before its end no gesture begins: where it ends, nobody looks
 constexpr double kStillStep_s = 1.0 / 90.0;
 
 std::int64_t microseconds(double time_s) { return std::llround(time_s * 1e6); }
 
-void open(BothHands& hands) {
+void open_triggers(BothHands& hands) {
   for (device::Sample* hand : {&hands.right, &hands.left}) {
     hand->trigger = 0.0;
     hand->deadman = false;
@@ -33,7 +33,7 @@ RecordedVr::RecordedVr(VrRecording recording, const VrDisturbance& disturbance, 
       left_tremor_(disturbance.tremor_m, disturbance.tremor_rad, seed, kLeftTremorPurpose) {
   if (recording_.empty())
     throw std::runtime_error("VR recording: no samples: allowed at least one; give another recording");
-  if (temper == Temper::kLively) lively_.emplace(lively_at_handles(), seed, kLivelyPurpose);
+  if (temper == Temper::kLively) lively_.emplace(lively_at_handles(), seed, kLivelyRecordingPurpose);
   RandomStream random(seed, kGlitchPurpose);
   const double end_s = static_cast<double>(recording_.back().right.t_us) * 1e-6;
   jump_index_ = static_cast<std::size_t>(random.uniform(0.1, 0.45) * static_cast<double>(recording_.size()));
@@ -52,7 +52,7 @@ BothHands RecordedVr::disturbed(const BothHands& recorded, double now_s) {
     const bool held = has_grip(now_s);
     sample.right.pose = lively_->right(sample.right.pose);
     sample.left.pose = lively_->left(sample.left.pose);
-    if (!held) open(sample);
+    if (!held) open_triggers(sample);
   }
   disturb_handle(sample.right, right_tremor_, now_s);
   disturb_handle(sample.left, left_tremor_, now_s);
@@ -85,7 +85,7 @@ std::vector<BothHands> RecordedVr::rest(double now_s, double duration_s) {
   std::vector<BothHands> samples;
   for (still_s_ = std::max(still_s_, now_s); still_s_ < now_s + duration_s; still_s_ += kStillStep_s) {
     samples.push_back(disturbed(next_recorded(), still_s_));
-    open(samples.back());
+    open_triggers(samples.back());
   }
   return samples;
 }

@@ -16,10 +16,11 @@ constexpr double kLeastPause_s = 0.2;  // of a burst before it goes back
 constexpr double kMostPause_s = 1.0;
 constexpr double kSlowestDrift_hz = 1.0 / 120.0, kFastestDrift_hz = 1.0 / 30.0;
 
-Vec3 direction(RandomStream& random) {
+// In any direction.
+Vec3 drawn_vector(RandomStream& random, const Range& length) {
   const Vec3 v{random.normal(1.0), random.normal(1.0), random.normal(1.0)};
-  const double length = norm(v);
-  return length > 0.0 ? scale(v, 1.0 / length) : Vec3{1.0, 0.0, 0.0};
+  const double drawn = random.uniform(length.least, length.most);
+  return norm(v) > 0.0 ? scale(v, drawn / norm(v)) : Vec3{drawn, 0.0, 0.0};
 }
 
 // Of half a cosine over `way` that neither exceeds the speed nor the acceleration.
@@ -72,8 +73,7 @@ void LivelyHands::plan(double after_s) {
   const double from_s = after_s + gap_s_ * random_.uniform(0.5, 1.5);
   const bool loses_grip = from_s >= next_loss_s_;
   gesture_ = {};
-  gesture_.reach = {scale(direction(random_), drawn(table_.reach_m)),
-                    scale(direction(random_), drawn(table_.turn_rad))};
+  gesture_.reach = {drawn_vector(random_, table_.reach_m), drawn_vector(random_, table_.turn_rad)};
   choose_hands(loses_grip);
   choose_places(from_s, loses_grip);
   if (loses_grip) lose_grip();

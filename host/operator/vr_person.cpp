@@ -9,11 +9,11 @@
 namespace liana::operator_side {
 namespace {
 
-constexpr std::uint64_t kRightTrackerPurpose = 51;  // and 52
-constexpr std::uint64_t kLeftTrackerPurpose = 53;   // and 54
-constexpr std::uint64_t kLivelyPurpose = 91;        // to 96
-constexpr double kStrive_s = 2.5;                   // stands at the end of the way for so long before a stroke more
-constexpr double kDecided_m = 0.05;                 // a way is followed for so long before it is doubted
+constexpr std::uint64_t kRightTrackerPurpose = 51;   // and 52
+constexpr std::uint64_t kLeftTrackerPurpose = 53;    // and 54
+constexpr std::uint64_t kLivelyHandlesPurpose = 91;  // to 96
+constexpr double kStrive_s = 2.5;                    // stands at the end of the way for so long before a stroke more
+constexpr double kDecided_m = 0.05;                  // a way is followed for so long before it is doubted
 
 HandGains hand_of(const VrGains& gains) {
   HandGains hand;
@@ -49,7 +49,7 @@ VrPerson::VrPerson(const VrGains& gains, const config::SceneConfig& drawing, std
       left_(hand_of(gains), kParallel),
       right_tracker_(tracking_of(gains), seed, kRightTrackerPurpose),
       left_tracker_(tracking_of(gains), seed, kLeftTrackerPurpose) {
-  if (temper == Temper::kLively) lively_.emplace(lively_at_handles(), seed, kLivelyPurpose);
+  if (temper == Temper::kLively) lively_.emplace(lively_at_handles(), seed, kLivelyHandlesPurpose);
 }
 
 void VrPerson::begin(const HandMapping& mapping, double now_s) {

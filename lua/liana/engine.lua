@@ -110,7 +110,7 @@ function Runner:begin_step(index, goes_on)
   local step, state = self:step(), self.arm.state
   self.record = {
     index = index, name = step.name, device = step.device, held_theta = held_list(step.hold), outcome = "running", reason = "", ended_by = "",
-    start_tick = state.tick, end_tick = state.tick, duration_s = 0,
+    start_tick = state.tick, end_tick = state.tick, duration_s = 0, slowed_s = 0,
   }
   self.report.steps[#self.report.steps + 1] = self.record
   self.refusals_before = state.refusals
@@ -235,7 +235,7 @@ function Runner:close_record(outcome, reason, ended_by)
   local record, state = self.record, self.arm.state
   record.outcome, record.reason, record.ended_by, record.end_tick = outcome, reason, ended_by or "", state.tick
   self.ended_by = ended_by
-  record.duration_s = self.arm.elapsed_s(record.start_tick)
+  record.duration_s, record.slowed_s = self.arm.elapsed_s(record.start_tick), self.slowed_s
   self.native.progress {
     event = "end", index = self.index, count = #self.mission.steps, name = record.name, device = record.device, outcome = outcome,
     reason = reason, ended_by = record.ended_by, duration_s = record.duration_s, time_s = state.time_s,

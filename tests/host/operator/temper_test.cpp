@@ -16,7 +16,7 @@ using operator_side::LivelyHands;
 using operator_side::LivelyTable;
 using operator_side::Range;
 
-constexpr double kStep_s = 0.002;
+constexpr double kTemperStep_s = 0.002;
 constexpr std::uint64_t kSeeds = 6;
 constexpr Pose kHere{{0.01, -0.02, 0.03}, {1.0, 0.0, 0.0, 0.0}};
 
@@ -28,16 +28,16 @@ LivelyTable gestures_of(LivelyTable table) {
 }
 
 // Where a lively hand is beside where it is meant to be, and whether it has its grip.
-struct Beside {
+struct LivelySamples {
   std::vector<Vec3> right_m, left_m, right_rad;
   std::vector<bool> grip, taken_up;
 };
 
-Beside beside(const LivelyTable& table, std::uint64_t seed, double seconds, bool careful = false) {
+LivelySamples sampled(const LivelyTable& table, std::uint64_t seed, double seconds, bool careful = false) {
   LivelyHands hands(table, seed, 81);
-  Beside out;
-  for (std::int64_t k = 0; static_cast<double>(k) * kStep_s < seconds; ++k) {
-    hands.advance(static_cast<double>(k) * kStep_s, careful);
+  LivelySamples out;
+  for (std::int64_t k = 0; static_cast<double>(k) * kTemperStep_s < seconds; ++k) {
+    hands.advance(static_cast<double>(k) * kTemperStep_s, careful);
     const auto right = operator_side::step_between(kHere, hands.right(kHere));
     out.right_m.push_back(right.shift_m);
     out.right_rad.push_back(right.turn_rad);
@@ -48,20 +48,20 @@ Beside beside(const LivelyTable& table, std::uint64_t seed, double seconds, bool
   return out;
 }
 
-struct Most {
+struct MostOfWay {
   double way = 0.0, speed = 0.0, accel = 0.0;
 };
 
 Vec3 velocity(const std::vector<Vec3>& way, std::size_t i) {
-  return scale(subtract(way[i + 1], way[i]), 1.0 / kStep_s);
+  return scale(subtract(way[i + 1], way[i]), 1.0 / kTemperStep_s);
 }
 
-Most most_of(const std::vector<Vec3>& way) {
-  Most most;
+MostOfWay most_of(const std::vector<Vec3>& way) {
+  MostOfWay most;
   for (std::size_t i = 0; i + 2 < way.size(); ++i) {
     most.way = std::max(most.way, norm(way[i]));
     most.speed = std::max(most.speed, norm(velocity(way, i)));
-    most.accel = std::max(most.accel, norm(subtract(velocity(way, i + 1), velocity(way, i))) / kStep_s);
+    most.accel = std::max(most.accel, norm(subtract(velocity(way, i + 1), velocity(way, i))) / kTemperStep_s);
   }
   return most;
 }
@@ -70,7 +70,7 @@ Most most_of(const std::vector<Vec3>& way) {
 double power_at(const std::vector<Vec3>& way, double hz) {
   double re = 0.0, im = 0.0;
   for (std::size_t i = 0; i < way.size(); ++i) {
-    const double phase = 2.0 * std::numbers::pi * hz * static_cast<double>(i) * kStep_s;
+    const double phase = 2.0 * std::numbers::pi * hz * static_cast<double>(i) * kTemperStep_s;
     re += way[i][0] * std::cos(phase);
     im += way[i][0] * std::sin(phase);
   }
@@ -93,14 +93,14 @@ TEST(Temper, IsCalledGentleOrLivelyAndNothingElse) {
 
 TEST(Temper, GesturesStayWithinReachSpeedAndAccelerationAndComeNearThem) {
   for (const LivelyTable& table : {gestures_of(LivelyTable{}), gestures_of(lively_at_handles())}) {
-    Most all;
+    MostOfWay all;
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-      const Beside hands = beside(table, seed, 120.0);
+      const LivelySamples hands = sampled(table, seed, 120.0);
       for (const auto* way : {&hands.right_m, &hands.left_m}) {
-        const Most most = most_of(*way);
+        const MostOfWay most = most_of(*way);
         all = {std::max(all.way, most.way), std::max(all.speed, most.speed), std::max(all.accel, most.accel)};
       }
-      const Most turn = most_of(hands.right_rad);
+      const MostOfWay turn = most_of(hands.right_rad);
       EXPECT_LE(turn.way, table.turn_rad.most + 1e-9);
       EXPECT_LE(turn.speed, table.turn_rate_rad_s + 1e-6);
       EXPECT_LE(turn.accel, table.turn_accel_rad_s2 + 1e-3);
@@ -116,7 +116,7 @@ TEST(Temper, GesturesStayWithinReachSpeedAndAccelerationAndComeNearThem) {
 
 TEST(Temper, EveryPersonReversesMoreOftenThanTheyRest) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const std::vector<Vec3> way = beside(gestures_of(LivelyTable{}), seed, 120.0).right_m;
+    const std::vector<Vec3> way = sampled(gestures_of(LivelyTable{}), seed, 120.0).right_m;
     int reversals = 0, begins = 0;
     for (std::size_t i = 1; i + 2 < way.size(); ++i) {
       reversals += dot(velocity(way, i), velocity(way, i - 1)) < 0.0 ? 1 : 0;
@@ -131,12 +131,12 @@ TEST(Temper, GripsAreLostOneToThreeTimesAMinuteAndBothThatAndTheNextGripAreInMot
   constexpr double kMinutes = 5.0;
   for (const LivelyTable& table : {gestures_of(LivelyTable{}), gestures_of(lively_at_handles())}) {
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-      const Beside hands = beside(table, seed, 60.0 * kMinutes);
+      const LivelySamples hands = sampled(table, seed, 60.0 * kMinutes);
       int losses = 0;
       for (std::size_t i = 1; i + 1 < hands.grip.size(); ++i) {
         if (hands.grip[i] == hands.grip[i - 1]) continue;
         losses += hands.grip[i] ? 0 : 1;
-        EXPECT_GT(norm(velocity(hands.right_m, i)), 0.02) << seed << " at " << static_cast<double>(i) * kStep_s;
+        EXPECT_GT(norm(velocity(hands.right_m, i)), 0.02) << seed << " at " << static_cast<double>(i) * kTemperStep_s;
       }
       EXPECT_GE(losses, 0.8 * table.losses_per_min.least * kMinutes) << seed;
       EXPECT_LE(losses, 1.2 * table.losses_per_min.most * kMinutes) << seed;
@@ -150,7 +150,7 @@ TEST(Temper, TremorHasItsPowerFromEightToTwelveHertzAndTheStrengthOfItsRange) {
   table.drift_rad = 0.0;
   constexpr double kSeconds = 20.0;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const std::vector<Vec3> way = beside(table, seed, kSeconds).right_m;
+    const std::vector<Vec3> way = sampled(table, seed, kSeconds).right_m;
     double in_band = 0.0;
     for (double hz = 7.5; hz <= 12.5; hz += 1.0 / kSeconds) in_band += power_at(way, hz);
     EXPECT_GT(in_band, 0.97 * mean_square(way)) << seed;
@@ -164,11 +164,11 @@ TEST(Temper, AHandDriftsByMillimetresInMinutesAndNotWhereItIsCareful) {
   table.reach_m = table.turn_rad = {0.0, 0.0};
   table.drift_m = LivelyTable{}.drift_m;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const Most most = most_of(beside(table, seed, 300.0).right_m);
+    const MostOfWay most = most_of(sampled(table, seed, 300.0).right_m);
     EXPECT_GT(most.way, table.drift_m.least) << seed;
     EXPECT_LT(most.way, 5.0 * table.drift_m.most) << seed;
     EXPECT_LT(most.speed, 0.002) << seed;
-    const std::vector<Vec3> careful = beside(table, seed, 60.0, true).right_m;
+    const std::vector<Vec3> careful = sampled(table, seed, 60.0, true).right_m;
     EXPECT_EQ(careful.front(), careful.back()) << seed;
   }
 }
@@ -176,7 +176,7 @@ TEST(Temper, AHandDriftsByMillimetresInMinutesAndNotWhereItIsCareful) {
 TEST(Temper, TwoHandsGoAgainstEachOtherAndAHandAlone) {
   int against = 0, right = 0, left = 0;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const Beside hands = beside(gestures_of(lively_at_handles()), seed, 120.0);
+    const LivelySamples hands = sampled(gestures_of(lively_at_handles()), seed, 120.0);
     for (std::size_t i = 0; i < hands.right_m.size(); i += 100) {
       const double r = norm(hands.right_m[i]), l = norm(hands.left_m[i]);
       if (r > 0.0 && l > 0.0) {
@@ -193,7 +193,7 @@ TEST(Temper, TwoHandsGoAgainstEachOtherAndAHandAlone) {
 }
 
 TEST(Temper, NoGestureBeginsAndNoGripIsLostWhereAPersonIsCareful) {
-  const Beside hands = beside(gestures_of(LivelyTable{}), 1, 120.0, true);
+  const LivelySamples hands = sampled(gestures_of(LivelyTable{}), 1, 120.0, true);
   EXPECT_EQ(most_of(hands.right_m).way, 0.0);
   for (const bool grip : hands.grip) EXPECT_TRUE(grip);
 }
@@ -201,11 +201,11 @@ TEST(Temper, NoGestureBeginsAndNoGripIsLostWhereAPersonIsCareful) {
 TEST(Temper, TheOtherDeviceIsHeldFromTimeToTime) {
   const LivelyTable table;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const std::vector<bool> held = beside(table, seed, 300.0).taken_up;
+    const std::vector<bool> held = sampled(table, seed, 300.0).taken_up;
     double since_s = 0.0;
     int times = 0;
     for (std::size_t i = 1; i < held.size(); ++i) {
-      since_s += kStep_s;
+      since_s += kTemperStep_s;
       if (held[i] == held[i - 1]) continue;
       const Range& range = held[i] ? table.other_every_s : table.other_s;
       EXPECT_GT(since_s, range.least - 0.01) << seed;
@@ -218,13 +218,13 @@ TEST(Temper, TheOtherDeviceIsHeldFromTimeToTime) {
 }
 
 TEST(Temper, OneSeedIsOneHandHoweverOftenItIsLookedAtAndAnotherSeedIsAnother) {
-  const Beside once = beside(LivelyTable{}, 7, 60.0), again = beside(LivelyTable{}, 7, 60.0);
+  const LivelySamples once = sampled(LivelyTable{}, 7, 60.0), again = sampled(LivelyTable{}, 7, 60.0);
   EXPECT_EQ(once.right_m, again.right_m);
   EXPECT_EQ(once.grip, again.grip);
-  EXPECT_NE(once.right_m, beside(LivelyTable{}, 8, 60.0).right_m);
+  EXPECT_NE(once.right_m, sampled(LivelyTable{}, 8, 60.0).right_m);
   LivelyHands seldom(LivelyTable{}, 7, 81);
   for (std::size_t i = 0; i < once.right_m.size(); i += 11) {
-    seldom.advance(static_cast<double>(i) * kStep_s, false);
+    seldom.advance(static_cast<double>(i) * kTemperStep_s, false);
     const Vec3 seen = operator_side::step_between(kHere, seldom.right(kHere)).shift_m;
     EXPECT_NEAR(norm(subtract(seen, once.right_m[i])), 0.0, 1e-9) << i;
     EXPECT_EQ(seldom.has_grip(), once.grip[i]) << i;
