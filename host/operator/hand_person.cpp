@@ -17,11 +17,11 @@ constexpr double kRealTurn_rad = 0.05;  // a leg that turns less has no lag in a
 }  // namespace
 
 HandPerson::HandPerson(const HandGains& gains, const SlitDrawing& drawing, std::uint64_t seed, Temper temper)
-    : gains_(gains),
+    : gains_(temper == Temper::kLively ? in_haste(gains) : gains),
       drawing_(drawing),
       tremor_(gains.tremor_m, gains.tremor_rad, seed, kTremorPurpose),
-      aim_(gains),
-      grip_(gains, drawing.slit_in_base.quaternion) {
+      aim_(gains_),
+      grip_(gains_, drawing.slit_in_base.quaternion) {
   if (temper == Temper::kLively) lively_.emplace(LivelyTable{}, seed, kLivelyHandPurpose);
 }
 
@@ -223,12 +223,12 @@ device::Sample HandPerson::sample(double now_s) {
 
 bool HandPerson::is_aligning() const { return button() && leg_.finished(); }
 
-// Whoever has lost the grip and found it again stops, lets go and looks where the tip is.
+// Whoever has lost the grip and found it again lets go and looks where the tip is.
 device::Sample HandPerson::lively(device::Sample meant, double now_s) {
   lively_->advance(now_s, is_aligning());
   const bool has_grip = lively_->has_grip();
   if (meant.deadman && !has_grip) has_slipped_ = true;
-  if (has_slipped_ && has_grip && phase_ == Phase::kSteering) enter(Phase::kSettling, now_s);
+  if (has_slipped_ && has_grip && phase_ == Phase::kSteering) enter(Phase::kReturning, now_s);
   meant.pose = lively_->right(meant.pose);
   meant.deadman = meant.deadman && has_grip;
   return meant;

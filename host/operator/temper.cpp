@@ -36,6 +36,16 @@ Temper temper_called(const std::string& word) {
   throw std::invalid_argument("'" + word + "': allowed gentle or lively");
 }
 
+HandGains in_haste(HandGains gains) {
+  gains.accel_m_s2 *= 3.0;
+  gains.wait_from_m *= 2.0;
+  gains.wait_full_m *= 2.0;
+  gains.relent_s /= 4.0;
+  gains.relent_most += 0.5;
+  gains.align_relent_most += 1.0;
+  return gains;
+}
+
 LivelyTable lively_at_handles() {
   LivelyTable table;
   table.has_left_hand = true;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 
+#include "host/operator/hand_gains.hpp"
 #include "host/operator/random.hpp"
 #include "host/operator/slit_view.hpp"
 #include "host/operator/tremor.hpp"
@@ -17,6 +18,10 @@ enum class Temper : std::uint8_t { kGentle, kLively };
 
 // gentle or lively; std::invalid_argument, with what is allowed, for another word.
 Temper temper_called(const std::string& word);
+
+// How lively people steer by hand: they start and brake harder, wait less for the arm, and settle for less,
+// sooner.
+HandGains in_haste(HandGains gains);
 
 struct Range {
   double least = 0.0;

@@ -109,10 +109,11 @@ TEST(HumanSession, CrossesTheSlitBehindASecondOfDelay) {
   EXPECT_GT(c.hand.least_energy_J, -0.1);
 }
 
-TEST(HumanSession, ALivelyOneCrossesTheSlitOfAnArmThatObeys) {
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const Crossing c = cross({.seed = seed, .temper = operator_side::Temper::kLively});
-    report("lively", c);
+TEST(HumanSession, ALivelyOneCrossesTheSlitOfAnArmThatObeysAlsoBehindASecondOfDelay) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const double delay_s = seed % 2 == 0 ? 0.5 : 0.0;
+    const Crossing c = cross({.seed = seed, .temper = operator_side::Temper::kLively}, {delay_s, delay_s});
+    report(delay_s > 0.0 ? "lively, 0.5 + 0.5 s" : "lively", c);
     EXPECT_TRUE(c.edge && c.slit && c.rod) << seed;
     EXPECT_LT(c.error_m, 0.003) << seed;
   }
