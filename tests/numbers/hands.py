@@ -16,6 +16,7 @@ import sys
 import folders
 from liana import System
 from liana import system as tables
+from liana.client import LianaError
 from liana.devices import Device
 from page import table
 
@@ -167,11 +168,12 @@ class Session:
     def run(self):
         """To the end of the hand's motion, or a second on from a fault: how the arm stops belongs to it."""
         until_s = self.from_s + ENDS_S
-        while self.client.state["time_s"] < until_s:
+        while self.client.state["time_s"] < until_s and self.client.state["state"] == "ENABLED":
             self.interval()
             if self.client.state["faults"]:
                 until_s = min(until_s, self.client.state["time_s"] + AFTER_FAULT_S)
                 self.states.pop()
+        self.was_stopped = self.client.state["state"] != "ENABLED"
 
 
 def held_way(hand):
@@ -222,6 +224,8 @@ def truth_of(truth, robot, rows):
     names = ("tension_min_N", "tension_motor_min_N", "tip_speed_m_s", "enabled")
     columns = [truth.columns.index(name) for name in names]
     seen = [[row[i] for i in columns] for row in truth.rows[rows] if row[columns[3]]]
+    if not seen:
+        return {"tension": None, "motor_tension": None, "tip_speed": None}
     least_N, motor_N, speed_m_s, _ = zip(*seen)
     plan_N, allowed_m_s = robot["tension"]["plan_N"], robot["limits"]["tip_speed_m_s"]
     return {
@@ -238,6 +242,7 @@ def told(hand, session):
     beside_mm, beside_deg = drift(hand, states)
     return {
         "faults": sorted({number for number, _, _ in faults}),
+        "stopped": session.was_stopped,
         "refusals": 10 * refused / max(INTERVAL_S, min(states[-1][0], RETURNS_S)),
         "least_share": min((state["guidance"] or {}).get("speed_share", 1.0) for _, state in states),
         "lag_s": lag_s(hand, states) if refused == 0 else None,
@@ -261,6 +266,14 @@ def one_hand(seed):
         system.shut_down(session.client)
         rows = slice(round(session.from_s / period_s), round((session.from_s + ENDS_S) / period_s))
         return {**figures, **told(hand, session), **truth_of(system.truth(), robot, rows)}
+
+
+def named_hand(seed):
+    """What a client raises does not pass from one process to another, and does not say whose hand it was."""
+    try:
+        return one_hand(seed)
+    except LianaError as error:
+        raise RuntimeError(f"hand {seed}: {error}") from None
 
 
 # Key, heading, whether more is worse, digits.
@@ -301,8 +314,12 @@ def faults_text(found):
 def text_of(found):
     heads = ["figure", "hands", "median", "nine of ten are better than", "worst", "its seed"]
     faulted = [one["seed"] for one in found if one["faults"]]
+    stopped = [one["seed"] for one in found if one["stopped"]]
     text = f"{len(found)} hands, seeds from {found[0]['seed']}; {len(faulted)} ended in a fault"
     text += f" ({', '.join(map(str, faulted[:12]))}{', ...' if len(faulted) > 12 else ''})." if faulted else "."
+    text += (
+        f" {len(stopped)} had the arm stopped and disabled{': ' if stopped else ''}{', '.join(map(str, stopped[:12]))}."
+    )
     text += "\n\n" + table(heads, [row(found, *figure) for figure in FIGURES])
     return text + "\n\n" + faults_text(found)
 
@@ -311,7 +328,7 @@ def measure(binaries, count=HANDS, first=FIRST_SEED):
     os.environ["LIANA_BIN"] = str(binaries.resolve())
     with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
         found = []
-        for one in pool.map(one_hand, range(first, first + count)):
+        for one in pool.map(named_hand, range(first, first + count)):
             found.append(one)
             told_of = f"{one['robot']} {one['kind']}: faults {one['faults']}, {one['refusals']:.1f} refusals in 10 s"
             print(f"   {one['seed']} {told_of}", file=sys.stderr, flush=True)
