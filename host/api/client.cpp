@@ -23,7 +23,7 @@ void ApiClient::send(const Json& request) {
   const std::string packet = request.dump();
   if (packet.size() > kMaxPacketBytes) {
     throw std::runtime_error("API request of " + std::to_string(packet.size()) + " bytes: at most " +
-                             std::to_string(kMaxPacketBytes));
+                             std::to_string(kMaxPacketBytes) + "; give fewer points, or numbers with fewer digits");
   }
   SocketResult result = send_packet(fd_.get(), packet);
   if (result == SocketResult::kWouldBlock && wait_writable(fd_.get(), kSendTimeout_s))

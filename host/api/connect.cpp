@@ -1,14 +1,11 @@
 #include "host/api/connect.hpp"
 
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <stdexcept>
-
-#include "host/api/address.hpp"
 
 namespace liana::api {
 
@@ -17,12 +14,10 @@ constexpr useconds_t kRetry_us = 20000;
 }  // namespace
 
 UniqueFd connect_to(const std::string& option, const std::string& path, double timeout_s) {
-  const sockaddr_un address = unix_address(path);
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
   for (;;) {
-    UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-    if (fd.get() >= 0 && ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
-      return fd;
+    UniqueFd fd = try_to_connect(path);
+    if (fd.get() >= 0) return fd;
     if (std::chrono::steady_clock::now() >= deadline) {
       std::string text = "cannot reach lianad at " + path + ": " + std::strerror(errno);
       text.append("; is it running with ").append(option).append(" ").append(path).append("?");

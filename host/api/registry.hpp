@@ -1,6 +1,7 @@
-// The running systems of one user: every lianad leaves a link to its API socket in a folder of that user.
+// The running systems: every lianad leaves a link to its API socket in a folder of its user.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,5 +27,19 @@ class Registration {
 // API sockets of all running systems of this user, in the order of their paths; entries of the dead are removed. Throws
 // std::runtime_error when the folder is somebody else's.
 std::vector<std::string> running_systems();
+
+// A place where a system may be and nobody could look.
+struct Unseen {
+  std::string place, why;
+  bool is_ours = false;  // of this user: a system of its own may be there
+};
+
+// Looks for systems of every user, wherever one can be (docs/command-line.md): `found` gets each API socket once, as
+// soon as it is seen, those of this user first. What cannot be looked at is returned, and hinders nothing else. Throws
+// nothing but what `found` throws.
+std::vector<Unseen> look_everywhere(const std::function<void(const std::string& api_socket)>& found);
+
+// The places that look_everywhere() knows, for people.
+std::string places_to_look();
 
 }  // namespace liana::api

@@ -45,6 +45,10 @@ constexpr std::array kHello{
 };
 constexpr std::array kDone{integer("tick", 0.0, kBiggestWhole, "of the state that is answered")};
 
+constexpr std::array kAcquire{
+    text("from", 64,
+         "owner that a client takes motion from: after an emergency stop, or 5 s without a sign of life of it")
+        .optional()};
 constexpr std::array kStateCommand{word("command", kCommands, "what the arm should do")};
 
 // What a setpoint tells of itself.

@@ -1,5 +1,6 @@
 #include "host/api/request_pages.hpp"
 
+#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
@@ -187,7 +188,9 @@ std::string command_stubs() {
     const bool has_fields = !row.fields.empty();
     if (has_fields) add_class("arm." + name, row.fields, out);
     out << "\n" << comment("---", row.doc + (row.arms == kEveryArm ? "" : " For " + arms_text(row.arms) + " only."));
-    if (has_fields) out << "---@param fields arm." << name << "\n";
+    const bool needs_fields = std::any_of(row.fields.begin(), row.fields.end(),
+                                          [](const RequestField& field) { return field.need == Need::kRequired; });
+    if (has_fields) out << "---@param fields" << (needs_fields ? " arm." : "? arm.") << name << "\n";
     out << "---@return integer id\nfunction arm." << name << (has_fields ? "(fields) end\n" : "() end\n");
   }
   return out.str();

@@ -18,6 +18,7 @@ constexpr std::array kTable{
     RequestRow{.op = "done", .doc = "Ends a lockstep client's interval, after its other messages.", .fields = kDone},
     RequestRow{.op = "acquire",
                .doc = "Own motion; one client at a time, and the death of the owner is a hold.",
+               .fields = kAcquire,
                .roles = kMovers,
                .in_missions = true,
                .motion = Motion::kReplaces},

@@ -1,38 +1,24 @@
 #include "host/api/server.hpp"
 
+#include <linux/sockios.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <cmath>
-#include <deque>
-#include <tuple>
 
-#include "host/api/outbox.hpp"
-#include "host/api/peer.hpp"
 #include "host/api/request_check.hpp"
 #include "host/api/request_error.hpp"
-#include "host/api/request_text.hpp"
+#include "host/api/server_client.hpp"
 #include "host/api/stop_packet.hpp"
 #include "host/json/number_error.hpp"
 
 namespace liana::api {
 
-using Clock = std::chrono::steady_clock;
-
 namespace {
 
-// What one client has waiting for the next interval; beyond it the client's own sends wait. Kept as it came: read, it
-// would be up to forty times as large.
-constexpr std::size_t kMaxInbox = 512;          // requests
-constexpr std::size_t kMaxInboxBytes = 262144;  // reached by the last of them at the most
-constexpr std::size_t kMaxWaitingEvents = 64;   // of one subscriber; the others wait in the history
-constexpr std::size_t kMaxClients = 32;         // that have said hello
-// Connections that have not: so many at once, each for so long. They take no place from clients.
-constexpr std::size_t kMaxStrangers = 16;
-constexpr double kStrangerPatience_s = 2.0;
+constexpr std::size_t kMaxWaitingEvents = 64;  // of one subscriber; the others wait in the history
 // What clients outside lockstep get of one pump or dispatch together; each at least one packet. A stop is read within
 // this, however many send however much.
 constexpr double kShare_s = 0.002;
@@ -40,19 +26,10 @@ constexpr double kMuch = 16384;                   // bytes lately, of clients th
 constexpr std::size_t kLongestHeard = 16u << 20;  // of a packet that is too long a request; it may be a stop
 // So late a lockstep client may be in every interval; what goes beyond it adds up.
 constexpr double kFreeLateness_s = 0.5;
-constexpr const char* kOtherUser =
-    R"({"op":"error","code":"refused","message":"lianad talks to programs of its own user, of root and of its --group"})";
-constexpr const char* kNoPlace = "32 clients are connected already; close one (a stop is heard all the same)";
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-// Names stand in states, events and lists that people read in a terminal.
-std::string name_of(const Arguments& hello) {
-  std::string name = hello.text("name");
-  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
-  if (std::any_of(name.begin(), name.end(), is_control))
-    throw RequestError("bad_request", "name: allowed is a text without control characters: leave them out");
-  return name;
+// Bytes that the other end has not read yet.
+int unread_bytes(int fd) {
+  int bytes = 0;
+  return ::ioctl(fd, SIOCOUTQ, &bytes) == 0 ? bytes : 0;
 }
 
 std::string error_packet(const Json& request, const std::string& code, const std::string& message) {
@@ -71,58 +48,12 @@ std::string op_of(const Json& request) {
   return op != nullptr && op->is_string() ? op->get<std::string>() : std::string();
 }
 
-// Of hello and done, whose ranges are the same for every robot.
-Arguments session_fields(const Json& request) {
-  static const RequestBounds kNoRobot;
-  return checked(row_of(request), request, kNoRobot);
-}
-
 }  // namespace
 
-Role role_of(const std::string& name) {
-  for (std::size_t i = 0; i < kRoleNames.size(); ++i) {
-    if (name == kRoleNames[i]) return static_cast<Role>(i);
-  }
-  throw RequestError("bad_request", "role '" + name + "': allowed " + roles_text(kAnyRole));
-}
-
-struct ApiServer::Client {
-  UniqueFd fd;
-  ClientInfo info;
-  bool greeted = false;
-  bool only_stops = false;  // said hello when no place was left
-  Clock::time_point since = Clock::now();
-  double load = 0.0;       // bytes read lately: who sends little is read first
-  std::string why_closed;  // not empty: to be buried
-  std::array<bool, kTopicNames.size()> subscribed{};
-  std::uint64_t done_tick = 0;
-  bool has_done = false;
-  Clock::time_point done_at{};
-  double late_s = 0.0;   // in all that virtual time has waited for it, less kFreeLateness_s for every interval
-  bool awaited = false;  // was there when waiting began: who joins meanwhile cannot answer a state it never got
-  std::deque<std::string> inbox;
-  std::size_t inbox_bytes = 0;
-  std::deque<Json> stops;  // served before everybody's inbox
-  Outbox outbox;
-  std::uint64_t next_event = 0;  // number of the next one to put into the outbox
-
-  auto order() const { return std::tie(info.role, info.name, info.id); }
-  bool wants(Topic topic) const { return greeted && why_closed.empty() && subscribed[index_of(topic)]; }
-  bool has_work() const { return !stops.empty() || !inbox.empty(); }
-  bool in_lockstep() const { return greeted && info.lockstep && why_closed.empty(); }
-  bool is_done(std::uint64_t tick) const { return has_done && done_tick == tick; }
-  bool late_for(std::uint64_t tick) const { return in_lockstep() && awaited && !is_done(tick); }
-  bool has_room() const { return inbox.size() < kMaxInbox && inbox_bytes < kMaxInboxBytes; }
-  bool readable(std::uint64_t tick) const { return has_room() && !(in_lockstep() && is_done(tick)); }
-  // Has left, though what it sent before may not have been read yet.
-  bool has_left() const {
-    pollfd polled{fd.get(), 0, 0};
-    return !why_closed.empty() || (::poll(&polled, 1, 0) > 0 && (polled.revents & (POLLHUP | POLLERR)) != 0);
-  }
-};
-
 ApiServer::ApiServer(const std::string& path, ApiHandler& handler, std::optional<gid_t> group)
-    : group_(group), listener_(listen_at("--api", path, group)), handler_(handler) {}
+    : group_(group), listener_(listen_at("--api", path, group)), handler_(handler) {
+  drop_strangers();
+}
 ApiServer::~ApiServer() = default;
 
 void ApiServer::pump(double timeout_s, int others) {
@@ -175,47 +106,10 @@ bool ApiServer::read_one(Client& client) {
   const SocketResult result = receive_packet(client.fd.get(), packet, kLongestHeard);
   if (result == SocketResult::kClosed) close(client, "connection closed");
   if (result != SocketResult::kDone) return false;
+  client.alive_at = Clock::now();
   client.load += static_cast<double>(packet.size());
   take_packet(client, packet);
   return true;
-}
-
-// A newcomer has mostly said already what it wants. There is always a place to be heard from: strangers make room.
-void ApiServer::accept_new() {
-  for (std::size_t i = 0; i < kMaxStrangers; ++i) {
-    const int fd = ::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-    if (fd < 0) return;
-    auto client = std::make_unique<Client>();
-    client->fd = UniqueFd(fd);
-    if (!is_admitted(fd, group_)) {
-      send_packet(fd, kOtherUser);
-      continue;
-    }
-    client->info.id = next_id_++;
-    while (read_one(*client)) {
-      if (client->load > kMaxPacketBytes) break;
-    }
-    flush(*client);
-    clients_.push_back(std::move(client));
-  }
-}
-
-// Connections that have not said hello, and those that had no place when they did: the oldest go when there are too
-// many, and each goes when its time is over.
-void ApiServer::drop_strangers() {
-  std::vector<Client*> strangers;
-  for (auto& client : clients_) {
-    if (client->why_closed.empty() && (!client->greeted || client->only_stops)) strangers.push_back(client.get());
-  }
-  std::sort(strangers.begin(), strangers.end(), [](auto* a, auto* b) { return a->info.id < b->info.id; });
-  for (std::size_t i = 0; i < strangers.size(); ++i) {
-    if (strangers.size() - i > kMaxStrangers) close(*strangers[i], "made room for others before it said hello");
-    if (seconds_since(strangers[i]->since) > kStrangerPatience_s) close(*strangers[i], "did not say hello within 2 s");
-  }
-  // At once, also where nobody dispatches: descriptors are few. The handler has never heard of them.
-  std::erase_if(clients_, [](const auto& c) {
-    return !c->why_closed.empty() && !c->has_work() && (!c->greeted || c->only_stops);
-  });
 }
 
 void ApiServer::take_packet(Client& client, const std::string& packet) {
@@ -269,63 +163,6 @@ void ApiServer::take_stop(Client& client, Json stop) {
   if (client.in_lockstep() && lockstep_tick_ != UINT64_MAX) return;
   serve_stops(client);
   flush(client);
-}
-
-void ApiServer::greet(Client& client, const Json& request) {
-  if (client.greeted) throw RequestError("bad_request", "hello was said already");
-  const Arguments hello = session_fields(request);
-  client.info.name = name_of(hello);
-  client.info.role = role_of(hello.text("role"));
-  client.info.lockstep = hello.flag("lockstep");
-  require_free(client.info);
-  subscribe(client, hello);
-  client.greeted = true;
-  const auto has_place = [](const auto& c) { return c->greeted && !c->only_stops && c->why_closed.empty(); };
-  if (std::count_if(clients_.begin(), clients_.end(), has_place) >= static_cast<std::ptrdiff_t>(kMaxClients)) {
-    client.only_stops = true;
-    client.info.lockstep = false;
-    client.subscribed = {};
-    throw RequestError("busy", kNoPlace);
-  }
-  Json welcome = handler_.welcome(client.info);
-  welcome["events"] = {{"oldest", events_.oldest()}, {"next", events_.next()}};
-  if (request.contains("id")) welcome["id"] = request["id"];
-  enqueue(client, Topic::kState, false, welcome.dump());
-}
-
-void ApiServer::require_free(const ClientInfo& wanted) const {
-  if ((kSingleRoles & only(wanted.role)) == 0) return;
-  for (const auto& other : clients_) {
-    if (!other->greeted || other->only_stops || other->info.role != wanted.role || other->has_left()) continue;
-    const std::optional<Peer> peer = peer_of(other->fd.get());
-    throw RequestError("busy", std::string("role ") + role_name(wanted.role) + ": '" + other->info.name +
-                                   "' has it (process " + std::to_string(peer ? peer->process : 0) +
-                                   "), and one at a time may: end that one first");
-  }
-}
-
-// Numbers begin anew with every lianad: one that is not there yet was learned from another.
-void ApiServer::subscribe(Client& client, const Arguments& hello) const {
-  client.subscribed = {};
-  for (const std::string& topic : hello.texts("subscribe")) {
-    const auto found = std::find(kTopicNames.begin(), kTopicNames.end(), topic);
-    if (found == kTopicNames.end())
-      throw RequestError("bad_request", "subscribe: allowed state, camera, tick, event, tool");
-    client.subscribed[static_cast<std::size_t>(found - kTopicNames.begin())] = true;
-  }
-  if (client.subscribed[index_of(Topic::kTick)] && client.info.role != Role::kArchive)
-    throw RequestError("bad_request", "subscribe: tick is for role archive: leave it out");
-  if (client.subscribed[index_of(Topic::kTick)]) client.outbox.set_most_bytes(Outbox::kMaxBytesOfTicks);
-  if (client.info.lockstep) client.subscribed[index_of(Topic::kState)] = true;
-  client.next_event = events_.next();
-  if (!hello.has("events_from")) return;
-  const auto from = static_cast<std::uint64_t>(hello.integer("events_from"));
-  if (from > events_.next()) {
-    throw RequestError("out_of_range", "events_from = " + std::to_string(from) + ": allowed 1 to " +
-                                           std::to_string(events_.next()) +
-                                           ": lianad began anew and counts from 1; ask from there");
-  }
-  client.next_event = from;
 }
 
 void ApiServer::dispatch() {
@@ -406,9 +243,11 @@ void ApiServer::feed_events(Client& client) {
 // wait for the next interval, whatever the moment at which a packet to it fails.
 void ApiServer::flush(Client& client) {
   for (feed_events(client); !client.outbox.empty() && client.why_closed.empty(); feed_events(client)) {
+    if (unread_bytes(client.fd.get()) < client.unread_bytes) client.alive_at = Clock::now();  // it has read since
     const SocketResult result = send_packet(client.fd.get(), client.outbox.front());
     if (result == SocketResult::kWouldBlock) return;
     if (result == SocketResult::kClosed) return client.outbox.clear();
+    client.unread_bytes = unread_bytes(client.fd.get());
     client.outbox.pop();
   }
 }
@@ -455,6 +294,11 @@ void ApiServer::wait_done(std::uint64_t tick, double timeout_s) {
 bool ApiServer::has_role(Role role) const {
   return std::any_of(clients_.begin(), clients_.end(),
                      [role](const auto& c) { return c->greeted && !c->only_stops && c->info.role == role; });
+}
+
+double ApiServer::silence_s(std::uint32_t id) const {
+  const auto found = std::find_if(clients_.begin(), clients_.end(), [id](const auto& c) { return c->info.id == id; });
+  return found == clients_.end() ? 0.0 : seconds_since((*found)->alive_at);
 }
 
 bool ApiServer::has_subscriber(Topic topic) const {

@@ -24,6 +24,7 @@ struct ClientInfo {
   std::string name;
   Role role = Role::kObserver;
   bool lockstep = false;
+  std::int32_t process = 0;  // 0 = the kernel does not say
 };
 
 // What the daemon does with requests.
@@ -70,6 +71,9 @@ class ApiServer {
   bool has_role(Role role) const;
   // True when somebody subscribes to the topic.
   bool has_subscriber(Topic topic) const;
+  // For how long the client has neither sent nor read anything, s of this machine's time; 0 for a number that no client
+  // has.
+  double silence_s(std::uint32_t id) const;
   // Packets thrown away because a subscriber was slow.
   std::uint64_t dropped() const { return dropped_; }
   // Tick packets among them.
@@ -78,12 +82,18 @@ class ApiServer {
  private:
   struct Client;
   void accept_new();
+  UniqueFd accept_one();
+  void take_in(UniqueFd fd);
+  std::vector<Client*> strangers() const;
   void drop_strangers();
+  void close_oldest_strangers(std::size_t most, const std::string& why);
+  void forget_closed_strangers();
   void read_from(std::vector<Client*>& talking);
   bool read_one(Client& client);
   void take_packet(Client& client, const std::string& packet);
   bool take_bad_stop(Client& client, const std::string& packet, const std::string& why);
   void greet(Client& client, const Json& request);
+  void refuse_place(Client& client, const char* why) const;
   void require_free(const ClientInfo& wanted) const;
   void subscribe(Client& client, const Arguments& hello) const;
   void take_stop(Client& client, Json stop);
@@ -99,6 +109,7 @@ class ApiServer {
 
   std::optional<gid_t> group_;
   UniqueFd listener_;
+  UniqueFd spare_;  // given up where a newcomer finds no other descriptor: it may want to stop the arm
   ApiHandler& handler_;
   std::vector<std::unique_ptr<Client>> clients_;  // in serving order
   std::uint32_t next_id_ = 1;

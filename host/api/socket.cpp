@@ -1,5 +1,6 @@
 #include "host/api/socket.hpp"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -68,11 +69,25 @@ bool wait_for(int fd, short events, double timeout_s) {
 bool wait_readable(int fd, double timeout_s) { return wait_for(fd, POLLIN, timeout_s); }
 bool wait_writable(int fd, double timeout_s) { return wait_for(fd, POLLOUT, timeout_s); }
 
-bool is_listening(const std::string& path) {
-  const sockaddr_un address = unix_address(path);
-  const UniqueFd probe(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-  return ::connect(probe.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 || errno == EAGAIN;
+// An address holds 107 bytes; the descriptor of a file with a longer path has a short name of its own.
+UniqueFd try_to_connect(const std::string& path) {
+  UniqueFd place;
+  std::string name = path;
+  if (path.empty() || path.size() >= sizeof(sockaddr_un::sun_path)) {
+    place = UniqueFd(::open(path.c_str(), O_PATH | O_CLOEXEC));
+    if (place.get() < 0) return {};
+    name = "/proc/self/fd/" + std::to_string(place.get());
+  }
+  const sockaddr_un address = unix_address(name);
+  UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (fd.get() < 0 || ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return fd;
+  const int why = errno;
+  fd = UniqueFd();
+  errno = why;
+  return fd;
 }
+
+bool is_listening(const std::string& path) { return try_to_connect(path).get() >= 0 || errno == EAGAIN; }
 
 UniqueFd listen_at(const std::string& option, const std::string& path, std::optional<gid_t> group) {
   const auto fail = [&](const std::string& why) { throw std::runtime_error(option + " " + path + ": " + why); };

@@ -44,8 +44,11 @@ SocketResult receive_packet(int fd, std::string& packet, std::size_t most_bytes 
 bool wait_readable(int fd, double timeout_s);
 bool wait_writable(int fd, double timeout_s);
 
-// Somebody listens at `path`, though perhaps too busy to answer; errno says why not. Throws std::runtime_error for too
-// long a path.
+// A local packet socket that never waits, connected to `path`, however long that is; without a descriptor where it
+// cannot be, and errno says why not.
+UniqueFd try_to_connect(const std::string& path);
+
+// Somebody listens at `path`, though perhaps too busy to answer; errno says why not.
 bool is_listening(const std::string& path);
 
 // A listening socket at `path`, which the program was given with `option`; replaces a stale socket file. Accepting from

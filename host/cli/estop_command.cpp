@@ -1,6 +1,5 @@
-// The emergency stop of every running system, side by side: none waits for another, and within a second it is said
-// which one could not be reached.
-#include <sys/socket.h>
+// The emergency stop of every running system, side by side: none waits for another, nothing that fails keeps it from
+// the others, and within a second it is said which one could not be reached.
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,8 +7,9 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <stdexcept>
 
-#include "host/api/address.hpp"
+#include "host/api/registry.hpp"
 #include "host/api/socket.hpp"
 #include "host/cli/commands.hpp"
 #include "host/json/json.hpp"
@@ -47,6 +47,7 @@ class StopCall {
     } catch (const std::exception& error) {
       failed_ = error.what();
     }
+    if (is_over()) fd_ = api::UniqueFd();  // descriptors may be few, and others need one
   }
 
  private:
@@ -54,10 +55,8 @@ class StopCall {
 
   // A lianad that stands still has a full queue of connections: trying again costs nothing, waiting would cost all.
   void connect() {
-    const sockaddr_un address = api::unix_address(api_);
-    api::UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-    if (fd.get() >= 0 && ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
-      fd_ = std::move(fd);
+    fd_ = api::try_to_connect(api_);
+    if (fd_.get() >= 0) {
       stage_ = Stage::kSending;
       return;
     }
@@ -75,13 +74,13 @@ class StopCall {
     }
     stage_ = Stage::kSent;
   }
-  // Where every place is taken hello is refused, but not the stop: only its own answer counts.
+  // Where every place is taken hello is refused, but not the stop: only its own answer counts, whatever else comes.
   void listen() {
     std::string packet;
     api::SocketResult result = api::SocketResult::kDone;
     while ((result = api::receive_packet(fd_.get(), packet)) == api::SocketResult::kDone) {
-      const Json answer = Json::parse(packet);
-      if (answer.value("id", 0) != 1) continue;
+      const Json answer = Json::parse_or_null(packet);
+      if (answer.member_or_null("id") != 1) continue;
       if (answer.value("op", "") == "ok") stage_ = Stage::kConfirmed;
       if (answer.value("op", "") == "error") failed_ = "lianad: " + answer.value("message", answer.dump());
       return;
@@ -116,22 +115,57 @@ void stop_all(std::vector<StopCall>& calls) {
 
 void print(const StopCall& call, bool json) {
   if (json) {
-    std::puts(Json{{"api", call.api()}, {"stopped", call.is_confirmed()}}.dump().c_str());
+    Json line{{"api", call.api()}, {"stopped", call.is_confirmed()}};
+    if (!call.is_confirmed()) line["problem"] = call.problem();
+    std::puts(line.dump(-1, Json::BadUtf8::kReplace).c_str());
   } else if (call.is_confirmed()) {
     std::printf("%s: stop, brakes, then disabled\n", call.api().c_str());
   }
   if (!call.is_confirmed()) std::fprintf(stderr, "liana: %s: %s\n", call.api().c_str(), call.problem().c_str());
 }
 
+std::string places_of(const std::vector<api::Unseen>& unseen) {
+  std::string text;
+  for (const api::Unseen& each : unseen) text += (text.empty() ? "" : ", ") + each.place + " (" + each.why + ")";
+  return text;
+}
+
+std::string nothing_stopped(const std::string& why) {
+  return "NOTHING WAS STOPPED. If an arm moves, cut its power. " + why;
+}
+
+// Every stop is on its way before the next place is looked at.
+std::vector<api::Unseen> call_all(const std::string& given, std::vector<StopCall>& calls) {
+  const auto call = [&calls](const std::string& api) { calls.emplace_back(api).go_on(); };
+  if (given.empty()) return api::look_everywhere(call);
+  try {
+    call(system::systems_to_ask(given).front());
+  } catch (const system::BadInput& error) {
+    throw system::BadInput(nothing_stopped(error.what()));
+  }
+  return {};
+}
+
+[[noreturn]] void end_without_systems(const std::vector<api::Unseen>& unseen, bool all_seen) {
+  const std::string text = nothing_stopped("No running system was found in " + api::places_to_look() +
+                                           (unseen.empty() ? "" : "; could not look at " + places_of(unseen)));
+  if (all_seen) throw system::NothingStopped(text);
+  throw std::runtime_error(text);
+}
+
 }  // namespace
 
 int estop_command(const ClientOptions& options) {
   std::vector<StopCall> calls;
-  for (const std::string& api : system::systems_to_ask(options.api)) calls.emplace_back(api);
+  const std::vector<api::Unseen> unseen = call_all(options.api, calls);
+  const bool all_seen =
+      std::none_of(unseen.begin(), unseen.end(), [](const api::Unseen& each) { return each.is_ours; });
+  if (calls.empty()) end_without_systems(unseen, all_seen);
   stop_all(calls);
   for (const StopCall& call : calls) print(call, options.json);
+  if (!unseen.empty()) std::fprintf(stderr, "liana: could not look for systems at %s\n", places_of(unseen).c_str());
   const bool all = std::all_of(calls.begin(), calls.end(), [](const StopCall& call) { return call.is_confirmed(); });
-  return all ? system::kExitOk : system::kExitFailure;
+  return all && all_seen ? system::kExitOk : system::kExitFailure;
 }
 
 }  // namespace liana::cli

@@ -31,7 +31,8 @@ Json people_of(const system::OperatorChoice& people) {
           {"delay_s", given(people.delay)},
           {"feedback", given(people.feedback)},
           {"passivity", given(people.passivity)},
-          {"fixtures", given(people.fixtures)}};
+          {"fixtures", given(people.fixtures)},
+          {"temper", given(people.temper)}};
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Scenes: checks of the table.
 #include <cmath>
 #include <set>
+#include <stdexcept>
 
 #include "host/config/canonical.hpp"
 #include "host/config/config.hpp"
@@ -54,6 +55,7 @@ SceneSphere read_sphere(const Field& field) {
 }
 
 constexpr std::size_t kMostConvex = 64;
+constexpr std::size_t kMostBytes = 122880;  // as canonical JSON, all of it: a client gets it in one packet
 constexpr double kLeastThickness_m = 1e-6;
 
 std::vector<Vec3> read_points(const Field& field, std::size_t least, std::size_t most, const char* what_to_do) {
@@ -233,6 +235,10 @@ SceneConfig parse_scene(const std::string& text, const std::string& file) {
   if (json.contains("margins")) out.margins = read_margins(table.at("margins"));
   out.fixtures = json.contains("fixtures") ? read_fixtures(table.at("fixtures")) : slit_fixtures(out.slit, out.rod);
   out.canonical_json = canonical_json(json);
+  if (out.canonical_json.size() > kMostBytes)
+    throw std::runtime_error(file + ": " + std::to_string(out.canonical_json.size()) + " bytes as JSON: allowed are " +
+                             std::to_string(kMostBytes) +
+                             ", all bodies together; give fewer bodies or points, or numbers with fewer digits");
   return out;
 }
 

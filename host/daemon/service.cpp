@@ -8,6 +8,7 @@
 
 #include "host/api/request_error.hpp"
 #include "host/api/request_text.hpp"
+#include "host/api/welcome_size.hpp"
 #include "host/event/event_json.hpp"
 #include "host/record/tick_packet.hpp"
 #include "host/verify/refusal_table.hpp"
@@ -35,6 +36,7 @@ Service::Service(const ServiceConfig& config, Desk& desk)
         if (file_) file_->append(event::event_line(event, config_.buses.tick_s()));
       }),
       server_(config.api_path, *this, config.api_group) {
+  api::require_fit_in_welcome(config.robot_json, config.scene_json, config.buses.canonical_json);
   if (!config.events_file.empty()) file_.emplace(config.events_file, "--events", event::kEventLineHeading);
   if (!config.commands_file.empty()) dispatch_.emplace(config.commands_file);
   if (!config.verify_times_file.empty())
@@ -291,10 +293,10 @@ void Service::press_stop() noexcept {
 }
 
 // Nobody asks for motion any more: the command in force expires and the arm holds.
-void Service::drop_motion(event::OwnerEvent why, const std::string& owner) {
+void Service::drop_motion(event::Event why) {
   stream_.end();
   desk_.drop_motion();
-  note(owner_event(why, owner));
+  note(std::move(why));
 }
 
 void Service::begin_shutdown(const std::string& reason) {

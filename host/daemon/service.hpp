@@ -107,7 +107,8 @@ class Service : private api::ApiHandler {
   void request(Request what);
   void press_stop() noexcept;
   void order_stop(const StopOrder& order);
-  void drop_motion(event::OwnerEvent why, const std::string& owner);
+  void drop_motion(event::Event why);
+  std::string why_taken(const TakeOver& how) const;
   void watch_events_file();
   void watch_arm();
   bool is_over_after_mission();

@@ -148,6 +148,13 @@ event::Event owner_event(event::OwnerEvent what, const std::string& client) {
   return {.kind = event::EventKind::kOwner, .number = event::number_of(what), .subject = client, .text = text};
 }
 
+event::Event taken_event(const Claimant& from, const Claimant& by, const std::string& why) {
+  return {.kind = event::EventKind::kOwner,
+          .number = event::number_of(event::OwnerEvent::kTaken),
+          .subject = from.name,
+          .text = by.text() + " took motion from " + from.text() + ", " + why + ": the arm holds"};
+}
+
 event::Event stands_still_event(const std::string& client, double ttl_s) {
   return {.kind = event::EventKind::kOwner,
           .number = event::number_of(event::OwnerEvent::kStandsStill),

@@ -11,6 +11,7 @@
 #include "host/arbiter/way_news.hpp"
 #include "host/control/boot_problem.hpp"
 #include "host/daemon/emergency_stop.hpp"
+#include "host/daemon/owner.hpp"
 #include "host/event/event.hpp"
 #include "host/verify/verdict.hpp"
 
@@ -35,6 +36,8 @@ event::Event way_event(const arbiter::WayNews& news);
 event::Event refusal_event(const std::string& client, const std::string& op, const std::string& code,
                            const std::string& why);
 event::Event owner_event(event::OwnerEvent what, const std::string& client);
+// Motion was taken from an owner; `why` it could be.
+event::Event taken_event(const Claimant& from, const Claimant& by, const std::string& why);
 // An owner that streamed tip goals sent none for this long, its own time to live.
 event::Event stands_still_event(const std::string& client, double ttl_s);
 event::Event stop_event(const StopOrder& order);

@@ -80,22 +80,34 @@ void Service::gone(const api::ClientInfo& client, const std::string& why) {
   if (client.role == api::Role::kTool) {
     if (auto lost = notes_.tool.lose()) note(std::move(*lost));
   }
-  if (owner_.gone(client.id)) drop_motion(event::OwnerEvent::kGone, client.name);
+  if (owner_.gone(client.id)) drop_motion(owner_event(event::OwnerEvent::kGone, client.name));
   if (config_.ends_with_mission && client.role == api::Role::kMission) mission_end_tick_ = tick();
 }
 
-Json Service::on_acquire(const api::ClientInfo& client, const api::Arguments&) {
+// An owner that stands still must not keep the arm where it is; one that works is left alone.
+Json Service::on_acquire(const api::ClientInfo& client, const api::Arguments& fields) {
   const bool is_new = owner_.client() != client.id;
-  owner_.acquire(client.id, static_cast<std::uint32_t>(client.role) + 1, client.name);
+  const Claimant wanted{client.id, static_cast<std::uint32_t>(client.role) + 1, client.name, client.process};
+  const TakeOver how{.is_allowed = client.role == api::Role::kClient,
+                     .from = fields.has("from") ? fields.text("from") : "",
+                     .stop_in_force = notes_.stop.order().has_value(),
+                     .silent_s = server_.silence_s(owner_.client())};
+  if (const auto from = owner_.acquire(wanted, how)) drop_motion(taken_event(*from, wanted, why_taken(how)));
   if (is_new) note(owner_event(event::OwnerEvent::kAcquired, client.name));
   stream_.restart();
   if (client.role == api::Role::kClient) notes_.stop.release();  // a mission may have asked before it saw the stop
   return Json::object();
 }
 
+std::string Service::why_taken(const TakeOver& how) const {
+  const auto& stop = notes_.stop.order();
+  const std::string silence = "silent for " + api::text_of(std::round(how.silent_s)) + " s";
+  return stop ? "after " + text_of(*stop) + (how.silent_s < kMostSilence_s ? "" : ", " + silence) : silence;
+}
+
 Json Service::on_release(const api::ClientInfo& client, const api::Arguments&) {
   owner_.release(client.id);
-  drop_motion(event::OwnerEvent::kReleased, client.name);
+  drop_motion(owner_event(event::OwnerEvent::kReleased, client.name));
   return Json::object();
 }
 

@@ -38,7 +38,7 @@ constexpr std::size_t kEventKinds = 21;
 
 enum class BootEvent : std::uint8_t { kFailed = 0, kDone = 1, kGoesOn = 2 };
 enum class HomingEvent : std::uint8_t { kContradicted = 0, kHomed = 1 };
-enum class OwnerEvent : std::uint8_t { kAcquired = 1, kReleased = 2, kGone = 3, kStandsStill = 4 };
+enum class OwnerEvent : std::uint8_t { kAcquired = 1, kReleased = 2, kGone = 3, kStandsStill = 4, kTaken = 5 };
 enum class HostTroubleEvent : std::uint8_t {
   kBusState = 1,       // an interface changed its state; `state`: 0 active, 1 error passive, 2 bus off, 3 down
   kErrorFrames = 2,    // an interface reported `count` error frames

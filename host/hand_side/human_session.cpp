@@ -82,8 +82,8 @@ HumanSession::HumanSession(const HumanTable& table, const config::RobotConfig& r
     : table_(table),
       node_(static_cast<std::size_t>(robot.table.segment_count + 1) / 2),
       display_(robot.table, robot.module_radius_m),
-      vr_person_(under_delay(operator_side::VrGains{}, table.there_and_back_s), scene, table.seed),
-      hand_person_(hand_gains(table), drawing_of(scene), table.seed),
+      vr_person_(under_delay(operator_side::VrGains{}, table.there_and_back_s), scene, table.seed, table.temper),
+      hand_person_(hand_gains(table), drawing_of(scene), table.seed, table.temper),
       held_(loop_of(table), hand_on_device(), table.seed),
       prediction_(robot.table, arbiter::SpeedZone(scene.slit, robot.table.limits.tip_speed_slit_m_s)) {}
 
@@ -169,10 +169,25 @@ operator_side::OperatorAnswer HumanSession::act(double now_s) {
   const bool handles = step_.device == "vr";
   answer.kind = handles ? device::Kind::kHandles : device::Kind::kHandController;
   answer.samples = handles ? lead(now_s) : steer(from_s, now_s);
+  hold_other_too(answer.aside, from_s, now_s);
   if (!has_arrived() || reported_) return answer;
   reported_ = true;
   answer.messages.push_back({{"op", "operator_says"}, {"what", "arrived"}, {"step", step_.index}, {"time_s", now_s}});
   return answer;
+}
+
+// A lively person has the other device in hand as well, at times.
+void HumanSession::hold_other_too(std::vector<device::Sample>& aside, double from_s, double now_s) {
+  const double period_s = step_.device == "vr" ? kMillisecond_s : operator_side::VrPerson::kSample_s;
+  const auto count = std::lround((now_s - from_s) / period_s);
+  for (long i = 1; i <= count; ++i) {
+    const double t_s = from_s + (now_s - from_s) * static_cast<double>(i) / static_cast<double>(count);
+    if (step_.device == "vr") {
+      if (const auto held = hand_person_.idle(t_s)) aside.push_back(*held);
+    } else if (const auto held = vr_person_.idle(t_s)) {
+      aside.insert(aside.end(), {held->right, held->left});
+    }
+  }
 }
 
 bool HumanSession::has_arrived() const { return step_.device == "vr" ? vr_person_.arrived() : hand_person_.arrived(); }

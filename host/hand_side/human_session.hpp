@@ -20,11 +20,12 @@
 namespace liana::hand_side {
 
 struct HumanTable {
-  std::string feedback;           // a law's name, or off; empty: as every step of the mission says
+  std::string feedback{};         // a law's name, or off; empty: as every step of the mission says
   bool passivity = true;          // energy tank and damping at the device
   bool walls = true;              // those that the device is told are felt
   double there_and_back_s = 0.0;  // delay of the link, known to the person
   std::uint64_t seed = 1;
+  operator_side::Temper temper = operator_side::Temper::kGentle;
 };
 
 // What only the hand's side knows of a run.
@@ -64,6 +65,7 @@ class HumanSession {
   void feel_walls(const liana_state* told);
   std::vector<device::Sample> lead(double now_s);
   std::vector<device::Sample> steer(double from_s, double now_s);
+  void hold_other_too(std::vector<device::Sample>& aside, double from_s, double now_s);
   bool has_arrived() const;
   void predict(double now_s);
 

@@ -31,6 +31,7 @@ struct OperatorOptions {
   std::string passivity = "on";
   std::string fixtures = "on";
   std::string delay = "0,0";
+  std::string temper = "gentle";
   std::string figures;  // empty: nobody asks
   std::uint64_t seed = 1;
   bool lockstep = false;
@@ -82,14 +83,15 @@ std::unique_ptr<Steering> human(const OperatorOptions& options, const Json& welc
   table.walls = options.fixtures == "on";
   table.there_and_back_s = delays.forward_s + delays.back_s;
   table.seed = options.seed;
+  table.temper = operator_side::temper_called(options.temper);
   return std::make_unique<HumanSteering>(HumanSession(table, robot, scene_of(options, welcome)), delays, options.seed);
 }
 
 std::unique_ptr<Steering> steering_of(const OperatorOptions& options, const Json& welcome) {
   if (options.who == "human") return human(options, welcome);
-  return std::make_unique<RecordedSteering>(operator_side::OperatorSession(folders_in(options.recordings),
-                                                                           drawing_of(scene_of(options, welcome)),
-                                                                           operator_side::HandGains{}, options.seed));
+  return std::make_unique<RecordedSteering>(operator_side::OperatorSession(
+      folders_in(options.recordings), drawing_of(scene_of(options, welcome)), operator_side::HandGains{}, options.seed,
+      operator_side::temper_called(options.temper)));
 }
 
 // The devices' clock is the arm's.
@@ -113,6 +115,7 @@ void act(Run& run, const Json& state) {
   for (const operator_side::OperatorAnswer& answer : run.steering.on_news(news)) {
     run.figures.sent(answer);
     run.devices.send(answer.kind, answer.samples);
+    run.devices.send(operator_side::other_of(answer.kind), answer.aside);
     for (const Json& out : answer.messages) run.client.send(out);
   }
 }
@@ -172,6 +175,9 @@ int main(int argc, char** argv) {
   line.option("--fixtures", options.fixtures, "of the human: the walls that lianad tells are felt")
       .one_of({"on", "off"});
   line.option("--delay", options.delay, "of the human: FORWARD_S,RETURN_S of the link to the arm, each 0 to 2");
+  line.option("--temper", options.temper,
+              "lively: bursts, reversals, drift, tremor, grips lost in motion, both devices")
+      .one_of({"gentle", "lively"});
   line.option("--figures", options.figures, "file for what only the operator knows: lag, force at the hand, energy");
   line.option("--seed", options.seed, "seed of tremor, glitches and dropouts");
   line.flag("--lockstep", options.lockstep, "answer every state, so that fast runs repeat");

@@ -37,7 +37,9 @@ std::vector<operator_side::OperatorAnswer> HumanSteering::on_news(const News& ne
   std::vector<operator_side::OperatorAnswer> come;
   while (const auto answer = to_arm_.receive(now_us)) {
     come.push_back(*answer->load);
-    if (!answer->is_newest) come.back().samples.clear();
+    if (answer->is_newest) continue;
+    come.back().samples.clear();
+    come.back().aside.clear();
   }
   return come;
 }

@@ -7,6 +7,7 @@ namespace liana::operator_side {
 namespace {
 
 constexpr std::uint64_t kTremorPurpose = 21;
+constexpr std::uint64_t kLivelyHandPurpose = 81;  // to 86
 constexpr double kSampleStep_s = 0.001;
 constexpr double kLongestGap_s = 0.1;  // pictures further apart count as this far apart
 constexpr double kSpeedMargin = 0.9;
@@ -15,12 +16,14 @@ constexpr double kRealTurn_rad = 0.05;  // a leg that turns less has no lag in a
 
 }  // namespace
 
-HandPerson::HandPerson(const HandGains& gains, const SlitDrawing& drawing, std::uint64_t seed)
-    : gains_(gains),
+HandPerson::HandPerson(const HandGains& gains, const SlitDrawing& drawing, std::uint64_t seed, Temper temper)
+    : gains_(temper == Temper::kLively ? in_haste(gains) : gains),
       drawing_(drawing),
       tremor_(gains.tremor_m, gains.tremor_rad, seed, kTremorPurpose),
-      aim_(gains),
-      grip_(gains, drawing.slit_in_base.quaternion) {}
+      aim_(gains_),
+      grip_(gains_, drawing.slit_in_base.quaternion) {
+  if (temper == Temper::kLively) lively_.emplace(LivelyTable{}, seed, kLivelyHandPurpose);
+}
 
 void HandPerson::begin(HandTask task, const HandMapping& mapping, double now_s) {
   task_ = task;
@@ -36,7 +39,10 @@ void HandPerson::enter(Phase phase, double now_s) {
   phase_ = phase;
   phase_since_s_ = now_s;
   if (phase == Phase::kReturning) grip_.start_return(leg_.remaining());
-  if (phase == Phase::kReturning || phase == Phase::kLooking) looks_ = 0;
+  if (phase == Phase::kReturning || phase == Phase::kLooking) {
+    looks_ = 0;
+    has_slipped_ = false;
+  }
   if (phase == Phase::kGripping) grip_.grip(aim_.commanded());
   followed_s_ = good_since_s_ = now_s;
 }
@@ -210,7 +216,29 @@ void HandPerson::act(double now_s) {
 device::Sample HandPerson::sample(double now_s) {
   perceive(now_s);
   act(now_s);
-  return {.t_us = std::llround(now_s * 1e6), .deadman = button(), .pose = tremor_.apply(grip_.pose(), now_s)};
+  const device::Sample meant{
+      .t_us = std::llround(now_s * 1e6), .deadman = button(), .pose = tremor_.apply(grip_.pose(), now_s)};
+  return lively_ ? lively(meant, now_s) : meant;
+}
+
+bool HandPerson::is_aligning() const { return button() && leg_.finished(); }
+
+// Whoever has lost the grip and found it again lets go and looks where the tip is.
+device::Sample HandPerson::lively(device::Sample meant, double now_s) {
+  lively_->advance(now_s, is_aligning());
+  const bool has_grip = lively_->has_grip();
+  if (meant.deadman && !has_grip) has_slipped_ = true;
+  if (has_slipped_ && has_grip && phase_ == Phase::kSteering) enter(Phase::kReturning, now_s);
+  meant.pose = lively_->right(meant.pose);
+  meant.deadman = meant.deadman && has_grip;
+  return meant;
+}
+
+std::optional<device::Sample> HandPerson::idle(double now_s) {
+  if (!lively_) return std::nullopt;
+  lively_->advance(now_s, false);
+  if (!lively_->is_taken_up()) return std::nullopt;
+  return device::Sample{.t_us = std::llround(now_s * 1e6), .deadman = true, .pose = lively_->right(grip_.pose())};
 }
 
 }  // namespace liana::operator_side

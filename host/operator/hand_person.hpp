@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "host/device/sample.hpp"
 #include "host/operator/aim.hpp"
 #include "host/operator/hand_grip.hpp"
 #include "host/operator/leg.hpp"
+#include "host/operator/temper.hpp"
 #include "host/operator/tremor.hpp"
 
 namespace liana::operator_side {
@@ -22,7 +24,7 @@ enum class HandTask : std::uint8_t {
 // Deterministic: the same calls give the same hand, whatever the machine.
 class HandPerson {
  public:
-  HandPerson(const HandGains& gains, const SlitDrawing& drawing, std::uint64_t seed);
+  HandPerson(const HandGains& gains, const SlitDrawing& drawing, std::uint64_t seed, Temper temper = Temper::kGentle);
 
   // A task begins; the person looks first.
   void begin(HandTask task, const HandMapping& mapping, double now_s);
@@ -32,6 +34,8 @@ class HandPerson {
   void feel(bool engaged, double now_s);
   // The hand one millisecond on; call once per millisecond of `now_s`.
   device::Sample sample(double now_s);
+  // The hand while another device is used; nothing unless a lively person holds this one as well.
+  std::optional<device::Sample> idle(double now_s);
 
   // True when the task is done and the button released.
   bool arrived() const { return phase_ == Phase::kDone; }
@@ -70,10 +74,14 @@ class HandPerson {
   void watch_goal(double now_s);
   void enter(Phase phase, double now_s);
   bool is_behind() const;
+  bool is_aligning() const;
+  device::Sample lively(device::Sample meant, double now_s);
 
   HandGains gains_;
   SlitDrawing drawing_;
   Tremor tremor_;
+  std::optional<LivelyHands> lively_;
+  bool has_slipped_ = false;  // lost the grip: looks before it goes on
   HandTask task_ = HandTask::kEnterSlit;
   double allowed_speed_m_s_ = 0.0;  // 0: not said
   Phase phase_ = Phase::kIdle;

@@ -10,6 +10,7 @@ namespace liana::operator_side {
 namespace {
 
 constexpr double kSamplePeriod_s = 0.001;
+constexpr double kHandlesPeriod_s = 1.0 / 90.0;
 constexpr double kLongestGap_s = 0.1;     // after a pause the hand goes on, it does not catch up
 constexpr double kSettleAfterVr_s = 1.0;  // the person watches the arm come to rest before saying so
 constexpr const char* kDefaultRecording = "panel_edge_vr";
@@ -26,7 +27,13 @@ double positive(const Json& object, const char* key, double otherwise) {
   return value > 0.0 ? value : otherwise;
 }
 
+long milliseconds(double from_s, double to_s) { return std::lround((to_s - from_s) / kSamplePeriod_s); }
+
 }  // namespace
+
+device::Kind other_of(device::Kind kind) {
+  return kind == device::Kind::kHandles ? device::Kind::kHandController : device::Kind::kHandles;
+}
 
 HandTask hand_task(const AnnouncedStep& step) {
   if (step.task == "rod") return HandTask::kReachRod;
@@ -48,8 +55,8 @@ HandMapping announced_mapping(const Json& state) {
 }
 
 OperatorSession::OperatorSession(std::vector<std::string> recordings, const SlitDrawing& drawing,
-                                 const HandGains& gains, std::uint64_t seed)
-    : recordings_(std::move(recordings)), person_(gains, drawing, seed), seed_(seed) {}
+                                 const HandGains& gains, std::uint64_t seed, Temper temper)
+    : recordings_(std::move(recordings)), person_(gains, drawing, seed, temper), seed_(seed), temper_(temper) {}
 
 // The first there is; where there is none the last, for the message.
 std::string OperatorSession::recording_called(const std::string& name) const {
@@ -64,10 +71,9 @@ std::string OperatorSession::recording_called(const std::string& name) const {
 void OperatorSession::begin_step(const AnnouncedStep& step, const Json& state) {
   reported_ = false;
   finished_s_ = -1.0;
-  vr_.reset();
   if (step.device == "vr") {
     const std::string name = step.task.empty() ? kDefaultRecording : step.task;
-    vr_.emplace(read_vr_recording(recording_called(name)), VrDisturbance{}, seed_);
+    vr_.emplace(read_vr_recording(recording_called(name)), VrDisturbance{}, seed_, temper_);
   } else {
     person_.begin(hand_task(step), announced_mapping(state), now_s_);
   }
@@ -93,6 +99,10 @@ OperatorAnswer OperatorSession::steer_vr(double from_s, double to_s, bool engage
   OperatorAnswer answer{.kind = device::Kind::kHandles};
   for (const BothHands& hands : vr_->advance(from_s, to_s - from_s))
     answer.samples.insert(answer.samples.end(), {hands.right, hands.left});
+  for (long i = 1; i <= milliseconds(from_s, to_s); ++i) {
+    if (const auto held = person_.idle(from_s + static_cast<double>(i) * kSamplePeriod_s))
+      answer.aside.push_back(*held);
+  }
   if (vr_->finished() && finished_s_ < 0.0) finished_s_ = to_s;
   report_arrival(answer.messages, finished_s_ >= 0.0 && to_s - finished_s_ > kSettleAfterVr_s, to_s);
   return answer;
@@ -101,11 +111,19 @@ OperatorAnswer OperatorSession::steer_vr(double from_s, double to_s, bool engage
 OperatorAnswer OperatorSession::steer_hand(double from_s, double to_s, bool engaged) {
   person_.feel(engaged, to_s);
   OperatorAnswer answer{.kind = device::Kind::kHandController};
-  const auto count = std::lround((to_s - from_s) / kSamplePeriod_s);
-  for (long i = 1; i <= count; ++i)
+  for (long i = 1; i <= milliseconds(from_s, to_s); ++i)
     answer.samples.push_back(person_.sample(from_s + static_cast<double>(i) * kSamplePeriod_s));
+  if (vr_) hold_handles_too(answer.aside, from_s, to_s);
   report_arrival(answer.messages, person_.arrived(), to_s);
   return answer;
+}
+
+void OperatorSession::hold_handles_too(std::vector<device::Sample>& aside, double from_s, double to_s) {
+  const auto count = std::lround((to_s - from_s) / kHandlesPeriod_s);
+  for (long i = 1; i <= count; ++i) {
+    const double t_s = from_s + (to_s - from_s) * static_cast<double>(i) / static_cast<double>(count);
+    if (const auto held = vr_->idle(t_s)) aside.insert(aside.end(), {held->right, held->left});
+  }
 }
 
 void OperatorSession::report_arrival(std::vector<Json>& messages, bool arrived, double now_s) {

@@ -23,10 +23,14 @@ struct AnnouncedStep {
   std::int64_t entry = 0;  // grows from step to step, also when a step comes again
 };
 
+// The one of the two devices that is not of this kind.
+device::Kind other_of(device::Kind kind);
+
 // What the person does in one interval.
 struct OperatorAnswer {
   device::Kind kind = device::Kind::kNone;  // of the device that is moved
   std::vector<device::Sample> samples{};    // of it, oldest first
+  std::vector<device::Sample> aside{};      // of the other one, held as well
   std::vector<Json> messages{};             // to lianad's API
 };
 
@@ -36,7 +40,7 @@ class OperatorSession {
  public:
   // `recordings` are the folders of the `.hand` files, searched in turn.
   OperatorSession(std::vector<std::string> recordings, const SlitDrawing& drawing, const HandGains& gains,
-                  std::uint64_t seed);
+                  std::uint64_t seed, Temper temper = Temper::kGentle);
 
   // What to send in answer to one state. Throws std::runtime_error when a recording cannot be read.
   OperatorAnswer on_state(const Json& state);
@@ -47,6 +51,7 @@ class OperatorSession {
   void begin_step(const AnnouncedStep& step, const Json& state);
   OperatorAnswer steer_vr(double from_s, double to_s, bool engaged);
   OperatorAnswer steer_hand(double from_s, double to_s, bool engaged);
+  void hold_handles_too(std::vector<device::Sample>& aside, double from_s, double to_s);
   void report_arrival(std::vector<Json>& messages, bool arrived, double now_s);
 
   std::string recording_called(const std::string& name) const;
@@ -54,6 +59,7 @@ class OperatorSession {
   std::vector<std::string> recordings_;
   HandPerson person_;
   std::uint64_t seed_;
+  Temper temper_;
   std::optional<RecordedVr> vr_;
   AnnouncedStep step_{};
   bool steering_ = false;  // the announced device is ours to move

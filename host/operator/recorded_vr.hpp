@@ -1,10 +1,13 @@
 // A person with two VR handles, as a recording: played back with seeded tremor, glitches and tracking dropouts on top.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "host/operator/hand_recording.hpp"
+#include "host/operator/temper.hpp"
 #include "host/operator/tremor.hpp"
 
 namespace liana::operator_side {
@@ -20,14 +23,18 @@ struct VrDisturbance {
   double patience_s = 0.6;        // trigger held without the arm following
 };
 
-// Plays one recording once; time stands still while the person re-grips.
+// Plays one recording once; time stands still while the person re-grips, and while a lively one has
+// lost the grip.
 class RecordedVr {
  public:
   // The recording must not be empty.
-  RecordedVr(VrRecording recording, const VrDisturbance& disturbance, std::uint64_t seed);
+  RecordedVr(VrRecording recording, const VrDisturbance& disturbance, std::uint64_t seed,
+             Temper temper = Temper::kGentle);
 
   // Samples of the next `duration_s`, stamped from `now_s` on.
   std::vector<BothHands> advance(double now_s, double duration_s);
+  // One sample of the hands while another device is used; nothing unless a lively person holds the handles as well.
+  std::optional<BothHands> idle(double now_s);
   // Whether the arm follows, as the person sees it.
   void feel(bool engaged, double now_s);
   // True when the last sample has been played; the triggers are released from then on.
@@ -36,12 +43,15 @@ class RecordedVr {
  private:
   std::vector<BothHands> rest(double now_s, double duration_s);
   BothHands disturbed(const BothHands& recorded, double now_s);
+  const BothHands& next_recorded() const { return recording_[std::min(next_, recording_.size() - 1)]; }
+  bool has_grip(double now_s);
   void disturb_handle(device::Sample& handle, const Tremor& tremor, double now_s) const;
 
   VrRecording recording_;
   VrDisturbance disturbance_;
   Tremor right_tremor_;
   Tremor left_tremor_;
+  std::optional<LivelyHands> lively_;
   std::size_t next_ = 0;
   double played_s_ = 0.0;  // position in the recording
   std::size_t jump_index_ = 0;

@@ -7,17 +7,13 @@
 
 namespace liana::operator_side {
 
-namespace {
-constexpr double kLowest_hz = 8.0;
-constexpr double kHighest_hz = 12.0;
-}  // namespace
-
-Tremor::Tremor(double position_m, double rotation_rad, std::uint64_t seed, std::uint64_t purpose)
+Tremor::Tremor(double position_m, double rotation_rad, std::uint64_t seed, std::uint64_t purpose, double lowest_hz,
+               double highest_hz)
     : position_m_(position_m), rotation_rad_(rotation_rad) {
   RandomStream random(seed, purpose);
   for (auto& axis : waves_) {
     for (Wave& wave : axis) {
-      wave.rate_rad_s = 2.0 * std::numbers::pi * random.uniform(kLowest_hz, kHighest_hz);
+      wave.rate_rad_s = 2.0 * std::numbers::pi * random.uniform(lowest_hz, highest_hz);
       wave.phase_rad = random.uniform(0.0, 2.0 * std::numbers::pi);
     }
   }

@@ -1,4 +1,4 @@
-// Physiological tremor of a hand: 8 to 12 Hz, on every axis.
+// Physiological tremor of a hand: 8 to 12 Hz, on every axis; or another motion of a band of frequencies.
 #pragma once
 
 #include <array>
@@ -13,7 +13,8 @@ namespace liana::operator_side {
 class Tremor {
  public:
   // `position_m` and `rotation_rad`: RMS of each axis; `purpose` separates the hands of one seed.
-  Tremor(double position_m, double rotation_rad, std::uint64_t seed, std::uint64_t purpose);
+  Tremor(double position_m, double rotation_rad, std::uint64_t seed, std::uint64_t purpose, double lowest_hz = 8.0,
+         double highest_hz = 12.0);
 
   // `pose` as the trembling hand holds it at time `t_s`.
   Pose apply(const Pose& pose, double t_s) const;

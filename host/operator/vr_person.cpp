@@ -9,10 +9,11 @@
 namespace liana::operator_side {
 namespace {
 
-constexpr std::uint64_t kRightTrackerPurpose = 51;  // and 52
-constexpr std::uint64_t kLeftTrackerPurpose = 53;   // and 54
-constexpr double kStrive_s = 2.5;                   // stands at the end of the way for so long before a stroke more
-constexpr double kDecided_m = 0.05;                 // a way is followed for so long before it is doubted
+constexpr std::uint64_t kRightTrackerPurpose = 51;   // and 52
+constexpr std::uint64_t kLeftTrackerPurpose = 53;    // and 54
+constexpr std::uint64_t kLivelyHandlesPurpose = 91;  // to 96
+constexpr double kStrive_s = 2.5;                    // stands at the end of the way for so long before a stroke more
+constexpr double kDecided_m = 0.05;                  // a way is followed for so long before it is doubted
 
 HandGains hand_of(const VrGains& gains) {
   HandGains hand;
@@ -41,13 +42,15 @@ std::optional<Pose> panel_edge(const VrGains& gains, const config::SceneConfig& 
   return Pose{edge.position_m, drawing.rod ? drawing.rod->pose.quaternion_wxyz : edge.quaternion};
 }
 
-VrPerson::VrPerson(const VrGains& gains, const config::SceneConfig& drawing, std::uint64_t seed)
+VrPerson::VrPerson(const VrGains& gains, const config::SceneConfig& drawing, std::uint64_t seed, Temper temper)
     : gains_(gains),
       drawing_(drawing),
       right_(hand_of(gains), kParallel),
       left_(hand_of(gains), kParallel),
       right_tracker_(tracking_of(gains), seed, kRightTrackerPurpose),
-      left_tracker_(tracking_of(gains), seed, kLeftTrackerPurpose) {}
+      left_tracker_(tracking_of(gains), seed, kLeftTrackerPurpose) {
+  if (temper == Temper::kLively) lively_.emplace(lively_at_handles(), seed, kLivelyHandlesPurpose);
+}
 
 void VrPerson::begin(const HandMapping& mapping, double now_s) {
   right_.set_mapping(mapping);
@@ -63,6 +66,7 @@ void VrPerson::enter(Phase phase, double now_s) {
   phase_ = phase;
   phase_since_s_ = followed_s_ = there_since_s_ = striving_since_s_ = now_s;
   if (phase == Phase::kReturning) {
+    has_slipped_ = false;
     node_put_m_ = node_commanded_m();
     right_.start_return(leg_.remaining());
     left_.start_return({subtract(node_to_m_, *node_put_m_), {}});
@@ -226,10 +230,36 @@ void VrPerson::act(double now_s) {
 BothHands VrPerson::sample(double now_s) {
   perceive(now_s);
   act(now_s);
-  BothHands hands{right_tracker_.track(right_.pose(), holds(), now_s),
-                  left_tracker_.track(left_.pose(), holds(), now_s)};
+  const bool has_grip = !lively_ || keeps_grip(now_s);
+  return tracked(holds() && has_grip, now_s);
+}
+
+// Whoever has lost the grip and found it again stops, lets go and decides anew. No gesture begins at the end of the
+// way.
+bool VrPerson::keeps_grip(double now_s) {
+  lively_->advance(now_s, leg_.finished() && next_ + 1 == way_.size());
+  const bool has_grip = lively_->has_grip();
+  if (holds() && !has_grip) has_slipped_ = true;
+  if (has_slipped_ && has_grip && phase_ == Phase::kLeading) {
+    doubts_ = true;
+    enter(Phase::kSettling, now_s);
+  }
+  return has_grip;
+}
+
+BothHands VrPerson::tracked(bool held, double now_s) {
+  const Pose right = lively_ ? lively_->right(right_.pose()) : right_.pose();
+  const Pose left = lively_ ? lively_->left(left_.pose()) : left_.pose();
+  BothHands hands{right_tracker_.track(right, held, now_s), left_tracker_.track(left, held, now_s)};
   hands.left.hand = 1;
   return hands;
+}
+
+std::optional<BothHands> VrPerson::idle(double now_s) {
+  if (!lively_) return std::nullopt;
+  lively_->advance(now_s, false);
+  if (!lively_->is_taken_up()) return std::nullopt;
+  return tracked(true, now_s);
 }
 
 }  // namespace liana::operator_side

@@ -14,6 +14,7 @@
 #include "host/operator/hands_plan.hpp"
 #include "host/operator/leg.hpp"
 #include "host/operator/samples.hpp"
+#include "host/operator/temper.hpp"
 #include "host/operator/vr_gains.hpp"
 
 namespace liana::operator_side {
@@ -26,7 +27,8 @@ class VrPerson {
  public:
   static constexpr double kSample_s = 1.0 / 90.0;
 
-  VrPerson(const VrGains& gains, const config::SceneConfig& drawing, std::uint64_t seed);
+  VrPerson(const VrGains& gains, const config::SceneConfig& drawing, std::uint64_t seed,
+           Temper temper = Temper::kGentle);
 
   // Asked to go to the panel's edge; looks first. In a scene without a slit there is none, and the person waits.
   void begin(const HandMapping& mapping, double now_s);
@@ -36,6 +38,8 @@ class VrPerson {
   void feel(bool engaged, double now_s);
   // The hands one sample on; call every kSample_s.
   BothHands sample(double now_s);
+  // The hands while another device is used; nothing unless a lively person holds the handles as well.
+  std::optional<BothHands> idle(double now_s);
 
   // True when the tip is seen to be there and the triggers are released.
   bool arrived() const { return phase_ == Phase::kDone; }
@@ -62,6 +66,8 @@ class VrPerson {
   bool holds() const;
   bool out_of_reach() const;
   void act(double now_s);
+  bool keeps_grip(double now_s);
+  BothHands tracked(bool held, double now_s);
   const HandsGoal& aim() const { return way_[next_]; }
   Vec3 node_commanded_m() const;
 
@@ -71,6 +77,8 @@ class VrPerson {
   HandGrip left_;
   HandleTracker right_tracker_;
   HandleTracker left_tracker_;
+  std::optional<LivelyHands> lively_;
+  bool has_slipped_ = false;  // lost the grip: looks before it goes on
   Phase phase_ = Phase::kIdle;
   double phase_since_s_ = 0.0;
   Pose edge_{};

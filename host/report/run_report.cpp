@@ -46,7 +46,8 @@ Json steps_of(const Json& known) {
   Json steps = Json::array();
   for (const Json& step : known) {
     Json kept = Json::object();
-    for (const char* key : {"name", "device", "held_theta", "duration_s", "outcome", "reason", "ended_by", "next"}) {
+    for (const char* key :
+         {"name", "device", "held_theta", "duration_s", "slowed_s", "outcome", "reason", "ended_by", "next"}) {
       if (step.contains(key)) kept[key] = step[key];
     }
     steps.push_back(kept);

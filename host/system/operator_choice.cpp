@@ -20,6 +20,7 @@ std::vector<std::string> operator_words(const OperatorChoice& choice) {
   add("--feedback", choice.feedback);
   add("--passivity", choice.passivity);
   if (choice.who == "human") add("--fixtures", choice.fixtures);
+  if (!choice.temper.empty()) words.insert(words.end(), {"--temper", choice.temper});
   try {
     if (!choice.delay.empty()) haptic::delays_of(choice.delay);
   } catch (const std::invalid_argument& error) {

@@ -15,6 +15,7 @@
 #include <optional>
 #include <string_view>
 
+#include "host/api/welcome_size.hpp"
 #include "host/calibration/calibration.hpp"
 #include "host/calibration/fixture.hpp"
 #include "host/config/field.hpp"
@@ -379,6 +380,7 @@ SystemLayout make_layout(const RunOptions& given) {
   if (!plan.scene.camera || !plan.scene.contact)
     throw BadInput("--scene: '" + options.scene + "': has no " + (plan.scene.camera ? "contact" : "camera") +
                    ", which the bench needs; add it (docs/formats.md)");
+  checked([&] { api::require_fit_in_welcome(robot.json, scene.json, buses.json); });
   const bool has_mission = !options.mission.empty();
   if (has_mission && !plan.is_serial) plan.mission = mission_checked_with(robot.json, buses.json, options.mission);
   options.start_pose = plan.is_serial ? check_options_of_serial_robot(options, robot.json, plan)

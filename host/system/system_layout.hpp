@@ -34,7 +34,7 @@ struct SystemLayout {
   std::vector<ProgramCall> programs;  // in the order in which they start
 
   std::string file(const std::string& name) const { return directory + "/" + name; }
-  std::string api_socket() const { return socket_dir + "/api"; }
+  std::string api_socket() const { return socket_dir + (is_dry_run ? "/dry" : "/api"); }  // estop looks for api
   std::string events_file() const { return file("events.txt"); }
   std::string commands_file() const { return file("commands.txt"); }
   std::string operator_file() const { return file("operator.json"); }

@@ -47,9 +47,14 @@ function arm.elapsed_s(since) end
 
 -- ---- commanding, made by ./dev docs ----
 
+---@class arm.acquire
+---owner that a client takes motion from: after an emergency stop, or 5 s without a sign of life of it
+---@field from? string
+
 ---Own motion; one client at a time, and the death of the owner is a hold.
+---@param fields? arm.acquire
 ---@return integer id
-function arm.acquire() end
+function arm.acquire(fields) end
 
 ---Give motion back; the arm holds.
 ---@return integer id
@@ -256,7 +261,7 @@ function arm.shape(fields) end
 ---@field duration_s? number
 
 ---All tensions of an arm at rest go slowly up and down, which frees what friction holds. For cable arms only.
----@param fields arm.dither
+---@param fields? arm.dither
 ---@return integer id
 function arm.dither(fields) end
 
@@ -330,7 +335,7 @@ function arm.use_device(fields) end
 
 ---Pushes along an axis of the tip by force control, from rest, until something else is asked for; how it goes
 ---is `push` of the state. For serial arms only.
----@param fields arm.push
+---@param fields? arm.push
 ---@return integer id
 function arm.push(fields) end
 
@@ -369,7 +374,7 @@ function arm.adapter(fields) end
 ---@field until_tick? integer
 
 ---Stop, then back along the verified path, a little slower than the way in.
----@param fields arm.retract
+---@param fields? arm.retract
 ---@return integer id
 function arm.retract(fields) end
 
@@ -391,7 +396,7 @@ function arm.tool(fields) end
 ---@field reason? string
 
 ---Stop, brakes, disable; never refused.
----@param fields arm.stop
+---@param fields? arm.stop
 ---@return integer id
 function arm.stop(fields) end
 
@@ -416,7 +421,7 @@ function arm.stop(fields) end
 ---@field after? string
 
 ---Tells the operator which step runs.
----@param fields arm.announce
+---@param fields? arm.announce
 ---@return integer id
 function arm.announce(fields) end
 

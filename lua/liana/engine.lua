@@ -16,6 +16,7 @@ local kToolLimit_s = 30 -- the tool says in this time how its last command ended
 local kRetractStall_s = 60 -- the way back comes on by a point of its path in this time or the mission ends
 local kMostSteps = 1000 -- begin in one run
 local kRecoverLimit_s = 30 -- the arm is at rest in this time after a failed step that another one follows
+local kLeastShare = 0.1 -- of a step's time counts, however much the arm is slowed: a step ends
 local kRetry_s = 2 -- between attempts that lianad answers with busy or refused
 
 local Runner = {}
@@ -109,13 +110,13 @@ function Runner:begin_step(index, goes_on)
   local step, state = self:step(), self.arm.state
   self.record = {
     index = index, name = step.name, device = step.device, held_theta = held_list(step.hold), outcome = "running", reason = "", ended_by = "",
-    start_tick = state.tick, end_tick = state.tick, duration_s = 0,
+    start_tick = state.tick, end_tick = state.tick, duration_s = 0, slowed_s = 0,
   }
   self.report.steps[#self.report.steps + 1] = self.record
   self.refusals_before = state.refusals
   if step.on_fail == "retract" and not self.first_retract_tick then self.first_retract_tick = state.tick end
   self.arm.begin_tick, self.arm.was_engaged, self.arm.must_hold = state.tick, false, step.hold
-  self.has_entered, self.is_confirmed, self.waited_s = false, step.confirm == nil, 0
+  self.has_entered, self.is_confirmed, self.waited_s, self.slowed_s = false, step.confirm == nil, 0, 0
   self:announce_step(nil, self:after())
   self.native.progress { event = "begin", index = index, count = #self.mission.steps, name = step.name, device = step.device, time_s = state.time_s }
   self.native.report(self.report)
@@ -203,16 +204,30 @@ local function ended_by_condition(runner)
   return is_over or not is_well
 end
 
-local function run(runner)
+-- How much of this state's time does not count for the step's limit: while lianad lets the hand lead the arm at a share of its
+-- speed, that share of the time counts.
+local function slowed_s(runner, state)
+  local guidance = state.guidance
+  local share = guidance and guidance.speed_share or 1
+  return (1 - math.max(kLeastShare, math.min(1, share))) * (state.tick - runner.tick_before) * runner.arm.period_s
+end
+
+local function past_its_time(runner)
   local step, arm = runner:step(), runner.arm
+  if arm.elapsed_s(arm.begin_tick) - runner.waited_s - runner.slowed_s <= step.time_limit_s then return end
+  local slowed = runner.slowed_s >= 0.1 and (" and %.1f s more for an arm that was slowed"):format(runner.slowed_s) or ""
+  local busy = arm.state.is_busy and " while the arm was still moving" or ""
+  runner:fall_short("failed", ("time limit of %g s%s passed%s, not met: %s"):format(step.time_limit_s, slowed, busy, step.exit.text))
+end
+
+local function run(runner)
+  local arm = runner.arm
   if refused_motion(runner) then return end
   local fresh = runner:phase_s() >= kSettle_s -- before, the state may still speak of the step before
   if fresh and arm.state.device_engaged then arm.was_engaged = true end
   if fresh and ended_by_condition(runner) then return end
-  if arm.elapsed_s(arm.begin_tick) - runner.waited_s > step.time_limit_s then
-    local busy = arm.state.is_busy and " while the arm was still moving" or ""
-    runner:fall_short("failed", ("time limit of %g s passed%s, not met: %s"):format(step.time_limit_s, busy, step.exit.text))
-  end
+  runner.slowed_s = runner.slowed_s + slowed_s(runner, arm.state)
+  past_its_time(runner)
 end
 
 -- `ended_by`: the condition that ended the step, where one did.
@@ -220,7 +235,7 @@ function Runner:close_record(outcome, reason, ended_by)
   local record, state = self.record, self.arm.state
   record.outcome, record.reason, record.ended_by, record.end_tick = outcome, reason, ended_by or "", state.tick
   self.ended_by = ended_by
-  record.duration_s = self.arm.elapsed_s(record.start_tick)
+  record.duration_s, record.slowed_s = self.arm.elapsed_s(record.start_tick), self.slowed_s
   self.native.progress {
     event = "end", index = self.index, count = #self.mission.steps, name = record.name, device = record.device, outcome = outcome,
     reason = reason, ended_by = record.ended_by, duration_s = record.duration_s, time_s = state.time_s,
@@ -423,6 +438,7 @@ local kPhases = {
 
 -- One state message. Returns true when the mission is over.
 function Runner:on_state(state)
+  self.tick_before = self.arm.state and self.arm.state.tick or state.tick
   self.arm.state = state
   if not self.phase_tick then self.phase_tick = state.tick end
   if self.phase ~= "over" and not stopped(self) then

@@ -12,7 +12,7 @@ return {
   { "plan", "instead of `run` and `exit`: a plan's file beside the mission, gone through from rest to rest" },
   { "exit", "condition to end with success" },
   { "fail_when", "condition to end as failed, by name; looked at before `exit` in every command interval, from 0.1 s after `run`" },
-  { "time_limit_s", "the step fails after this time of the arm" },
+  { "time_limit_s", "the step fails after this time of the arm; [slowed time](#how-a-step-goes) counts in part" },
   { "on_fail", "`\"hold\"`, `\"stop\"` (brakes, disable), `\"retract\"` (back to where the first step with it began) or `\"pause\"` (for people)" },
   { "next", "where to go on, see [branches and loops](#branches-and-loops); left out: to the step written next" },
   { "confirm", "what people have to confirm before the step begins, such as `\"cover removed\"`" },

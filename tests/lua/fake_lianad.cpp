@@ -222,6 +222,7 @@ Json FakeLianad::state() const {
           {"owner", stolen ? "somebody" : owner_},
           {"device", device_},
           {"device_engaged", engaged_},
+          {"guidance", {{"speed_share", engaged_ ? behaviour_.speed_share : 1.0}, {"slowed_by", ""}}},
           {"setpoint_js_deg", js_deg_},
           {"measured_js_deg", js_deg_},
           {"measured_cp", tip_},

@@ -31,6 +31,7 @@ struct FakeBehaviour {
   bool way_back_stalls = false;                    // retract is accepted, and nothing comes of it
   std::vector<std::pair<int, std::string>> people = {};  // (step, command): each once, 25 intervals into that step
   bool hold_fault_goes = false;                          // once nobody owns motion any more
+  double speed_share = 1.0;                              // of the tip's speed, what a hand is left
   double tip_in_slit_u_m = 3.2;                          // where the hand steps bring the tip
 };
 

@@ -335,6 +335,25 @@ TEST(Mission, ATimeLimitThatPassesDuringAMoveSaysSo) {
       << run.ended.error;
 }
 
+// A step of a hand that never arrives; the fake grips after 0.2 s.
+std::string hand_step(const TemporaryFolder& folder) {
+  return folder.write(
+      "given.lua",
+      "local liana = require 'liana'\nreturn liana.mission 'given' { liana.step 'led' { device = 'vr',\n"
+      "exit = liana.released(), time_limit_s = 5, on_fail = 'hold' } }\n");
+}
+
+TEST(Mission, TimeInWhichAHandIsSlowedCountsByItsShareAndByATenthAtLeast) {
+  for (const auto& [share, lasts_s] :
+       std::map<double, double>{{-3.0, 48.2}, {0.0, 48.2}, {0.25, 19.4}, {0.5, 9.8}, {1.0, 5.0}, {7.0, 5.0}}) {
+    const TemporaryFolder folder;
+    const MissionRun run = run_mission_against({.operator_arrives = false, .speed_share = share}, hand_step(folder));
+    ASSERT_EQ(run.report["steps"].size(), 1u) << run.ended.error;
+    EXPECT_NEAR(run.report["steps"][0]["duration_s"].get<double>(), lasts_s, 0.2) << share;
+    EXPECT_EQ(run.ended.error.find("time limit of 5 s passed") == std::string::npos, share < 1.0) << run.ended.error;
+  }
+}
+
 TEST(Mission, AStopForAReasonTooLongForAPacketIsStillSent) {
   const TemporaryFolder folder;
   const MissionRun run = run_mission_against(

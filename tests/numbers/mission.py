@@ -1,4 +1,4 @@
-"""The slit crossing, fast mode: seeds 1 to 10 nominal, 1 to 3 ideal, 1 to 3 worn."""
+"""The slit crossing, fast mode: seeds 1 to 10 nominal, 1 to 3 ideal, 1 to 3 worn; 1 to 5 nominal by lively hands."""
 import json
 import pathlib
 import shutil
@@ -11,9 +11,9 @@ import folders  # noqa: F401
 from liana.recordings import Truth
 from page import table
 
-RUNS = [("nominal", seed) for seed in range(1, 11)] + [
-    (physics, seed) for physics in ("ideal", "worn") for seed in range(1, 4)
-]
+RUNS = [("nominal", "gentle", seed) for seed in range(1, 11)]
+RUNS += [(physics, "gentle", seed) for physics in ("ideal", "worn") for seed in range(1, 4)]
+RUNS += [("nominal", "lively", seed) for seed in range(1, 6)]
 DEG_PER_RAD = 57.29577951308232
 
 
@@ -35,20 +35,31 @@ def planar_error_deg(recording):
     return max((abs(angles[i]) for ticks, angles in held for i in ticks if inside[i]), default=0.0)
 
 
-def run_once(binaries, directory, physics, seed):
+def run_once(binaries, directory, physics, temper, seed):
     """One run; its report with wall time and exit code added."""
-    recording = pathlib.Path(directory) / f"{physics}-{seed}"
+    recording = pathlib.Path(directory) / f"{physics}-{temper}-{seed}"
     file = recording.with_suffix(".json")
     start = time.monotonic()
-    words = ["--physics", physics, "--seed", str(seed), "--json", str(file), "--record", str(recording)]
+    words = [
+        "--physics",
+        physics,
+        "--temper",
+        temper,
+        "--seed",
+        str(seed),
+        "--json",
+        str(file),
+        "--record",
+        str(recording),
+    ]
     call = [str(binaries / "liana"), "run", "slit_crossing", *words]
     done = subprocess.run(call, capture_output=True, text=True, check=False)
     report = json.loads(file.read_text()) if file.exists() else {"outcome": "no report"}
-    report.update(physics=physics, seed=seed, exit_code=done.returncode, wall_s=time.monotonic() - start)
+    report.update(physics=physics, temper=temper, seed=seed, exit_code=done.returncode, wall_s=time.monotonic() - start)
     if report["outcome"] == "success":
         report["planar_error_deg"] = planar_error_deg(recording)
     shutil.rmtree(recording, ignore_errors=True)
-    print(f"   {physics} {seed}: {report['outcome']}, {report['wall_s']:.0f} s", file=sys.stderr, flush=True)
+    print(f"   {physics} {temper} {seed}: {report['outcome']}, {report['wall_s']:.0f} s", file=sys.stderr, flush=True)
     return report
 
 
@@ -60,6 +71,7 @@ def row(report):
     tension = report.get("cable_tension_N", {})
     return [
         report["physics"],
+        report["temper"],
         report["seed"],
         report["outcome"],
         scaled(report, "duration_s", 1, 1),
@@ -79,6 +91,7 @@ def row(report):
 
 HEAD = [
     "physics",
+    "hands",
     "seed",
     "outcome",
     "arm time s",
@@ -96,16 +109,20 @@ HEAD = [
 ]
 
 
+def succeeded(reports, temper):
+    these = [report["outcome"] == "success" for report in reports if report["temper"] == temper]
+    return f"{sum(these)} of {len(these)}"
+
+
 def measure(binaries):
     with tempfile.TemporaryDirectory(prefix="liana-numbers-") as directory:
-        reports = [run_once(binaries, directory, physics, seed) for physics, seed in RUNS]
-    successes = sum(report["outcome"] == "success" for report in reports)
+        reports = [run_once(binaries, directory, *one) for one in RUNS]
     text = (
-        f"{successes} of {len(reports)} runs succeeded. Clearances, forces, tensions and errors are the physics'"
-        " truth.\n\n"
+        f"{succeeded(reports, 'gentle')} runs by gentle hands succeeded, {succeeded(reports, 'lively')} by lively ones"
+        " (docs/operator.md). Clearances, forces, tensions and errors are the physics' truth.\n\n"
     )
     whys = [
-        f"\n- {report['physics']} {report['seed']}: {report.get('reason', 'no report')}"
+        f"\n- {report['physics']} {report['temper']} {report['seed']}: {report.get('reason', 'no report')}"
         for report in reports
         if report["outcome"] != "success"
     ]

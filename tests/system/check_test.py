@@ -20,6 +20,7 @@ STEP_FIELDS = {
     "device",
     "held_theta",
     "duration_s",
+    "slowed_s",
     "outcome",
     "reason",
     "ended_by",

@@ -3,16 +3,18 @@ import contextlib
 import json
 import os
 import pathlib
+import resource
 import shutil
 import signal
 import socket
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
 import unittest.mock
 
-from support import MISSIONS, SystemTest, start_run
+from support import MISSIONS, PYTHON, SystemTest, start_run
 from liana.client import PATIENCE_S, brief, wait_until
 from liana.system import System, program, run
 
@@ -337,6 +339,71 @@ class StopsFromTheCommandLine(SystemTest):
         self.assertEqual((code, cleared[0]["error"]["exit_code"]), (2, 2))
         for system in (first, second):
             self.assertIn(str(system.api), error)
+
+    def test_a_long_path_or_its_dead_link_keeps_the_stop_from_no_other(self):
+        system, client = self.moving()
+        far = pathlib.Path(self.home) / ("d" * 120)
+        far.mkdir()
+        link = pathlib.Path(self.home) / f"liana-{os.getuid()}" / "1"
+        link.symlink_to(far / "api.sock")
+        code, stops, error = self.while_running("estop", [client])
+        self.assertEqual((code, stops), (0, [{"api": str(system.api), "stopped": True}]), error)
+        client.until(lambda state: state["state"] == "DISABLED")
+        os.rename(system.api, far / "api.sock")
+        next(own for own in link.parent.iterdir() if own != link).unlink()
+        code, stops, error = self.while_running("estop", [client])
+        self.assertEqual((code, stops), (0, [{"api": str(far / "api.sock"), "stopped": True}]), error)
+        self.assertEqual(self.while_running("status", [client])[0], 0)
+
+    def test_a_stop_from_another_runtime_folder_finds_a_run(self):
+        process = start_run(self, MISSIONS / "short.lua", "--time", "paced", "--json", "report.json")
+        with unittest.mock.patch.dict(os.environ, XDG_RUNTIME_DIR=str(process.home)):
+            wait_until(lambda: run("liana", "status").stdout.count("ENABLED"), "the arm to be enabled")
+        with unittest.mock.patch.dict(os.environ, TMPDIR=str(process.home)):
+            done = run("liana", "estop")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        process.communicate(timeout=PATIENCE_S)
+        self.assertEqual(json.loads((process.home / "report.json").read_text())["outcome"], "aborted")
+
+    def test_few_descriptors_of_lianad_do_not_lock_the_stop_out(self):
+        system, client = self.moving()
+        lianad = system.children["lianad"].pid
+        resource.prlimit(lianad, resource.RLIMIT_NOFILE, (len(os.listdir(f"/proc/{lianad}/fd")) + 10,) * 2)
+        hello = b'{"op":"hello","name":"s","role":"observer","subscribe":["state"]}'
+        for i in range(60):
+            stranger = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+            self.addCleanup(stranger.close)
+            stranger.settimeout(1)
+            stranger.connect(str(system.api))
+            with contextlib.suppress(OSError):
+                stranger.send(hello if i % 2 else b"{")
+            client.step()
+        self.assertEqual(self.while_running("estop", [client])[0], 0)
+        client.until(lambda state: state["state"] == "DISABLED")
+
+    def test_an_owner_that_stands_still_loses_motion_after_a_stop_and_is_named_by_process(self):
+        system, client = self.moving()
+        client.call("release")
+        code = "import sys; from liana.client import Client; c = Client(sys.argv[1], 'stuck'); c.call('acquire')"
+        words = [sys.executable, "-c", code + "; print('owns', flush=True); c.receive(); import time; time.sleep(999)"]
+        owner = subprocess.Popen(
+            [*words, str(system.api)], stdout=subprocess.PIPE, env={**os.environ, "PYTHONPATH": str(PYTHON)}
+        )
+        self.addCleanup(owner.communicate)
+        self.addCleanup(owner.kill)
+        client.until(lambda state: state["owner"] == "stuck")
+        owner.send_signal(signal.SIGSTOP)
+        self.assert_refused(client.ask("hold"), "not_owner", "'stuck' owns motion", f"process {owner.pid}")
+        self.assert_refused(client.ask("acquire"), "not_owner", "'stuck' owns motion", f"process {owner.pid}")
+        self.assertEqual(self.while_running("estop", [client])[0], 0)
+        client.until(lambda state: state["state"] == "DISABLED")
+        client.call("acquire", **{"from": "stuck"})
+        self.assertEqual(client.state["owner"], "test")
+        taken = [event for event in client.events if event["kind"] == "owner" and event["number"] == 5]
+        self.assertEqual([event["subject"] for event in taken], ["stuck"])
+        self.assertIn(f"process {owner.pid}", taken[0]["text"])
+        client.call("state_command", command="enable")
+        client.until(lambda state: state["state"] == "ENABLED" and state["at_rest"])
 
     def test_a_folder_of_somebody_else_is_not_believed(self):
         (pathlib.Path(self.home) / f"liana-{os.getuid()}").symlink_to("/")

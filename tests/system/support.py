@@ -2,6 +2,7 @@
 
 Importing it makes the tree's Python client (host/python) and the scenarios' modules (hil/scenarios, hil/vm) importable.
 """
+import atexit
 import math
 import os
 import pathlib
@@ -17,6 +18,10 @@ SCENARIOS = SOURCE / "hil" / "scenarios"
 PYTHON = SOURCE / "host" / "python"
 MISSIONS = TESTS / "missions"
 sys.path[:0] = [str(PYTHON), str(SCENARIOS), str(SOURCE / "hil" / "vm")]
+
+# `liana estop` looks wherever a system can be: those of other test programs are not to be found there.
+os.environ["XDG_RUNTIME_DIR"] = os.environ["TMPDIR"] = tempfile.tempdir = tempfile.mkdtemp(prefix="liana-tests-")
+atexit.register(shutil.rmtree, tempfile.tempdir, ignore_errors=True)
 
 from liana.client import brief  # noqa: E402
 from liana.system import program  # noqa: E402

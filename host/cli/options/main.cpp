@@ -22,7 +22,8 @@ using liana::system::ExitCode;
 
 constexpr const char* kFooter =
     "Exit codes: 0 done, 1 failed, 2 bad input, 3 inverse kinematics did not converge or there is no plan,\n"
-    "130 interrupted; one message on standard error says what, with --json standard output has it, too.\n"
+    "4 estop found nothing to stop, 130 interrupted; one message on standard error says what, with --json standard "
+    "output has it, too.\n"
     "Angles are degrees where the option says deg, lengths metres, poses in the base frame.";
 
 // What stands before the command: for every command the same.
@@ -73,6 +74,8 @@ int perform(const Action& action, const Refusal& refuse) {
     return action();
   } catch (const liana::system::BadInput& error) {
     return refuse(ExitCode::kExitBadInput, error.what());
+  } catch (const liana::system::NothingStopped& error) {
+    return refuse(ExitCode::kExitNothingStopped, error.what());
   } catch (const liana::system::Interrupted& error) {
     std::fprintf(stderr, "liana: %s\n", error.what());
     return ExitCode::kExitInterrupted;

@@ -66,6 +66,10 @@ void add_people(CLI::App& sub, system::OperatorChoice& people) {
          "--fixtures", people.fixtures,
          "off: no fixture of the scene guides the hand or is felt, whatever the mission says (docs/fixtures.md)")
       ->check(CLI::IsMember({"on", "off"}));
+  sub.add_option("--temper", people.temper,
+                 "lively: whoever steers has bursts and reversals, drifts, trembles more, loses grips in motion and "
+                 "holds both devices, details by --seed (docs/operator.md); gentle where nothing is said")
+      ->check(CLI::IsMember({"gentle", "lively"}));
   sub.add_option("--passivity", people.passivity,
                  "of the human: energy tank and damping at the hand controller; on where nothing is said")
       ->check(CLI::IsMember({"on", "off"}));

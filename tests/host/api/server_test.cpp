@@ -2,7 +2,10 @@
 #include "host/api/server.hpp"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -360,6 +363,111 @@ TEST_F(Api, AStopIsHeardThoughEveryPlaceIsTaken) {
   EXPECT_EQ(answer(late).value("code", ""), "busy");
   EXPECT_EQ(answer(late), Json({{"op", "ok"}, {"id", 2}, {"extra", 1}}));
   EXPECT_EQ(recorder_.log, (std::vector<std::string>{"late:stop"}));
+}
+
+// Leaves this process so many descriptors beside those that it has, until it goes.
+class FewDescriptors {
+ public:
+  explicit FewDescriptors(int left) {
+    ::getrlimit(RLIMIT_NOFILE, &before_);
+    const UniqueFd next(::dup(0));
+    rlimit few = before_;
+    few.rlim_cur = static_cast<rlim_t>(next.get() + left);
+    ::setrlimit(RLIMIT_NOFILE, &few);
+  }
+  ~FewDescriptors() { ::setrlimit(RLIMIT_NOFILE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+// A process beside the server's, with descriptors of its own; ended when this goes.
+class Beside {
+ public:
+  explicit Beside(const std::function<int()>& work) : child_(::fork()) {
+    if (child_ != 0) return;
+    rlimit most{};
+    ::getrlimit(RLIMIT_NOFILE, &most);
+    most.rlim_cur = most.rlim_max;
+    ::setrlimit(RLIMIT_NOFILE, &most);
+    ::_exit(work());
+  }
+  ~Beside() {
+    if (!has_ended()) ::kill(child_, SIGKILL), ::waitpid(child_, &status_, 0);
+  }
+  bool has_ended() { return ended_ = ended_ || ::waitpid(child_, &status_, WNOHANG) == child_; }
+  bool is_good() const { return WIFEXITED(status_) && WEXITSTATUS(status_) == 0; }
+
+ private:
+  ::pid_t child_;
+  int status_ = 1;
+  bool ended_ = false;
+};
+
+// 60 connections that are made anew whenever they are closed.
+int crowd(const std::string& path, const std::string& first_packet) {
+  std::vector<UniqueFd> ends(60);
+  for (std::string heard;; ::usleep(1000)) {
+    for (UniqueFd& end : ends) {
+      if (end.get() >= 0 && receive_packet(end.get(), heard) != SocketResult::kClosed) continue;
+      end = try_to_connect(path);
+      if (end.get() >= 0 && !first_packet.empty()) send_packet(end.get(), first_packet);
+    }
+  }
+}
+
+// As `liana estop` does it; 0 when the stop was confirmed within a second.
+int stop_within_a_second(const std::string& path) {
+  UniqueFd end;
+  for (int i = 0; i < 500; ++i, ::usleep(2000)) {
+    std::string packet;
+    const SocketResult result = end.get() < 0 ? SocketResult::kClosed : receive_packet(end.get(), packet);
+    if (packet.find(R"("id":1)") != std::string::npos) return packet.find(R"("op":"ok")") == std::string::npos ? 1 : 0;
+    if (result != SocketResult::kClosed) continue;
+    end = try_to_connect(path);
+    if (end.get() < 0) continue;
+    send_packet(end.get(), R"({"op":"hello","name":"estop","role":"observer"})");
+    send_packet(end.get(), R"({"op":"stop","id":1})");
+  }
+  return 1;
+}
+
+TEST_F(Api, AStopIsHeardAndAnsweredThoughOthersTakeEveryDescriptor) {
+  for (const int left : {0, 1, 6, 20}) {
+    for (const std::string packet : {"", R"({"op":"hello","name":"s","role":"client"})"}) {
+      SCOPED_TRACE(std::to_string(left) + " left, each says '" + packet + "'");
+      const FewDescriptors few(left);
+      const auto serve = [&] { server_.pump(0.001), server_.dispatch(); };
+      Beside strangers([&] { return crowd(path_, packet); });
+      for (int i = 0; i < 100; ++i) serve();
+      Beside stop([&] { return stop_within_a_second(path_); });
+      for (int i = 0; i < 3000 && !stop.has_ended(); ++i) serve();
+      EXPECT_TRUE(stop.is_good());
+    }
+  }
+}
+
+TEST_F(Api, WhoNeitherSendsNorReadsIsSilent) {
+  ApiClient reader = join("1", "observer", false, {"state"}), sender = join("2", "observer"),
+            stuck = join("3", "observer", false, {"state"});
+  const std::string state = R"({"op":"state","x":")" + std::string(20000, 'x') + "\"}";
+  for (int i = 0; i < 40; ++i) {
+    server_.publish(Topic::kState, state);
+    while (reader.receive(0.0)) {
+    }
+    sender.send({{"op", "fine"}});
+    server_.pump(0.0);
+    server_.dispatch();
+    ::usleep(10000);
+  }
+  EXPECT_LT(server_.silence_s(1), 0.1);
+  EXPECT_LT(server_.silence_s(2), 0.1);
+  EXPECT_GE(server_.silence_s(3), 0.4);
+  EXPECT_EQ(server_.silence_s(99), 0.0);
+  while (stuck.receive(0.0)) {
+  }
+  server_.publish(Topic::kState, state);
+  EXPECT_LT(server_.silence_s(3), 0.1) << "it reads on";
 }
 
 TEST_F(Api, AStopIsReadWhileOthersFlood) {

@@ -13,9 +13,9 @@ import tempfile
 BIN = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "build/bin").resolve()
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
-# `status` and `estop` find the running systems through this directory: every test program has its own.
-os.environ["XDG_RUNTIME_DIR"] = tempfile.mkdtemp(prefix="liana-test-")
-atexit.register(shutil.rmtree, os.environ["XDG_RUNTIME_DIR"])
+# `status` and `estop` find the running systems through these directories: every test program has its own.
+os.environ["XDG_RUNTIME_DIR"] = os.environ["TMPDIR"] = tempfile.tempdir = tempfile.mkdtemp(prefix="liana-test-")
+atexit.register(shutil.rmtree, tempfile.tempdir, ignore_errors=True)
 
 
 def liana(*arguments, timeout_s=120):

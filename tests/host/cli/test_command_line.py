@@ -477,7 +477,6 @@ class Help(unittest.TestCase):
             ["run", "nosuch", "--json", "-"],
             ["check", "nosuch", "--json=-"],
             ["status", "--json"],
-            ["estop", "--json"],
             ["clear", "--api", "/no/such", "--json"],
             ["log", "show", "/no/such", "--json"],
             ["replay", "/no/such", "--json"],
@@ -636,6 +635,16 @@ class Help(unittest.TestCase):
             code, _, error = liana(command, "--api", "/tmp")
             self.assertEqual(code, 2)
             self.assertIn("--api: '/tmp': is no socket", error)
+
+    def test_a_stop_that_finds_nothing_warns_and_has_a_code_of_its_own(self):
+        code, out, error = liana("estop", "--json")
+        self.assertEqual((code, json.loads(out), error.count("\n")), (4, json_of_refusal(4, error), 1))
+        self.assertIn("NOTHING WAS STOPPED", error)
+        self.assertIn("cut its power", error)
+        for socket in ("/tmp/liana-no-such-socket", "/tmp", "/tmp/" + "x" * 300):
+            code, _, error = liana("estop", "--api", socket)
+            self.assertEqual(code, 2)
+            self.assertIn("NOTHING WAS STOPPED", error)
 
 
 if __name__ == "__main__":

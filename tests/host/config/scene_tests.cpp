@@ -215,5 +215,26 @@ TEST(Scene, IsRefusedWithFileFieldValueRangeAndAdvice) {
   }
 }
 
+// Each body is legal; a client gets all of them in one packet.
+TEST(Scene, BodiesThatTogetherFillMoreThanAPacketAreRefusedWithTheBytes) {
+  const auto scene_of = [](int bodies, double digits) {
+    Json scene{{"format", 1}, {"kind", "scene"}, {"name", "own"}, {"boxes", Json::array()}, {"spheres", Json::array()}};
+    scene["convex"] = Json::array();
+    for (int body = 0; body < bodies; ++body) {
+      Json points = Json::array();
+      for (int i = 0; i < 256; ++i) points.push_back({std::cos(i) + digits, std::sin(i) + digits, i / 256.0 + digits});
+      scene["convex"].push_back({{"name", "b" + std::to_string(body)}, {"points_m", points}});
+    }
+    return scene.dump();
+  };
+  EXPECT_NO_THROW(parse_scene(scene_of(7, 1.0 / 3.0), "own"));
+  try {
+    parse_scene(scene_of(9, 1.0 / 3.0), "own");
+    FAIL() << "9 bodies of 256 points are larger than a packet";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("allowed are 122880"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace liana::config

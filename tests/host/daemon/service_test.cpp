@@ -217,6 +217,47 @@ TEST_F(ServiceOverSocket, OnlyOneClientMovesTheArm) {
   EXPECT_EQ(ask(second, {{"op", "acquire"}}), "ok");
 }
 
+// The owner is a client that reads nothing and sends nothing.
+TEST_F(ServiceOverSocket, AnOwnerThatStandsStillLosesMotionByNameAndTheArmHolds) {
+  api::ApiClient stuck = join("client"), second = join("client", {"event"});
+  enable(stuck);
+  ASSERT_EQ(ask(stuck, move_request(5.0)), "ok");
+  intervals(40);
+  ASSERT_GT(arm_->now().tip_speed_m_s, 1e-3) << "the arm moves";
+  EXPECT_EQ(ask(second, {{"op", "acquire"}, {"from", "client"}}), "not_owner") << "the owner was heard just now";
+  const auto begin = std::chrono::steady_clock::now();
+  while (std::chrono::steady_clock::now() - begin < std::chrono::duration<double>(kMostSilence_s)) {
+    service_.idle(0.05);
+    while (second.receive(0.0)) {
+    }
+  }
+  EXPECT_EQ(ask(second, {{"op", "acquire"}}), "not_owner") << "not without its name";
+  EXPECT_EQ(ask(second, {{"op", "acquire"}, {"from", "another"}}), "not_owner");
+  ASSERT_EQ(ask(second, {{"op", "acquire"}, {"from", "client"}}), "ok");
+  intervals(100);
+  EXPECT_EQ(arm_->now().state, OperatingState::kEnabled) << "a hold keeps the drives enabled";
+  EXPECT_LT(arm_->now().tip_speed_m_s, 1e-9);
+  EXPECT_EQ(ask(stuck, {{"op", "hold"}}), "not_owner");
+}
+
+TEST_F(ServiceOverSocket, AfterAStopAClientTakesMotionByNameAndEnables) {
+  api::ApiClient mission = join("mission"), second = join("client", Json::array());
+  enable(mission);
+  ASSERT_EQ(ask(second, {{"op", "stop"}}), "ok");
+  for (int i = 0; i < 500 && arm_->now().state != OperatingState::kDisabled; ++i) intervals(1);
+  EXPECT_EQ(ask(second, {{"op", "acquire"}}), "not_owner") << "the owner is alive";
+  api::ApiClient watcher = join("observer", {"event"});
+  ASSERT_EQ(ask(second, {{"op", "acquire"}, {"from", "mission"}}), "ok");
+  EXPECT_EQ(ask(second, {{"op", "state_command"}, {"command", "enable"}}), "ok");
+  std::vector<std::string> told;
+  while (const auto message = watcher.receive(0.0)) {
+    if (message->value("kind", "") == "owner")
+      told.push_back(std::to_string(message->value("number", 0)) + " " + message->value("subject", ""));
+  }
+  EXPECT_EQ(told, (std::vector<std::string>{"5 mission", "1 client"}));
+  EXPECT_EQ(ask(mission, {{"op", "acquire"}, {"from", "client"}}), "not_owner") << "a mission takes from nobody";
+}
+
 TEST_F(ServiceOverSocket, AnyoneMayStop) {
   api::ApiClient mission = join("mission"), watcher = join("observer");
   enable(mission);

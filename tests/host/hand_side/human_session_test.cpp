@@ -109,10 +109,44 @@ TEST(HumanSession, CrossesTheSlitBehindASecondOfDelay) {
   EXPECT_GT(c.hand.least_energy_J, -0.1);
 }
 
+TEST(HumanSession, ALivelyOneCrossesTheSlitOfAnArmThatObeysAlsoBehindASecondOfDelay) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const double delay_s = seed % 2 == 0 ? 0.5 : 0.0;
+    const Crossing c = cross({.seed = seed, .temper = operator_side::Temper::kLively}, {delay_s, delay_s});
+    report(delay_s > 0.0 ? "lively, 0.5 + 0.5 s" : "lively", c);
+    EXPECT_TRUE(c.edge && c.slit && c.rod) << seed;
+    EXPECT_LT(c.error_m, 0.003) << seed;
+  }
+}
+
+TEST(HumanSession, ALivelyOneHoldsBothDevicesAtTimes) {
+  HumanSession session({.temper = operator_side::Temper::kLively}, robot(), scene());
+  for (const char* device : {"vr", "hand"}) {
+    const Json step{{"index", 1}, {"name", device}, {"device", device}, {"task", "slit"}, {"entry", 1}};
+    const std::vector<double> origin{0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0}, angles(10, 0.0);
+    std::size_t aside = 0, intervals = 0;
+    for (int k = 1; k <= 3000; ++k) {
+      const double now_s = (device[0] == 'v' ? 0.0 : 100.0) + 0.02 * k;
+      const Json state{{"time_s", now_s},       {"step", step},          {"device", device},
+                       {"setpoint_cp", origin}, {"measured_cp", origin}, {"measured_js_deg", angles}};
+      session.hear({state, {}, std::nullopt}, now_s);
+      const auto answer = session.act(now_s + 0.02);
+      for (const device::Sample& sample : answer.aside) EXPECT_TRUE(sample.deadman);
+      aside += answer.aside.size();
+      intervals += answer.aside.empty() ? 0 : 1;
+    }
+    EXPECT_GT(intervals, 50u) << device;
+    EXPECT_LT(intervals, 1500u) << device;
+    EXPECT_NEAR(static_cast<double>(aside), static_cast<double>(intervals) * (device[0] == 'v' ? 20.0 : 4.0),
+                0.1 * static_cast<double>(aside));
+  }
+}
+
 TEST(HumanSession, RepeatsByTheSameSeedToTheLastSample) {
-  const auto first_minute = [](std::uint64_t seed) {
+  const auto first_minute = [](std::uint64_t seed, operator_side::Temper temper = operator_side::Temper::kGentle) {
     HumanTable table;
     table.seed = seed;
+    table.temper = temper;
     HumanSteering person = human(table, {0.1, 0.1});
     HumanRig rig({}, zhu2022::table(), zhu2022::radians(zhu2022::kPrepare_deg), scene(), person);
     rig.step("vr", "edge", {"vr", device::Kind::kHandles, {4.0, 2.0}, 3, 0.1, false}, 20.0);
@@ -120,6 +154,9 @@ TEST(HumanSession, RepeatsByTheSameSeedToTheLastSample) {
   };
   EXPECT_EQ(first_minute(3), first_minute(3));
   EXPECT_NE(first_minute(3), first_minute(4));
+  const auto lively = operator_side::Temper::kLively;
+  EXPECT_EQ(first_minute(3, lively), first_minute(3, lively));
+  EXPECT_NE(first_minute(3, lively), first_minute(3));
 }
 
 TEST(HumanSession, StatesOfAnotherRobotAndOnesWithoutAPoseAreRefusedByName) {

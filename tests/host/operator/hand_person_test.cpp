@@ -33,10 +33,11 @@ struct TaskRun {
 
 TaskRun run_task(operator_side::HandTask task, const Pose& start, const Pose& goal_in_slit,
                  const operator_side::HandMapping& mapping, const SoftTipConfig& config,
-                 const operator_side::HandGains& gains = {}, std::uint64_t seed = 1) {
+                 const operator_side::HandGains& gains = {}, std::uint64_t seed = 1,
+                 operator_side::Temper temper = operator_side::Temper::kGentle) {
   const operator_side::SlitDrawing drawing = panel_slit();
   SoftTip tip(drawing, start, mapping, config);
-  operator_side::HandPerson person(gains, drawing, seed);
+  operator_side::HandPerson person(gains, drawing, seed, temper);
   person.begin(task, mapping, 0.0);
   TaskRun run;
   Pose before = tip.true_tip_in_slit();
@@ -200,6 +201,23 @@ TEST(HandPerson, DoesNotStirUpAnArmThatSwings) {
   report("rod, swinging arm", rod);
   EXPECT_TRUE(rod.arrived);
   EXPECT_LT(rod.position_error_m, 0.0007);
+}
+
+TEST(HandPerson, ALivelyOneGripsAgainAndAgainAndArrivesWithTheTipWhereItBelongs) {
+  const auto lively = operator_side::Temper::kLively;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const TaskRun enter =
+        run_task(operator_side::HandTask::kEnterSlit, kPanelEdge, switch_pose({}), {4.0, 1.0}, {}, {}, seed, lively);
+    report("enter, lively", enter);
+    EXPECT_TRUE(enter.arrived) << seed;
+    EXPECT_LT(enter.position_error_m, 0.009) << seed;
+    EXPECT_GT(enter.grips, 3) << seed;
+    const TaskRun rod = run_task(operator_side::HandTask::kReachRod, switch_in_base(), panel_slit().rod_in_slit,
+                                 {2.0, 1.0}, {}, {}, seed, lively);
+    report("rod, lively", rod);
+    EXPECT_TRUE(rod.arrived) << seed;
+    EXPECT_LT(rod.position_error_m, 0.003) << seed;
+  }
 }
 
 // req:A27 req:A30

@@ -21,8 +21,8 @@ Json state(double time_s, int step, const std::string& device, const std::string
           {"mapping", {{"scale", 4.0}, {"rotation_scale", 2.0}}}};
 }
 
-operator_side::OperatorSession session() {
-  return operator_side::OperatorSession({LIANA_RECORDINGS_DIR}, panel_slit(), {}, 1);
+operator_side::OperatorSession session(operator_side::Temper temper = operator_side::Temper::kGentle) {
+  return operator_side::OperatorSession({LIANA_RECORDINGS_DIR}, panel_slit(), {}, 1, temper);
 }
 
 TEST(OperatorSession, SendsNothingWhileNoDeviceIsItsToMove) {
@@ -58,6 +58,38 @@ TEST(OperatorSession, PlaysTheRecordingInAVrStepThenSaysArrivedOnceWithTriggersR
   EXPECT_EQ(says, 1);
   EXPECT_EQ(highest_trigger, 1.0);
   EXPECT_GT(samples, 3400u);
+}
+
+TEST(OperatorSession, LivelyHandsLoseGripsOnTheirRecordedWayHoldTheOtherDeviceTooAndArriveAllTheSame) {
+  operator_side::OperatorSession operator_session = session(operator_side::Temper::kLively);
+  int says = 0, grips = 0;
+  bool held = false;
+  std::int64_t before_us = 0, aside_before_us = 0;
+  for (int k = 1; k < 3500; ++k) {
+    const operator_side::OperatorAnswer answer = operator_session.on_state(state(0.02 * k, 2, "vr", "vr"));
+    for (const device::Sample& sample : answer.samples) {
+      EXPECT_EQ(sample.deadman, sample.trigger >= operator_side::kGripped);
+      if (sample.hand != 0) continue;
+      grips += sample.deadman && !held ? 1 : 0;
+      held = sample.deadman;
+      EXPECT_GE(sample.t_us, before_us);
+      before_us = sample.t_us;
+    }
+    for (const device::Sample& sample : answer.aside) {
+      EXPECT_GT(sample.t_us, aside_before_us);
+      aside_before_us = sample.t_us;
+    }
+    says += static_cast<int>(answer.messages.size());
+  }
+  EXPECT_EQ(says, 1);
+  EXPECT_GT(grips, 1);
+  EXPECT_FALSE(held);
+  EXPECT_GT(aside_before_us, 0);
+}
+
+TEST(OperatorSession, GentleHandsHoldOneDevice) {
+  operator_side::OperatorSession operator_session = session();
+  for (int k = 1; k < 3500; ++k) ASSERT_TRUE(operator_session.on_state(state(0.02 * k, 2, "vr", "vr")).aside.empty());
 }
 
 // req:A24

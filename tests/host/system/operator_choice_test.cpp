@@ -30,6 +30,13 @@ TEST(OperatorChoice, WhatOnlyAHumanHasIsRefusedOfRecordedHandsByName) {
   }
 }
 
+TEST(OperatorChoice, AnybodyMayBeLively) {
+  for (const char* who : {"recorded", "human"}) {
+    OperatorChoice choice{.who = who, .temper = "lively"};
+    EXPECT_EQ(operator_words(choice), (std::vector<std::string>{"--operator", who, "--temper", "lively"}));
+  }
+}
+
 TEST(OperatorChoice, ADelayThatIsNoneIsRefusedWithWhatIsAllowed) {
   for (const char* delay : {"x", "0.5", "0.5,", "0.5;0.5", "0.5,0.5,0.5", "-1,0", "0,2.01", "nan,0", "0.5,0.5s"}) {
     const std::string refused = choice_refusal({"human", delay, "", "", ""});
