@@ -1,5 +1,7 @@
 #include "host/gateway/web_door.hpp"
 
+#include <strings.h>
+
 #include <array>
 #include <string_view>
 
@@ -58,14 +60,20 @@ int WebDoor::refuse(lws* wsi, const char* what, unsigned int status, const std::
   return answer_http(wsi, status, kPlain, why + "\n");
 }
 
-// Before a connection becomes a WebSocket: 0 lets it, more than 0 says that it was answered.
+// The library asks for every upgrade that it knows (HTTP/2, too), and once more after it has refused one that it does
+// not know: by then the request is gone.
 int WebDoor::admit(lws* wsi) {
+  strangers.asked(wsi);
+  const std::string wanted = header(wsi, WSI_TOKEN_UPGRADE);
+  if (wanted.empty()) return -1;
   const auto refused = [&](const char* what, unsigned int status, const std::string& why) {
     refuse(wsi, what, status, why);
     return 1;
   };
   const char* what = "";
   if (const auto why = problem(wsi, &what)) return refused(what, HTTP_STATUS_FORBIDDEN, *why);
+  if (strcasecmp(wanted.c_str(), "websocket") != 0)
+    return refused("protocol", HTTP_STATUS_BAD_REQUEST, "upgrade to '" + wanted + "': allowed is websocket");
   const std::string path = header(wsi, WSI_TOKEN_GET_URI);
   if (path != "/ws") return refused("path", HTTP_STATUS_NOT_FOUND, "'" + path + "': the WebSocket is /ws");
   if (header(wsi, WSI_TOKEN_PROTOCOL) != kProtocol)
@@ -76,6 +84,7 @@ int WebDoor::admit(lws* wsi) {
 }
 
 int WebDoor::serve(lws* wsi, const std::string& path) {
+  strangers.asked(wsi);
   const char* what = "";
   if (const auto why = problem(wsi, &what)) return refuse(wsi, what, HTTP_STATUS_FORBIDDEN, *why);
   if (lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI) == 0)
@@ -85,6 +94,7 @@ int WebDoor::serve(lws* wsi, const std::string& path) {
   if (about_runs && !gateway_.lets_in(query(wsi, "ticket=")))
     return refuse(wsi, "no_token", HTTP_STATUS_FORBIDDEN, "'" + path + "': takes ?ticket= of the welcome");
   if (about_runs && path == "/runs") return answer_http(wsi, HTTP_STATUS_OK, kJson, run_list(options_.runs).dump());
+  if (about_runs) strangers.leave(wsi);
   const auto run = about_runs ? run_page(options_.runs, path.substr(kRun.size())) : std::nullopt;
   if (run) return answer_page(wsi, *run);
   return refuse(wsi, "path", HTTP_STATUS_NOT_FOUND, "'" + path + "': nothing is there");

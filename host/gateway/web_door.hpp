@@ -8,6 +8,7 @@
 #include <string>
 
 #include "host/gateway/gateway.hpp"
+#include "host/gateway/strangers.hpp"
 #include "host/gateway/web_server.hpp"
 
 namespace liana::gateway {
@@ -20,8 +21,10 @@ class WebDoor {
   WebDoor(const WebOptions& options, Gateway& gateway) : options_(options), gateway_(gateway) {}
 
   std::uint16_t port = 0;  // at which the gateway listens
+  Strangers strangers;     // connections, from their begin to their hello
 
-  // Before a connection becomes a WebSocket: 0 lets it, more than 0 says that it was answered.
+  // Before a connection becomes something else than HTTP/1.1: 0 lets it become a WebSocket, more than 0 says that it
+  // was answered, less that it is to be closed.
   int admit(lws* wsi);
   // Answers a request; returns what the callback of libwebsockets has to return.
   int serve(lws* wsi, const std::string& path);
