@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -50,11 +52,11 @@ class Standing {
   }
 
   // What is to be told now of cases that were only counted, the latest last: what is over, and what still stands and
-  // was not told for long. `all`: of everything, as if it were over.
-  std::vector<Entry> due(std::uint64_t now, bool all = false) {
+  // was not told for long. Keys that begin with `ended` (all with an empty one) count as over.
+  std::vector<Entry> due(std::uint64_t now, std::optional<std::string_view> ended = std::nullopt) {
     std::vector<Entry> out;
     for (Entry& entry : entries_) {
-      entry.is_over = all || now - entry.last > rule_.over_after;
+      entry.is_over = now - entry.last > rule_.over_after || (ended && entry.key.starts_with(*ended));
       const bool is_due = entry.is_over || now - entry.told >= rule_.again_after;
       if (!is_due || entry.times == 0) continue;
       out.push_back(entry);
