@@ -294,4 +294,12 @@ void WebServer::serve_waiting() {
   lws_service(inside_->context, kAtOnce);
 }
 
+bool WebServer::take_connection(int fd) {
+  lws_sock_file_fd_type socket{};
+  socket.sockfd = fd;
+  const int tls = inside_->options.is_tls() ? LWS_ADOPT_ALLOW_SSL : 0;
+  const auto kind = static_cast<lws_adoption_type>(LWS_ADOPT_SOCKET | LWS_ADOPT_HTTP | tls);
+  return lws_adopt_descriptor_vhost(inside_->vhost, kind, socket, nullptr, nullptr) != nullptr;
+}
+
 }  // namespace liana::gateway

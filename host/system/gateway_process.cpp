@@ -20,15 +20,15 @@ constexpr const char* kUsual = "127.0.0.1:8765";
 constexpr const char* kFreePort = "127.0.0.1:0";
 constexpr const char* kSays = "liana-gateway: ";
 constexpr double kPatience_s = 10.0;
-constexpr double kLook_s = 0.05;
+constexpr double kLookAfter_s = 0.05;
 constexpr double kFirstPause_s = 0.1, kLongestPause_s = 10.0;  // before it is started again
 constexpr double kStays_s = 60.0;                              // it is well again
 constexpr int kMostTold = 3;                                   // ends in a row that are said
 
-using Clock = std::chrono::steady_clock;
+using GatewayClock = std::chrono::steady_clock;
 
-Clock::duration seconds(double count) {
-  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(count));
+GatewayClock::duration wall_s(double count) {
+  return std::chrono::duration_cast<GatewayClock::duration>(std::chrono::duration<double>(count));
 }
 
 // The last line with an address: a gateway that was started again has written another one.
@@ -78,8 +78,8 @@ void GatewayProcess::start(const std::string& listen) {
 }
 
 void GatewayProcess::wait_until_it_listens() {
-  const auto deadline = Clock::now() + seconds(kPatience_s);
-  while (Clock::now() < deadline && !over_) {
+  const auto deadline = GatewayClock::now() + wall_s(kPatience_s);
+  while (GatewayClock::now() < deadline && !over_) {
     const std::optional<ChildEnd> end = child_->poll();
     if (end && end->code == kExitBadInput) throw BadInput(without_name(child_->last_lines(1)));
     if (end) throw std::runtime_error("liana-gateway " + how(*end) + "\n" + child_->last_lines(kShownLines));
@@ -91,8 +91,8 @@ void GatewayProcess::wait_until_it_listens() {
 }
 
 void GatewayProcess::pause(double length_s) {
-  const auto end = Clock::now() + seconds(length_s);
-  while (!over_ && Clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  const auto end = GatewayClock::now() + wall_s(length_s);
+  while (!over_ && GatewayClock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(20));
 }
 
 // Its port may be taken for a moment, by a connection of somebody else: another try follows.
@@ -110,16 +110,16 @@ std::string GatewayProcess::started_again() {
 void GatewayProcess::look_after() {
   double pause_s = kFirstPause_s;
   int ends = 0;
-  auto since = Clock::now();
-  for (; !over_; pause(kLook_s)) {
+  auto since = GatewayClock::now();
+  for (; !over_; pause(kLookAfter_s)) {
     const std::optional<ChildEnd> end = child_->poll();
     if (!end) continue;
-    if (Clock::now() - since > seconds(kStays_s)) pause_s = kFirstPause_s, ends = 0;
+    if (GatewayClock::now() - since > wall_s(kStays_s)) pause_s = kFirstPause_s, ends = 0;
     pause(pause_s);
     if (over_) return;
     pause_s = std::min(2.0 * pause_s, kLongestPause_s);
     const std::string problem = started_again();
-    since = Clock::now();
+    since = GatewayClock::now();
     if (++ends > kMostTold) continue;
     std::fprintf(stderr, "liana: liana-gateway %s; %s%s\n", how(*end).c_str(),
                  problem.empty() ? "it was started again" : ("it is not there again yet: " + problem).c_str(),
