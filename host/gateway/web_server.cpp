@@ -164,8 +164,12 @@ int WebServerInside::take(lws* wsi, lws_callback_reasons reason, Connection* con
       return -1;
     case LWS_CALLBACK_HTTP:
       return door.serve(wsi, std::string(bytes));
+    case LWS_CALLBACK_FILTER_HTTP_CONNECTION:
+      return door.look_at(wsi);
+    case LWS_CALLBACK_HTTP_BODY:
+    case LWS_CALLBACK_HTTP_BODY_COMPLETION:
     case LWS_CALLBACK_HTTP_FILE_COMPLETION:
-      return lws_http_transaction_completed(wsi) != 0 ? -1 : 0;
+      return -1;
     case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
       return door.admit(wsi);
     case LWS_CALLBACK_ESTABLISHED:

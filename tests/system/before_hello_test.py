@@ -1,5 +1,6 @@
 """What anybody can send to the console's gateway: it ends no gateway, and keeps nobody out for long."""
 import contextlib
+import socket
 import ssl
 import struct
 import threading
@@ -98,6 +99,23 @@ class BeforeTheHello(GatewayAloneTest):
         for upgrade in ("foo", "h2c", "websocket, h2c", "TLS/1.0", ""):
             asked = f"GET /ws HTTP/1.1\r\nHost: {host}\r\nConnection: Upgrade\r\nUpgrade: {upgrade}\r\n\r\n"
             self.assertNotIn(b" 101 ", self.answer_to(self.raw(gateway), asked.encode()))
+        self.assert_serves(gateway)
+
+    def test_requests_with_bodies_and_behind_each_other_end_nothing_but_their_connection(self):
+        gateway = Gateway(self, self.api)
+        post = b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 10\r\n\r\n12345"
+        chunked = b"POST / HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n5\r\nhello\r\n"
+        get = f"GET / HTTP/1.1\r\nHost: {gateway.address.split('/')[2]}\r\n\r\n".encode()
+        for first in (post, chunked, get, get[:-2] + b"Content-Length: 10\r\n\r\n"):
+            for _ in range(100):
+                connection = self.raw(gateway)
+                connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+                with contextlib.suppress(OSError):
+                    for piece in (first, b"67890" + first, b"67890GET / HTTP/1.0\r\n\r\n", b"x" * 100, first * 20):
+                        connection.sendall(piece)
+                        time.sleep(0.002)
+        self.assertEqual(self.answer_to(self.raw(gateway), get + get).count(b"HTTP/1.1 200"), 1)
+        self.assertIn(b" 405 ", self.answer_to(self.raw(gateway), post).split(b"\r\n")[0])
         self.assert_serves(gateway)
 
     def test_who_says_a_byte_now_and_then_has_10_s_for_a_request(self):
