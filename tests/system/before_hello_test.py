@@ -18,7 +18,6 @@ def h2_frame(kind, flags, stream, payload=b""):
 
 
 class BeforeTheHello(GatewayAloneTest):
-
     def secured(self):
         words = ["--token-file", self.tokens, *self.certificate()]
         return Gateway(self, self.api, *words)
@@ -63,7 +62,8 @@ class BeforeTheHello(GatewayAloneTest):
                 self.assertNotIn(h2_frame(4, 1, 0), self.answer_to(connection, preface))
             host = gateway.address.split("/")[2]
             for path in ("/ws", "/"):
-                asked = f"GET {path} HTTP/1.1\r\nHost: {host}\r\nConnection: Upgrade, HTTP2-Settings\r\nUpgrade: h2c\r\n"
+                asked = f"GET {path} HTTP/1.1\r\nHost: {host}\r\nUpgrade: h2c\r\n"
+                asked += "Connection: Upgrade, HTTP2-Settings\r\n"
                 asked += "HTTP2-Settings: AAMAAABkAARAAAAAAAIAAAAA\r\nSec-WebSocket-Protocol: liana-console-1\r\n\r\n"
                 secured = gateway.address.startswith("https")
                 connection = self.tls(gateway, "http/1.1") if secured else self.raw(gateway)
@@ -73,7 +73,8 @@ class BeforeTheHello(GatewayAloneTest):
     def test_a_websocket_over_http_2_with_long_frames_does_not_end_it(self):
         gateway = self.secured()
         fields = {":method": "CONNECT", ":protocol": "websocket", ":path": "/ws", ":scheme": "https"}
-        fields |= {":authority": "localhost", "sec-websocket-protocol": "liana-console-1", "sec-websocket-version": "13"}
+        fields |= {":authority": "localhost", "sec-websocket-version": "13"}
+        fields |= {"sec-websocket-protocol": "liana-console-1"}
         head = b"".join(b"\0%c%b%c%b" % (len(k), k.encode(), len(v), v.encode()) for k, v in fields.items())
         window = struct.pack(">I", 10**6)
         begin = b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + h2_frame(4, 0, 0) + h2_frame(1, 4, 1, head)
