@@ -1,5 +1,6 @@
 #include "host/archive/ledger.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "host/archive/schema.hpp"
@@ -8,7 +9,8 @@
 
 namespace liana::archive {
 
-Ledger::Ledger(const std::string& folder) : database_(folder + "/" + kArchiveFile, Database::Open::kDurable) {
+Ledger::Ledger(const std::string& folder, const LedgerLimits& limits)
+    : limits_(limits), database_(folder + "/" + kArchiveFile, Database::Open::kDurable) {
   if (const std::string problem = database_.problem(true); !problem.empty())
     throw DatabaseError(problem + "; move the file away, a new one is made", false);
   database_.run(kArchiveSchema);
@@ -47,6 +49,8 @@ void Ledger::wait(std::function<void()> insert) {
 }
 
 void Ledger::add(const event::Event& event) {
+  newest_event_ = event.sequence;
+  newest_tick_ = event.tick;
   wait([this, event, life = life_] {
     event_->run(life, event.sequence, event.tick, event::event_kind_name(event.kind), event.number, event.subject,
                 event::event_json(event).at("values").dump(), event.text);
@@ -54,6 +58,7 @@ void Ledger::add(const event::Event& event) {
 }
 
 void Ledger::add(const Command& c) {
+  newest_command_ = c.sequence;
   wait([this, c, life = life_] {
     if (c.released) {
       command_->run(life, c.sequence, c.tick, 1, c.code, c.share, nullptr, nullptr, nullptr, nullptr);
@@ -64,6 +69,7 @@ void Ledger::add(const Command& c) {
 }
 
 void Ledger::add(const Gap& gap) {
+  ++gaps_;
   wait([this, gap, life = life_] { gap_->run(life, gap.first_tick, gap.last_tick, gap.what, gap.count, gap.text); });
 }
 
@@ -77,6 +83,7 @@ bool Ledger::commit() {
   try {
     Transaction all(database_);
     for (const auto& insert : waiting_) insert();
+    drop_oldest();
     all.commit();
   } catch (const DatabaseError& error) {
     if (!error.is_full) throw;
@@ -85,6 +92,40 @@ bool Ledger::commit() {
   durable_ += waiting_.size() - std::exchange(files_waiting_, 0);
   waiting_.clear();
   return true;
+}
+
+void Ledger::drop_events(std::uint64_t from, std::uint64_t to) {
+  constexpr const char* kRoom = "made room for newer ones";
+  Statement(database_, "DELETE FROM event WHERE life=? AND sequence BETWEEN ? AND ?").run(life_, from, to);
+  Statement told(database_, "UPDATE gap SET last_tick=?, count=count+changes() WHERE life=? AND text=? RETURNING 1");
+  told.bind(newest_tick_, life_, kRoom);
+  bool is_told = false;
+  while (told.step()) is_told = true;
+  if (!is_told) gap_->run(life_, newest_tick_, newest_tick_, "events", to - from + 1, kRoom);
+}
+
+// In the transaction that adds what takes their place. Where it fails they are dropped with the next.
+void Ledger::drop_oldest() {
+  const auto oldest = [this](std::uint64_t newest, std::uint64_t kept, std::uint64_t dropped) {
+    return newest > kept + dropped + limits_.at_once ? newest - kept : 0;
+  };
+  const std::uint64_t first = limits_.first_events;
+  if (const std::uint64_t to = oldest(newest_event_, limits_.newest_events, std::max(first, events_dropped_));
+      to != 0) {
+    drop_events(first + 1, to);
+    events_dropped_ = to;
+  }
+  if (const std::uint64_t to = oldest(newest_command_, limits_.commands, commands_dropped_); to != 0) {
+    Statement(database_, "DELETE FROM command WHERE life=? AND sequence<=?").run(life_, to);
+    commands_dropped_ = to;
+  }
+  if (const std::uint64_t to = oldest(gaps_, limits_.gaps, gaps_dropped_); to != 0) {
+    Statement(
+        database_,
+        "DELETE FROM gap WHERE life=? AND what IN ('states', 'ticks') AND rowid <= (SELECT max(rowid) FROM gap) - ?")
+        .run(life_, limits_.gaps);
+    gaps_dropped_ = to;
+  }
 }
 
 void Ledger::finish() {

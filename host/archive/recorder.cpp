@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kRecord_s = 0.02;  // telemetry is not denser
 constexpr double kCommit_s = 1.0;   // for what need not be durable at once
+constexpr double kOver_s = 10.0;    // an alarm that did not come for so long is over
+constexpr double kAgain_s = 60.0;   // one that stands is said so often
 
 std::uint64_t ticks_of(double seconds, double period_s) {
   return static_cast<std::uint64_t>(std::llround(seconds / period_s));
@@ -28,6 +30,7 @@ Recorder::Recorder(const std::string& folder, const Life& life, int interval_tic
       ledger_(folder),
       begun_(ledger_.begin(life, next_event)),
       period_s_(life.period_s),
+      standing_({ticks_of(kOver_s, life.period_s), ticks_of(kAgain_s, life.period_s)}),
       interval_ticks_(static_cast<std::uint64_t>(interval_ticks)),
       least_ticks_(ticks_of(kRecord_s, life.period_s)),
       telemetry_(
@@ -109,11 +112,27 @@ void Recorder::take_verdict(std::uint64_t tick, const Json& verdict) {
 void Recorder::note_gap(const Gap& gap) {
   const std::string text = gap.what + " of ticks " + std::to_string(gap.first_tick) + " to " +
                            std::to_string(gap.last_tick) + " are missing: " + gap.text;
-  std::fprintf(stderr, "liana-archive: alarm: %s\n", text.c_str());
   const bool is_of_disk = gap.text == kDiskFull || gap.text == kRoomForRows || gap.text == kRoomOnDisk;
-  if (is_of_disk || gap.what == "ticks") on_alarm_(text, gap.count);
+  const Alarm alarm{text, gap.count, is_of_disk || gap.what == "ticks"};
+  const std::string key = gap.what + ": " + gap.text;
+  if (auto* counted = standing_.take(key, gap.what, last_tick_, 1)) {
+    counted->what = {text, (counted->times == 1 ? 0 : counted->what.count) + gap.count, alarm.is_for_lianad};
+  } else {
+    say(alarm, "");
+  }
   was_disk_full_ = was_disk_full_ || is_of_disk;
   ledger_.add(gap);
+}
+
+void Recorder::say(const Alarm& alarm, const std::string& more) {
+  std::fprintf(stderr, "liana-archive: alarm: %s%s\n", alarm.text.c_str(), more.c_str());
+  if (alarm.is_for_lianad) on_alarm_(alarm.text + more, alarm.count);
+}
+
+// What stands is said once, and then its number.
+void Recorder::say_due(bool all) {
+  for (const auto& entry : standing_.due(last_tick_, all ? std::optional<std::string_view>("") : std::nullopt))
+    say(entry.what, " (" + std::to_string(entry.times) + " times since it was said)");
 }
 
 // A full disk: the ring makes room, then telemetry. Where that is not enough all waits, and is tried again with what
@@ -121,6 +140,7 @@ void Recorder::note_gap(const Gap& gap) {
 void Recorder::commit() {
   must_commit_ = false;
   last_commit_ = last_tick_;
+  say_due(false);
   bool done = ledger_.commit();
   while (!done && (drop_oldest_ring_file(folder_) || telemetry_.make_room())) done = ledger_.commit();
   if (!done && !is_alarmed_) {
@@ -143,6 +163,7 @@ void Recorder::finish() {
     }
   };
   with_room([this] { telemetry_.finish(); });
+  say_due(true);
   commit();
   with_room([this] { ledger_.finish(); });
 }

@@ -9,6 +9,7 @@
 
 #include "host/archive/ledger.hpp"
 #include "host/archive/telemetry_files.hpp"
+#include "host/event/standing.hpp"
 #include "host/json/json.hpp"
 #include "host/telemetry/layout.hpp"
 
@@ -47,12 +48,20 @@ class Recorder {
   void commit();
 
   void go_on_after_cut();
+  struct Alarm {
+    std::string text;
+    std::uint64_t count = 0;
+    bool is_for_lianad = false;
+  };
+  void say(const Alarm& alarm, const std::string& more);
+  void say_due(bool all);
 
   const std::string folder_;
   const OnAlarm on_alarm_;
   Ledger ledger_;
   const Ledger::Begun begun_;
   const double period_s_;
+  event::Standing<Alarm> standing_;  // of gaps; by ticks
   const std::uint64_t interval_ticks_, least_ticks_;
   TelemetryFiles telemetry_;
   std::optional<telemetry::Layout> layout_;

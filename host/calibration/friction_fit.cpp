@@ -31,7 +31,6 @@ struct FrictionFit::Moment {
   SegmentVector wrap_rad;
   MassMatrix mass_kg_m2;
   const Sample& sample;
-  BodyInertiaState inertia;  // with the forces that it takes
 
   // Bend that cable c slides over within segment j until the middle of segment `own`, signed; and what of it may rest.
   double bend_rad(Index j, Index own) const { return wrap_rad[j] * (j < own ? 1.0 : 0.5); }

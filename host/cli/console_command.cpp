@@ -26,11 +26,6 @@ void tell(const ConsoleOptions& options, const std::string& api, const std::stri
   std::fflush(stdout);
 }
 
-void revive(system::GatewayProcess& gateway) {
-  const std::string end = gateway.revive();
-  if (!end.empty()) std::fprintf(stderr, "liana: %s; it was started again\n", end.c_str());
-}
-
 // For the gateway's log.
 class Folder {
  public:
@@ -51,21 +46,19 @@ class Folder {
 int attach(const ConsoleOptions& options, const std::string& api) {
   const system::InterruptGuard interrupts;
   const Folder folder;
-  system::GatewayProcess gateway(api, options.gateway, folder.file("liana-gateway.log"));
+  const system::GatewayProcess gateway(api, options.gateway, folder.file("liana-gateway.log"));
   tell(options, api, gateway.address());
-  while (interrupts.count() == 0) {
-    std::this_thread::sleep_for(kLook);
-    revive(gateway);
-  }
+  while (interrupts.count() == 0) std::this_thread::sleep_for(kLook);
   return system::kExitOk;
 }
 
 void simulate_and_show(const ConsoleOptions& options, const system::SystemLayout& plan) {
   system::ConsoleSession session(plan);
   session.start();
-  system::GatewayProcess gateway(plan.api_socket(), options.gateway, plan.file("liana-gateway.log"));
+  const system::GatewayProcess gateway(plan.api_socket(), options.gateway, plan.file("liana-gateway.log"));
   tell(options, plan.api_socket(), gateway.address());
-  while (session.go_on()) revive(gateway);
+  while (session.go_on()) {
+  }
 }
 
 int simulate(const ConsoleOptions& options) {

@@ -1,6 +1,6 @@
 #include <cstdio>
 #include <filesystem>
-#include <optional>
+#include <memory>
 
 #include "host/cli/commands.hpp"
 #include "host/cli/run_page.hpp"
@@ -33,14 +33,15 @@ std::string where_to_look(const system::SystemLayout& plan) {
 }
 
 // A mission is not kept from running by a console that cannot.
-std::optional<system::GatewayProcess> console_of(const system::SystemLayout& plan) {
+std::unique_ptr<system::GatewayProcess> console_of(const system::SystemLayout& plan) {
   try {
-    system::GatewayProcess gateway(plan.api_socket(), system::GatewayOptions(), plan.file("liana-gateway.log"));
-    std::fprintf(stderr, "console: %s\n", gateway.address().c_str());
+    auto gateway = std::make_unique<system::GatewayProcess>(plan.api_socket(), system::GatewayOptions(),
+                                                            plan.file("liana-gateway.log"));
+    std::fprintf(stderr, "console: %s\n", gateway->address().c_str());
     return gateway;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "liana: no console: %s\n", error.what());
-    return std::nullopt;
+    return nullptr;
   }
 }
 
@@ -49,7 +50,7 @@ std::optional<system::GatewayProcess> console_of(const system::SystemLayout& pla
 int run_command(const system::RunOptions& options) {
   const system::SystemLayout plan = system::make_layout(options);
   system::RunSession session(plan);
-  std::optional<system::GatewayProcess> console;
+  std::unique_ptr<system::GatewayProcess> console;
   if (options.has_console) console = console_of(plan);
   const system::RunEnd end = session.run();
   if (end.bad_input) {

@@ -31,13 +31,15 @@ Service::Service(const ServiceConfig& config, Desk& desk)
       desk_(desk),
       bounds_(api::request_bounds(Json::parse(config.robot_json))),
       stream_(bounds_),
-      log_([this](const event::Event& event) {
-        server_.publish_event(event::event_json(event).dump(-1, Json::BadUtf8::kReplace));
-        if (file_) file_->append(event::event_line(event, config_.buses.tick_s()));
-      }),
+      log_(
+          [this](const event::Event& event) {
+            server_.publish_event(event::event_json(event).dump(-1, Json::BadUtf8::kReplace));
+            if (file_) file_->append(event);
+          },
+          config_.buses.tick_s()),
       server_(config.api_path, *this, config.api_group) {
   api::require_fit_in_welcome(config.robot_json, config.scene_json, config.buses.canonical_json);
-  if (!config.events_file.empty()) file_.emplace(config.events_file, "--events", event::kEventLineHeading);
+  if (!config.events_file.empty()) file_.emplace(config.events_file, config_.buses.tick_s());
   if (!config.commands_file.empty()) dispatch_.emplace(config.commands_file);
   if (!config.verify_times_file.empty())
     verify_times_.emplace(config.verify_times_file, "--verify-times", "# us from setpoint to release, of each command");
@@ -266,7 +268,7 @@ void Service::keep_way() {
   if (auto trouble = way_file_->trouble()) note(std::move(*trouble));
 }
 
-void Service::note(event::Event event) { log_.add(tick(), std::move(event)); }
+bool Service::note(event::Event event) { return log_.add(tick(), std::move(event)); }
 
 void Service::note(std::vector<event::Event> events) {
   for (event::Event& event : events) note(std::move(event));

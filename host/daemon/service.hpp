@@ -21,6 +21,7 @@
 #include "host/daemon/state_message.hpp"
 #include "host/daemon/tick_watch.hpp"
 #include "host/daemon/way_file.hpp"
+#include "host/event/event_file.hpp"
 #include "host/event/event_log.hpp"
 #include "host/event/line_file.hpp"
 #include "host/json/json.hpp"
@@ -102,7 +103,7 @@ class Service : private api::ApiHandler {
   double time_s() const { return static_cast<double>(tick()) * config_.buses.tick_s(); }
   std::int64_t arm_time_us();
   std::uint64_t ticks_in(double time_s) const;
-  void note(event::Event event);
+  bool note(event::Event event);  // as EventLog::add
   void note(std::vector<event::Event> events);
   void request(Request what);
   void press_stop() noexcept;
@@ -137,7 +138,7 @@ class Service : private api::ApiHandler {
   HostTrouble trouble_;
   FaultWatch faults_;
   event::EventLog log_;
-  std::optional<event::LineFile> file_;
+  std::optional<event::EventFile> file_;
   std::optional<DispatchLog> dispatch_;
   std::optional<WayFile> way_file_;
   std::optional<event::LineFile> verify_times_;

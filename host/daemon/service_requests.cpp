@@ -35,10 +35,9 @@ Json Service::handle(const api::ClientInfo& client, const Json& request) {
     return act_on(client, request);
   } catch (const api::RequestError& error) {
     const Json& op = request.member_or_null("op");
-    event::Event refusal =
+    const event::Event refusal =
         refusal_event(client.name, op.is_string() ? printable(op.text()) : "", error.code(), error.what());
-    if (dispatch_) dispatch_->note_request(tick(), refusal);
-    note(std::move(refusal));
+    if (note(refusal) && dispatch_) dispatch_->note_request(tick(), refusal);
     throw;
   }
 }

@@ -1,6 +1,7 @@
 #include "host/event/line_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -26,16 +27,33 @@ Event event_of_file(HostTroubleEvent what, const std::string& path, std::uint64_
           .text = text};
 }
 
+// 0644, whatever else is said of it; `exclusive`: O_EXCL, or 0.
+int opened(const std::string& path, int exclusive) {
+  return ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_NONBLOCK | O_CLOEXEC | exclusive, 0644);
+}
+
+bool is_plain_file(int fd) {
+  struct stat found {};
+  return fd >= 0 && ::fstat(fd, &found) == 0 && S_ISREG(found.st_mode);
+}
+
 }  // namespace
 
 // A path that nobody reads at the other end (a pipe) is an error of opening, not a wait.
-LineFile::LineFile(const std::string& path, const char* option, const char* heading)
+LineFile::LineFile(const std::string& path, const char* option, const char* heading, std::uint64_t part_bytes)
     : path_(path),
-      fd_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_NONBLOCK | O_CLOEXEC, 0644)),
-      waiting_("#" + std::string(heading) + "\n") {
+      heading_("#" + std::string(heading) + "\n"),
+      part_bytes_(part_bytes),
+      fd_(opened(path, 0)),
+      rotates_(is_plain_file(fd_)),
+      waiting_(heading_) {
   if (fd_ < 0)
     throw std::runtime_error(std::string(option) + ": '" + path + "': cannot be written: " + std::strerror(errno) +
                              "; give a file in a folder that exists");
+  if (rotates_) {
+    ::unlink((path_ + kFirst).c_str());
+    ::unlink((path_ + kBefore).c_str());
+  }
   thread_ = std::thread([this] { work(); });
 }
 
@@ -64,6 +82,11 @@ void LineFile::append(std::string line) {
     waiting_ += line;
   }
   wake_.notify_one();
+}
+
+void LineFile::repeat(std::string line) {
+  const std::lock_guard lock(mutex_);
+  repeated_ = std::move(line) + "\n";
 }
 
 void LineFile::say_missing() {
@@ -98,11 +121,31 @@ void LineFile::work() {
   }
 }
 
+std::string LineFile::beginning() {
+  const std::lock_guard lock(mutex_);
+  return heading_ + "# goes on from " + path_ + kFirst + " and " + kBefore + "; the first of what goes on:\n" +
+         repeated_;
+}
+
+// The newest part makes room for another. Where that cannot be, it takes no more: a disk is not filled.
+void LineFile::begin_part() {
+  const bool is_first = ::access((path_ + kFirst).c_str(), F_OK) != 0;
+  const bool moved = ::rename(path_.c_str(), (path_ + (is_first ? kFirst : kBefore)).c_str()) == 0;
+  if (!moved && errno != ENOENT) return;
+  const int fd = opened(path_, O_EXCL);
+  if (fd < 0) return;
+  ::close(std::exchange(fd_, fd));
+  const std::string text = beginning();
+  bytes_ = ::write(fd_, text.data(), text.size()) == static_cast<ssize_t>(text.size()) ? text.size() : 0;
+  if (bytes_ == 0 && ::ftruncate(fd_, 0) != 0) return;
+}
+
 // How much of the text is in the file: whole lines only.
 std::size_t LineFile::write_all(std::string_view text, int& reason) {
+  if (rotates_ && bytes_ > 0 && bytes_ + text.size() > part_bytes_) begin_part();
   std::size_t done = 0;
   while (done < text.size() && reason == 0) {
-    const bool has_room = bytes_ + text.size() <= kMostBytes;
+    const bool has_room = !rotates_ || bytes_ == 0 || bytes_ + text.size() <= part_bytes_ + kMostWaiting;
     const ssize_t count = has_room ? ::write(fd_, text.data() + done, text.size() - done) : -1;
     if (count >= 0) done += static_cast<std::size_t>(count);
     if (count < 0 && !(has_room && errno == EINTR)) reason = has_room ? errno : EFBIG;

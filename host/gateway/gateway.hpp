@@ -44,6 +44,8 @@ class Gateway {
 
   double now_s() const { return now_s_(); }
   void refused(std::string_view what, const std::string& address, std::string_view detail);
+  // What a library complains about, for the log.
+  void complain(const char* library, std::string_view line) { log_.complain(now_s_(), library, line); }
 
  private:
   std::size_t greeted() const;

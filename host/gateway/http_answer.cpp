@@ -9,6 +9,7 @@ namespace liana::gateway {
 namespace {
 
 constexpr const char* kHtml = "text/html; charset=utf-8";
+constexpr int kClose = -1;  // for the library
 constexpr std::size_t kHeaderRoom = 2048;
 
 struct Header {
@@ -17,14 +18,15 @@ struct Header {
 };
 
 // The page is one file: it loads nothing, and talks to nobody but us. Its script stands in it, or comes out of it.
-constexpr std::array<Header, 5> kHeaders{
+constexpr std::array<Header, 6> kHeaders{
     {{"content-security-policy:",
       "default-src 'none'; script-src 'unsafe-inline' blob:; style-src 'unsafe-inline'; img-src data: blob:; "
       "connect-src 'self' data: blob:; worker-src blob:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'"},
      {"x-content-type-options:", "nosniff"},
      {"x-frame-options:", "DENY"},
      {"referrer-policy:", "no-referrer"},
-     {"cache-control:", "no-store"}}};
+     {"cache-control:", "no-store"},
+     {"connection:", "close"}}};
 
 bool add_headers(lws* connection, unsigned char** at, unsigned char* end) {
   for (const Header& header : kHeaders) {
@@ -51,10 +53,10 @@ int answer_http(lws* connection, unsigned int status, const char* content_type, 
   unsigned char* at = start;
   if (lws_add_http_common_headers(connection, status, content_type, body.size(), &at, end) != 0 ||
       !add_headers(connection, &at, end) || lws_finalize_write_http_header(connection, start, &at, end) != 0)
-    return 1;
+    return kClose;
   std::copy(body.begin(), body.end(), start);
-  if (lws_write(connection, start, body.size(), LWS_WRITE_HTTP_FINAL) < 0) return 1;
-  return lws_http_transaction_completed(connection) != 0 ? -1 : 0;
+  lws_write(connection, start, body.size(), LWS_WRITE_HTTP_FINAL);  // what is left of it goes before the end
+  return kClose;
 }
 
 int answer_page(lws* connection, const std::string& file) {
@@ -62,11 +64,10 @@ int answer_page(lws* connection, const std::string& file) {
   std::array<unsigned char, LWS_PRE + kHeaderRoom> buffer{};
   unsigned char* at = buffer.data() + LWS_PRE;
   unsigned char* const start = at;
-  if (!add_headers(connection, &at, buffer.data() + buffer.size())) return 1;
+  if (!add_headers(connection, &at, buffer.data() + buffer.size())) return kClose;
   const int sent = lws_serve_http_file(connection, file.c_str(), kHtml, reinterpret_cast<const char*>(start),
                                        static_cast<int>(at - start));
-  if (sent < 0) return -1;
-  return sent > 0 && lws_http_transaction_completed(connection) != 0 ? -1 : 0;
+  return sent == 0 ? 0 : kClose;  // 0: the rest follows
 }
 
 }  // namespace liana::gateway

@@ -1,4 +1,5 @@
-// What the gateway answers to plain HTTP requests.
+// What the gateway answers to plain HTTP requests. Each ends its connection: the library is never led to a request
+// behind another, or to a body, whose bytes it has once read from memory that it had freed.
 #pragma once
 
 #include <libwebsockets.h>

@@ -1,5 +1,7 @@
 #include "host/gateway/web_door.hpp"
 
+#include <strings.h>
+
 #include <array>
 #include <string_view>
 
@@ -58,33 +60,42 @@ int WebDoor::refuse(lws* wsi, const char* what, unsigned int status, const std::
   return answer_http(wsi, status, kPlain, why + "\n");
 }
 
-// Before a connection becomes a WebSocket: 0 lets it, more than 0 says that it was answered.
+// The library asks for every upgrade that it knows (HTTP/2, too), and once more after it has refused one that it does
+// not know: by then the request is gone.
 int WebDoor::admit(lws* wsi) {
-  const auto refused = [&](const char* what, unsigned int status, const std::string& why) {
-    refuse(wsi, what, status, why);
-    return 1;
-  };
+  strangers.asked(wsi);
+  const std::string wanted = header(wsi, WSI_TOKEN_UPGRADE);
+  if (wanted.empty()) return -1;
   const char* what = "";
-  if (const auto why = problem(wsi, &what)) return refused(what, HTTP_STATUS_FORBIDDEN, *why);
+  if (const auto why = problem(wsi, &what)) return refuse(wsi, what, HTTP_STATUS_FORBIDDEN, *why);
+  if (strcasecmp(wanted.c_str(), "websocket") != 0)
+    return refuse(wsi, "protocol", HTTP_STATUS_BAD_REQUEST, "upgrade to '" + wanted + "': allowed is websocket");
   const std::string path = header(wsi, WSI_TOKEN_GET_URI);
-  if (path != "/ws") return refused("path", HTTP_STATUS_NOT_FOUND, "'" + path + "': the WebSocket is /ws");
+  if (path != "/ws") return refuse(wsi, "path", HTTP_STATUS_NOT_FOUND, "'" + path + "': the WebSocket is /ws");
   if (header(wsi, WSI_TOKEN_PROTOCOL) != kProtocol)
-    return refused("protocol", HTTP_STATUS_BAD_REQUEST, std::string("the subprotocol is ") + kProtocol);
+    return refuse(wsi, "protocol", HTTP_STATUS_BAD_REQUEST, std::string("the subprotocol is ") + kProtocol);
   if (gateway_.is_full())
-    return refused("too_many", HTTP_STATUS_SERVICE_UNAVAILABLE, "32 clients are connected already");
+    return refuse(wsi, "too_many", HTTP_STATUS_SERVICE_UNAVAILABLE, "32 clients are connected already");
   return 0;
 }
 
+int WebDoor::look_at(lws* wsi) {
+  const bool has_body = lws_hdr_total_length(wsi, WSI_TOKEN_HTTP_CONTENT_LENGTH) != 0 ||
+                        lws_hdr_total_length(wsi, WSI_TOKEN_HTTP_TRANSFER_ENCODING) != 0;
+  if (lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI) != 0 && !has_body) return 0;
+  return refuse(wsi, "method", HTTP_STATUS_METHOD_NOT_ALLOWED, "allowed is GET without a body");
+}
+
 int WebDoor::serve(lws* wsi, const std::string& path) {
+  strangers.asked(wsi);
   const char* what = "";
   if (const auto why = problem(wsi, &what)) return refuse(wsi, what, HTTP_STATUS_FORBIDDEN, *why);
-  if (lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI) == 0)
-    return refuse(wsi, "method", HTTP_STATUS_METHOD_NOT_ALLOWED, "allowed is GET");
   if (path == "/") return answer_page(wsi, options_.page);
   const bool about_runs = !options_.runs.empty() && (path == "/runs" || path.starts_with(kRun));
   if (about_runs && !gateway_.lets_in(query(wsi, "ticket=")))
     return refuse(wsi, "no_token", HTTP_STATUS_FORBIDDEN, "'" + path + "': takes ?ticket= of the welcome");
   if (about_runs && path == "/runs") return answer_http(wsi, HTTP_STATUS_OK, kJson, run_list(options_.runs).dump());
+  if (about_runs) strangers.leave(wsi);
   const auto run = about_runs ? run_page(options_.runs, path.substr(kRun.size())) : std::nullopt;
   if (run) return answer_page(wsi, *run);
   return refuse(wsi, "path", HTTP_STATUS_NOT_FOUND, "'" + path + "': nothing is there");

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "host/gateway/gateway.hpp"
+#include "host/gateway/strangers.hpp"
 #include "host/gateway/web_server.hpp"
 
 namespace liana::gateway {
@@ -20,10 +21,14 @@ class WebDoor {
   WebDoor(const WebOptions& options, Gateway& gateway) : options_(options), gateway_(gateway) {}
 
   std::uint16_t port = 0;  // at which the gateway listens
+  Strangers strangers;     // connections, from their begin to their hello
 
-  // Before a connection becomes a WebSocket: 0 lets it, more than 0 says that it was answered.
+  // Each returns what the callback of libwebsockets has to return: 0 goes on, others close the connection.
+  // Before a connection becomes something else than HTTP/1.1: whether it may become a WebSocket.
   int admit(lws* wsi);
-  // Answers a request; returns what the callback of libwebsockets has to return.
+  // Before a request is served, and before its body is read: there must be none.
+  int look_at(lws* wsi);
+  // Answers a request.
   int serve(lws* wsi, const std::string& path);
 
  private:

@@ -26,6 +26,7 @@ constexpr unsigned int kMostSockets = 192;                     // clients, stran
 constexpr std::uint16_t kPingAfter_s = 10, kGoneAfter_s = 20;  // of silence
 constexpr int kLastWord_s = 1;
 constexpr long kTick_ns = 100'000'000;
+constexpr unsigned int kLongestTurn_s = 10;
 
 // What libwebsockets keeps for every connection.
 struct Connection {
@@ -33,7 +34,15 @@ struct Connection {
   std::string* message;  // as far as it has been read
 };
 
-void complain(int, const char* line) { std::fprintf(stderr, "liana-gateway: libwebsockets: %s", line); }
+// The library's log knows no context: what it says goes to the gateway that listened last.
+Gateway* told_by_library = nullptr;
+
+void complain(int, const char* line) {
+  if (told_by_library != nullptr) told_by_library->complain("libwebsockets", line);
+}
+
+// Closes a connection as soon as the library looks at it again.
+void drop(lws* wsi) { lws_set_timeout(wsi, PENDING_TIMEOUT_USER_OK, LWS_TO_KILL_ASYNC); }
 
 }  // namespace
 
@@ -59,7 +68,25 @@ struct WebServerInside {
   int write(lws* wsi, Connection& connection);
   int end(lws* wsi, const Session& session);
   void closed(Connection& connection);
+  void meet(lws* wsi);
+  void drop_overdue();
 };
+
+void WebServerInside::meet(lws* wsi) {
+  const auto gone = door.strangers.come(wsi, peer_of(wsi), gateway.now_s());
+  if (!gone) return;
+  lws* const chosen = const_cast<lws*>(static_cast<const lws*>(*gone));
+  gateway.refused("too_many", peer_of(chosen), "made room for others before it said hello");
+  drop(chosen);
+}
+
+void WebServerInside::drop_overdue() {
+  for (const Strangers::Id late : door.strangers.overdue(gateway.now_s())) {
+    lws* const wsi = const_cast<lws*>(static_cast<const lws*>(late));
+    gateway.refused("slow", peer_of(wsi), "said too little in its time");
+    drop(wsi);
+  }
+}
 
 void WebServerInside::open(lws* wsi, Connection& connection) {
   connection.message = new std::string;
@@ -94,6 +121,7 @@ int WebServerInside::read(lws* wsi, Connection& connection, std::string_view pie
   } else {
     session.take_text(message, gateway.now_s());
   }
+  if (session.is_greeted()) door.strangers.leave(wsi);
   if (session.has_said_much()) lws_rx_flow_control(wsi, 0);
   message.clear();
   if (message.capacity() > kChunk) message.shrink_to_fit();
@@ -125,10 +153,23 @@ int WebServerInside::take(lws* wsi, lws_callback_reasons reason, Connection* con
     case LWS_CALLBACK_RAW_RX_FILE:
       gateway.run_ready();
       return 0;
+    case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
+      meet(wsi);
+      return 0;
+    case LWS_CALLBACK_WSI_DESTROY:
+      door.strangers.leave(wsi);
+      return 0;
+    case LWS_CALLBACK_RAW_ADOPT:  // of a CONNECT: nothing would ever end such a connection
+    case LWS_CALLBACK_RAW_RX:
+      return -1;
     case LWS_CALLBACK_HTTP:
       return door.serve(wsi, std::string(bytes));
+    case LWS_CALLBACK_FILTER_HTTP_CONNECTION:
+      return door.look_at(wsi);
+    case LWS_CALLBACK_HTTP_BODY:
+    case LWS_CALLBACK_HTTP_BODY_COMPLETION:
     case LWS_CALLBACK_HTTP_FILE_COMPLETION:
-      return lws_http_transaction_completed(wsi) != 0 ? -1 : 0;
+      return -1;
     case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
       return door.admit(wsi);
     case LWS_CALLBACK_ESTABLISHED:
@@ -175,6 +216,7 @@ constexpr lws_retry_bo_t kIdle{nullptr, 0, 0, kPingAfter_s, kGoneAfter_s, 0};
 }  // namespace
 
 void WebServerInside::listen() {
+  told_by_library = &gateway;
   lws_set_log_level(LLL_ERR, complain);
   lws_context_creation_info info{};
   info.iface = options.listen.host.c_str();
@@ -184,6 +226,7 @@ void WebServerInside::listen() {
   info.pt_serv_buf_size = kChunk;
   info.fd_limit_per_thread = kMostSockets;
   info.retry_and_idle_policy = &kIdle;
+  info.alpn = "http/1.1";  // nothing here needs HTTP/2, and the library's ends the process for some frames
   info.options = LWS_SERVER_OPTION_SKIP_SERVER_CANONICAL_NAME | LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND;
   if (options.listen.host.find(':') == std::string::npos) info.options |= LWS_SERVER_OPTION_DISABLE_IPV6;
   if (options.is_tls()) {
@@ -212,7 +255,9 @@ void WebServerInside::watch_time_and_signals() {
   timerfd_settime(timer.get(), 0, &every, nullptr);
   gateway.poller().watch(timer.get(), EPOLLIN, [this](std::uint32_t) {
     std::uint64_t count = 0;
-    if (::read(timer.get(), &count, sizeof count) > 0) gateway.tick();
+    if (::read(timer.get(), &count, sizeof count) <= 0) return;
+    gateway.tick();
+    drop_overdue();
   });
   sigset_t wanted;
   sigemptyset(&wanted);
@@ -223,9 +268,11 @@ void WebServerInside::watch_time_and_signals() {
   gateway.poller().watch(signals.get(), EPOLLIN, [this](std::uint32_t) { over = true; });
 }
 
+// A turn ends ten times a second at least. One that does not is ended by the system: whoever started this process
+// starts it again, and a process that hangs would never be.
 void WebServerInside::run() {
-  while (!over && lws_service(context, 0) >= 0) {
-  }
+  while (!over && lws_service(context, 0) >= 0) ::alarm(kLongestTurn_s);
+  ::alarm(0);
 }
 
 WebServer::WebServer(const WebOptions& options, Gateway& gateway)
@@ -234,7 +281,10 @@ WebServer::WebServer(const WebOptions& options, Gateway& gateway)
   inside_->listen();
 }
 
-WebServer::~WebServer() { lws_context_destroy(inside_->context); }
+WebServer::~WebServer() {
+  lws_context_destroy(inside_->context);
+  told_by_library = nullptr;
+}
 
 std::string WebServer::address() const {
   return std::string(inside_->options.is_tls() ? "https://" : "http://") + inside_->options.listen.web_host() + ":" +
@@ -246,6 +296,14 @@ void WebServer::run() { inside_->run(); }
 void WebServer::serve_waiting() {
   constexpr int kAtOnce = -1;  // without waiting for anything to happen
   lws_service(inside_->context, kAtOnce);
+}
+
+bool WebServer::take_connection(int fd) {
+  lws_sock_file_fd_type socket{};
+  socket.sockfd = fd;
+  const int tls = inside_->options.is_tls() ? LWS_ADOPT_ALLOW_SSL : 0;
+  const auto kind = static_cast<lws_adoption_type>(LWS_ADOPT_SOCKET | LWS_ADOPT_HTTP | tls);
+  return lws_adopt_descriptor_vhost(inside_->vhost, kind, socket, nullptr, nullptr) != nullptr;
 }
 
 }  // namespace liana::gateway

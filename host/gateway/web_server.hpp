@@ -33,6 +33,8 @@ class WebServer {
   void run();
   // Serves what is there and returns at once: one turn of run().
   void serve_waiting();
+  // Takes a connected stream socket as if it had come to the port; closes it. False: there is no place for it.
+  bool take_connection(int fd);
 
  private:
   std::unique_ptr<WebServerInside> inside_;

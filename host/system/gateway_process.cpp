@@ -1,6 +1,8 @@
 #include "host/system/gateway_process.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <fstream>
 #include <optional>
 #include <stdexcept>
@@ -18,6 +20,16 @@ constexpr const char* kUsual = "127.0.0.1:8765";
 constexpr const char* kFreePort = "127.0.0.1:0";
 constexpr const char* kSays = "liana-gateway: ";
 constexpr double kPatience_s = 10.0;
+constexpr double kLookAfter_s = 0.05;
+constexpr double kFirstPause_s = 0.1, kLongestPause_s = 10.0;  // before it is started again
+constexpr double kStays_s = 60.0;                              // it is well again
+constexpr int kMostTold = 3;                                   // ends in a row that are said
+
+using GatewayClock = std::chrono::steady_clock;
+
+GatewayClock::duration wall_s(double count) {
+  return std::chrono::duration_cast<GatewayClock::duration>(std::chrono::duration<double>(count));
+}
 
 // The last line with an address: a gateway that was started again has written another one.
 std::string address_in(const std::string& log_file) {
@@ -44,6 +56,12 @@ GatewayProcess::GatewayProcess(std::string api, GatewayOptions options, std::str
     if (!options_.listen.empty()) throw;
     start(kFreePort);
   }
+  thread_ = std::thread([this] { look_after(); });
+}
+
+GatewayProcess::~GatewayProcess() {
+  over_ = true;
+  if (thread_.joinable()) thread_.join();
 }
 
 void GatewayProcess::start(const std::string& listen) {
@@ -56,25 +74,57 @@ void GatewayProcess::start(const std::string& listen) {
   add("--key", options_.key);
   add("--runs", runs_folder());
   child_ = std::make_unique<ChildProcess>("liana-gateway", argv, log_file_);
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(kPatience_s);
-  while (std::chrono::steady_clock::now() < deadline) {
+  wait_until_it_listens();
+}
+
+void GatewayProcess::wait_until_it_listens() {
+  const auto deadline = GatewayClock::now() + wall_s(kPatience_s);
+  while (GatewayClock::now() < deadline && !over_) {
     const std::optional<ChildEnd> end = child_->poll();
     if (end && end->code == kExitBadInput) throw BadInput(without_name(child_->last_lines(1)));
     if (end) throw std::runtime_error("liana-gateway " + how(*end) + "\n" + child_->last_lines(kShownLines));
-    address_ = address_in(log_file_);
+    if (address_.empty()) address_ = address_in(log_file_);
     if (!address_.empty()) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   throw std::runtime_error("liana-gateway did not listen within 10 s\n" + child_->last_lines(kShownLines));
 }
 
-std::string GatewayProcess::revive() {
-  const std::optional<ChildEnd> end = child_->poll();
-  if (!end) return "";
-  const std::string text = "liana-gateway " + how(*end);
+void GatewayProcess::pause(double length_s) {
+  const auto end = GatewayClock::now() + wall_s(length_s);
+  while (!over_ && GatewayClock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+}
+
+// Its port may be taken for a moment, by a connection of somebody else: another try follows.
+std::string GatewayProcess::started_again() {
   const std::size_t begin = address_.find("//") + 2;
-  start(address_.substr(begin, address_.size() - begin - 1));
-  return text;
+  try {
+    start(address_.substr(begin, address_.size() - begin - 1));
+    return "";
+  } catch (const std::exception& error) {
+    child_->end(0.0);
+    return error.what();
+  }
+}
+
+void GatewayProcess::look_after() {
+  double pause_s = kFirstPause_s;
+  int ends = 0;
+  auto since = GatewayClock::now();
+  for (; !over_; pause(kLookAfter_s)) {
+    const std::optional<ChildEnd> end = child_->poll();
+    if (!end) continue;
+    if (GatewayClock::now() - since > wall_s(kStays_s)) pause_s = kFirstPause_s, ends = 0;
+    pause(pause_s);
+    if (over_) return;
+    pause_s = std::min(2.0 * pause_s, kLongestPause_s);
+    const std::string problem = started_again();
+    since = GatewayClock::now();
+    if (++ends > kMostTold) continue;
+    std::fprintf(stderr, "liana: liana-gateway %s; %s%s\n", how(*end).c_str(),
+                 problem.empty() ? "it was started again" : ("it is not there again yet: " + problem).c_str(),
+                 ends == kMostTold ? "; further ends of it are not said before it has stayed for a minute" : "");
+  }
 }
 
 }  // namespace liana::system

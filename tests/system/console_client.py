@@ -69,7 +69,9 @@ def http_get(address, path="/", headers=(), method="GET"):
 class WebSocket:
     """Messages to and from a server; answers pings while it reads."""
 
-    def __init__(self, address, path="/ws", protocol="liana-console-1", origin=None, host=None, receive_bytes=0):
+    def __init__(
+        self, address, path="/ws", protocol="liana-console-1", origin=None, host=None, receive_bytes=0, extensions=None
+    ):
         self.socket, netloc = connected(address, receive_bytes)
         key = base64.b64encode(os.urandom(16)).decode()
         lines = [
@@ -82,6 +84,7 @@ class WebSocket:
         ]
         lines += [f"Sec-WebSocket-Protocol: {protocol}"] if protocol else []
         lines += [f"Origin: {origin}"] if origin else []
+        lines += [f"Sec-WebSocket-Extensions: {extensions}"] if extensions else []
         self.socket.sendall("\r\n".join([*lines, "", ""]).encode())
         self.buffer = b""
         while b"\r\n\r\n" not in self.buffer:
@@ -91,6 +94,7 @@ class WebSocket:
                 raise Refused(0, "closed")
             self.buffer += piece
         head, _, self.buffer = self.buffer.partition(b"\r\n\r\n")
+        self.head = head.decode()
         status = int(head.split()[1])
         if status != 101:
             self.socket.close()

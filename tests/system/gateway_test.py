@@ -13,33 +13,9 @@ import unittest
 
 from support import SystemTest
 from console_client import BINARY, Closed, Console, Refused, WebSocket, http_get
+from gateway_support import Gateway, GatewayAloneTest
 from liana.client import wait_until
 from liana.system import System, program
-
-
-class Gateway:
-    """liana-gateway for one test, on a free port unless another is given."""
-
-    def __init__(self, test, api, *words, listen="127.0.0.1:0"):
-        self.log_file = tempfile.NamedTemporaryFile("r", prefix="liana-gateway-", suffix=".log")
-        test.addCleanup(self.log_file.close)
-        with open(self.log_file.name, "ab") as log:
-            call = [program("liana-gateway"), "--api", str(api), "--listen", listen, *map(str, words)]
-            self.process = subprocess.Popen(call, stdout=subprocess.PIPE, stderr=log, text=True)
-        test.addCleanup(self.process.stdout.close)
-        test.addCleanup(self.end)
-        self.address = self.process.stdout.readline().strip()
-
-    def end(self):
-        self.process.kill()
-        self.process.wait()
-
-    def log(self):
-        return pathlib.Path(self.log_file.name).read_text()
-
-    def resident_kB(self):
-        status = pathlib.Path(f"/proc/{self.process.pid}/status").read_text()
-        return int(status.split("VmRSS:")[1].split()[0])
 
 
 class GatewayTest(SystemTest):
@@ -223,26 +199,8 @@ class WhenSomethingEnds(GatewayTest):
         self.assertIn("cut the power", console.answers[number]["message"])
 
 
-class WhoIsLetIn(SystemTest):
+class WhoIsLetIn(GatewayAloneTest):
     """Refusals that need no lianad."""
-
-    def setUp(self):
-        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="liana-gateway-")))
-        self.api = self.folder / "api"  # nobody listens there
-        self.tokens = self.folder / "tokens"
-        self.write_tokens("anna operate operates-the-arm-0001\nwill watch watches-the-arm-00002\n")
-
-    def write_tokens(self, text, mode=0o600):
-        self.tokens.write_text(text)
-        self.tokens.chmod(mode)
-
-    def certificate(self):
-        """A certificate that nobody has signed, and its key: words for the gateway."""
-        names = [self.folder / "cert.pem", self.folder / "key.pem"]
-        call = ["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes"]
-        call += ["-subj", "/CN=localhost", "-days", "2", "-out", names[0], "-keyout", names[1]]
-        subprocess.run(call, check=True, capture_output=True)
-        return ["--cert", names[0], "--key", names[1]]
 
     def refused_at_start(self, *words):
         """The one sentence of a gateway that does not start."""
@@ -578,6 +536,40 @@ class TheCommandConsole(SystemTest):
         self.assertEqual(code, 0, error)
         self.assertIn("started again", error)
         self.assertIsNone(owner.poll())
+
+    def test_a_mission_goes_on_when_its_gateway_dies_again_and_again_and_gets_another(self):
+        process = self.start("run", "slit_crossing", "--time", "paced", "--console", "--json", "-")
+        address = process.stderr.readline().split()[-1]
+        for _ in range(2):
+            console = self.console(address).until(lambda me: me.state)
+            (gateway,) = self.children_of(process, "liana-gateway")
+            os.kill(gateway, signal.SIGKILL)
+            with self.assertRaises(OSError):
+                console.until(lambda me: False)
+            wait_until(lambda: self.children_of(process, "liana-gateway") not in ([], [gateway]), "another gateway")
+            wait_until(lambda: self.answers(address), "its address")
+        console = self.console(address).until(lambda me: me.state)
+        self.assertIsNone(process.poll())
+        number = console.stop("seen")
+        console.until(lambda me: number in me.answers)
+        report = json.loads(process.communicate(timeout=60)[0])
+        self.assertIn("emergency stop by test: seen", report["reason"])
+
+    def test_a_gateway_that_stands_still_is_ended_and_started_again(self):
+        owner = self.start("console", "--listen", "127.0.0.1:0", "--json")
+        address = json.loads(owner.stdout.readline())["address"]
+        (gateway,) = self.children_of(owner, "liana-gateway")
+        os.kill(gateway, signal.SIGSTOP)
+        time.sleep(11)  # longer than one turn of its loop may take
+        os.kill(gateway, signal.SIGCONT)
+        wait_until(lambda: self.children_of(owner, "liana-gateway") not in ([], [gateway]), "another gateway")
+        wait_until(lambda: self.answers(address), "its address")
+
+    def answers(self, address):
+        try:
+            return http_get(address)[0] == 200
+        except OSError:
+            return False
 
     def test_a_mission_tells_the_address_and_is_seen(self):
         process = self.start("run", "slit_crossing", "--time", "paced", "--console", "--json", "-")

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 
@@ -192,15 +193,41 @@ TEST_F(ServiceTellsEvents, ARefusedVerdictIsAnEventAndAReleasedOneIsNone) {
   EXPECT_GT(verdicts[0].values[0].value, 0.0);
 }
 
+// req:C12
+TEST(Faults, ThatFindNoPlaceAreNotAnEventOfEveryInterval) {
+  FaultWatch watch;
+  FaultList list;
+  std::vector<event::Event> told;
+  event::EventLog log([&told](const event::Event& event) { told.push_back(event); }, 0.004);
+  for (std::uint64_t tick = 0; tick < 5000; ++tick) {  // 20 s after a plug was loose
+    for (std::int16_t drive = 0; drive < FaultList::kCapacity + 9; ++drive)
+      latch(list, {FaultNumber::kDriveSilent, drive, 0, 7});
+    if (tick % 5 != 4) continue;
+    for (event::Event& event : watch.changes(list)) log.add(tick, std::move(event));
+    log.begin_interval(tick);
+  }
+  EXPECT_EQ(told.size(), FaultList::kCapacity + 1u);
+  EXPECT_EQ(summaries({told.front()}), (std::vector<std::string>{"fault 3002 drive 0"}));
+  log.add(5000, {.kind = event::EventKind::kClear, .number = 0});
+  ASSERT_EQ(told.size(), FaultList::kCapacity + 3u);
+  const auto count = std::ranges::find(told[told.size() - 2].values, "count", &event::EventValue::name);
+  EXPECT_EQ(told[FaultList::kCapacity].values[0].value + count->value, list.dropped);
+}
+
 TEST_F(ServiceTellsEvents, TheyAreNumberedWithoutGapsWhateverComesFirst) {
   move();
   for (int i = 0; i < 60; ++i) client_.send({{"op", "stop"}});
   client_.send({{"op", "release"}});
   intervals(20);
-  // How many stops one interval takes depends on the machine; what it leaves out is counted.
+  intervals(static_cast<int>(1.5 * event::EventLog::kOver_s / (arm_.table().interval_ticks * arm_.table().tick_s)));
+  // How many stops one interval takes depends on the machine; those that are not told are counted.
   std::map<std::uint64_t, std::uint32_t> stops_at_tick;
   std::int64_t stops = 0;
-  for (const event::Event& stop : heard(event::EventKind::kStop)) ++stops_at_tick[stop.tick], ++stops;
+  for (const event::Event& stop : heard(event::EventKind::kStop)) {
+    ++stops_at_tick[stop.tick];
+    const auto times = std::ranges::find(stop.values, "times", &event::EventValue::name);
+    stops += times == stop.values.end() ? 1 : static_cast<std::int64_t>(times->value);
+  }
   for (const auto& [tick, count] : stops_at_tick) EXPECT_LE(count, event::EventLog::kMostPerInterval) << tick;
   for (const event::Event& left_out : heard(event::EventKind::kLeftOut)) stops += left_out.number;
   EXPECT_EQ(stops, 60);

@@ -13,20 +13,24 @@
 #include <fstream>
 #include <thread>
 
+#include "host/event/event_file.hpp"
+
 namespace liana::event {
 namespace {
 
 class File : public testing::Test {
  protected:
   File() : path_(testing::TempDir() + "liana_events_" + std::to_string(::getpid())) {}
-  ~File() override { std::filesystem::remove(path_); }
+  ~File() override {
+    for (const char* part : {"", LineFile::kFirst, LineFile::kBefore}) std::filesystem::remove(path_ + part);
+  }
 
   static Event numbered(std::uint64_t sequence) {
     return {.kind = EventKind::kTool, .text = "event", .sequence = sequence, .tick = sequence};
   }
   static std::string line(std::uint64_t sequence) { return event_line(numbered(sequence), 0.004); }
-  std::vector<std::string> lines() const {
-    std::ifstream in(path_);
+  std::vector<std::string> lines(const std::string& part = "") const {
+    std::ifstream in(path_ + part);
     std::vector<std::string> out;
     for (std::string line; std::getline(in, line);) out.push_back(line);
     return out;
@@ -59,6 +63,32 @@ TEST_F(File, AFileOfAnEarlierRunIsReplaced) {
   std::ofstream(path_) << "old\n";
   { LineFile file(path_, "--events", kEventLineHeading); }
   EXPECT_EQ(lines(), (std::vector<std::string>{"#" + std::string(kEventLineHeading)}));
+}
+
+TEST_F(File, ItsPartsAreBoundedTheFirstStaysAndEachBeginsWithTheCause) {
+  constexpr std::uint64_t kPart = 20'000;
+  {
+    EventFile file(path_, 0.004, kPart);
+    file.append({.kind = EventKind::kFault, .number = 3002, .subject = "drive 3", .sequence = 1, .tick = 1});
+    for (std::uint64_t n = 2; n <= 5000; ++n) {
+      file.append({.kind = EventKind::kFault, .number = 3003, .text = "what followed", .sequence = n, .tick = n});
+      if (n % 50 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));  // or all of it is one write
+    }
+  }
+  const std::vector<std::string> first = lines(LineFile::kFirst), before = lines(LineFile::kBefore), newest = lines();
+  ASSERT_GT(first.size(), 2u);
+  EXPECT_EQ(std::stoull(first[1]), 1u);
+  for (const auto& part : {before, newest}) {
+    ASSERT_GT(part.size(), 3u);
+    EXPECT_EQ(part[0], "#" + std::string(kEventLineHeading));
+    EXPECT_EQ(part[2], first[1]) << "the cause";
+  }
+  EXPECT_EQ(std::stoull(newest.back()), 5000u);
+  EXPECT_EQ(std::stoull(newest[3]), std::stoull(before.back()) + 1) << "none is missing between them";
+  for (const char* part : {"", LineFile::kFirst, LineFile::kBefore})
+    EXPECT_LT(std::filesystem::file_size(path_ + part), kPart + 20'000) << part;
+  { LineFile again(path_, "--events", kEventLineHeading); }
+  EXPECT_FALSE(std::filesystem::exists(path_ + LineFile::kFirst)) << "of an earlier run";
 }
 
 TEST_F(File, APathThatCannotBeWrittenIsRefusedByItsName) {

@@ -220,6 +220,7 @@ test('when the gateway dies the page says so, and goes on by itself when it is b
   assert.ok(gateway, 'the gateway is found');
   process.kill(gateway, 'SIGKILL');
   await page.waitForFunction(() => document.querySelector('.status .badge:last-child').textContent === 'NOT LIVE');
+  await page.waitForFunction(() => /an arm that was steered from here holds/.test(document.body.textContent));
   const [state] = await page.$$('.status .badge');
   assert.match(await state.textContent(), /^was /);
   assert.match(await state.getAttribute('class'), /stale/);

@@ -14,6 +14,8 @@ export interface Listener {
 const kFirstRetry_ms = 500;
 const kLastRetry_ms = 5000;
 const kAnswer_ms = 5000;
+const kGreeting_ms = 10000; // from the attempt to the gateway's first message: one that hangs is given up
+const kGone = 'no connection to the gateway: an arm that was steered from here holds; trying again';
 const kPolicyViolated = 1008;
 const kAnsweredTogether = 2; // records: each answer wakes the gateway
 
@@ -36,11 +38,16 @@ export class Connection {
     const socket = new WebSocket(this.url, kSubprotocol);
     this.socket = socket;
     socket.binaryType = 'arraybuffer';
+    const patience = window.setTimeout(() => socket.close(), kGreeting_ms);
     socket.onmessage = (event: MessageEvent) => {
+      window.clearTimeout(patience);
       if (typeof event.data === 'string') void this.take(JSON.parse(event.data) as FromGateway);
       else this.take_record(event.data as ArrayBuffer);
     };
-    socket.onclose = (event) => this.closed(event);
+    socket.onclose = (event) => {
+      window.clearTimeout(patience);
+      this.closed(event);
+    };
   }
 
   // Says hello anew, under another name.
@@ -133,7 +140,7 @@ export class Connection {
     }
     if (this.asked_for_token) return;
     if (event.code === kPolicyViolated && !was_welcome && this.listener.token()) return this.ask_for_token(event.reason || 'The gateway refused this token.');
-    this.listener.status(event.reason ? `the gateway closed the connection: ${event.reason}` : 'no connection to the gateway; trying again');
+    this.listener.status(event.reason ? `the gateway closed the connection: ${event.reason}` : kGone);
     window.setTimeout(() => this.open(), this.retry_ms);
     this.retry_ms = Math.min(kLastRetry_ms, Math.max(kFirstRetry_ms, 2 * this.retry_ms));
   }
