@@ -78,10 +78,9 @@ void EvenAge::go_on(std::int64_t interval_us) {
     play_us_ = newest_->t_us;
     return;
   }
-  const std::int64_t most_us = std::min(age.most_us, age.least_us + kMostWait_us);
-  const std::int64_t due_us = arm_us_ - (is_even ? age.least_us : most_us);
+  const std::int64_t due_us = arm_us_ - (is_even ? age.least_us : age.most_us);
   const std::int64_t soonest_us = play_us_ + std::llround(kHurry * static_cast<double>(interval_us));
-  play_us_ = std::max(play_us_, std::min(due_us, soonest_us));
+  play_us_ = std::max({play_us_, std::min(due_us, soonest_us), newest_->t_us - kMostWait_us});
 }
 
 std::vector<device::Sample> EvenAge::finish_interval(double interval_s) {
