@@ -26,20 +26,38 @@ struct ClutchMapping {
   bool operator==(const ClutchMapping&) const = default;
 };
 
-// Where hand and tip stood when the operator engaged.
+// Where hand and tip stood when the operator engaged; with the camera's axes: at the last pose.
 struct ClutchAnchor {
   Pose hand_in_device{};
   Pose tip_in_base{};
 };
 
-// Tip goal in the base frame for a hand pose. At the anchor it is exactly the anchored tip pose, so that engaging never
-// jumps. The device frame is parallel to the base frame, or to the anchored tip's: what turns the camera's axes is that
-// whoever steers by them moves the anchor along (move_anchor).
-Pose clutch_goal(const ClutchMapping& mapping, const ClutchAnchor& anchor, const Pose& hand_in_device);
+// The goal's attitude is at most so far from the commanded one: the arm takes the shorter way between the two, and
+// beyond half a turn that would be the wrong one.
+constexpr double kMostLead_rad = 1.57;
+// What the hand has turned ahead of that is kept up to a turn, and made up for as the tip comes; more is lost.
+constexpr double kMostOwed_rad = 6.28;
 
-// The anchor for the next hand pose, after `goal` was asked for with `hand_in_device`: moved there where the axes are
-// the camera's, else as it is.
-void move_anchor(const ClutchMapping& mapping, const Pose& hand_in_device, const Pose& goal, ClutchAnchor& anchor);
+// The hand that leads the tip. The way counts from the anchor; turns are counted on from pose to pose, so that a hand
+// may turn as often as it likes in one grip.
+class Clutch {
+ public:
+  // The deadman closes: hand and tip stand so. At the anchor the goal is exactly the tip's pose.
+  void engage(const Pose& hand_in_device, const Pose& tip_in_base);
+  // Tip goal in the base frame for the next hand pose, less than half a turn from the one before; `commanded` is where
+  // the tip is commanded to be. The device frame is parallel to the frame of the mapping.
+  Pose follow(const ClutchMapping& mapping, const Pose& hand_in_device, const Pose& commanded);
+  const ClutchAnchor& anchor() const { return anchor_; }
+
+ private:
+  void turn_on(const Vec3& turn_rad, const Quat& commanded);
+
+  ClutchAnchor anchor_{};
+  Quat hand_{1.0, 0.0, 0.0, 0.0};  // newest attitude
+  Quat axes_{1.0, 0.0, 0.0, 0.0};  // of the tip, where they count
+  Quat goal_{1.0, 0.0, 0.0, 0.0};  // asked for last
+  Vec3 owed_rad_{};                // turned by the hand, and not asked for yet; base frame
+};
 
 // The same for a point in the base's axes (node control, left VR hand): only translation counts.
 Vec3 clutch_point(double scale, const Vec3& hand_anchor_m, const Vec3& point_anchor_m, const Vec3& hand_m);

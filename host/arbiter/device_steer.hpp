@@ -12,6 +12,7 @@
 #include "host/arbiter/even_age.hpp"
 #include "host/arbiter/hand_coast.hpp"
 #include "host/arbiter/hand_track.hpp"
+#include "host/arbiter/hand_watch.hpp"
 #include "host/device/capability.hpp"
 #include "host/device/sample_rate.hpp"
 
@@ -27,7 +28,8 @@ struct DeviceUse {
   bool anywhere = false;   // handles: inside the slit, too
 };
 
-constexpr double kDeviceSilent_s = 0.1;    // no sample for longer: disengage
+constexpr double kDeviceSilent_s = 0.1;    // so long after the last sample: has disengaged
+constexpr double kClockStep_s = 0.1;       // a device's clock that goes on by more than time has is set anew: disengage
 constexpr double kNodeThreshold_m = 0.01;  // a node target acts beyond this distance
 
 // How regularly the samples of a device came, from the first of its use to the last.
@@ -49,8 +51,8 @@ class DeviceSteer {
   const DeviceUse& in_use() const { return use_; }
   bool engaged() const { return engaged_; }
   // Where hand and tip stood when the operator engaged last.
-  const ClutchAnchor& anchor() const { return anchor_; }
-  // Why the operator was disengaged last, empty when by letting go.
+  const ClutchAnchor& anchor() const { return clutch_.anchor(); }
+  // Why the operator was disengaged last, empty when by letting go (docs/devices.md lists them).
   const char* reason() const { return reason_; }
   // Device times of the newest and of the oldest tip sample that the last goal was made of; < 0 before the first goal
   // of a use.
@@ -66,6 +68,8 @@ class DeviceSteer {
   // A sample of the device in use: hand 0 steers the tip, hand 1 the node. Behind a link that is late by now more and
   // now less it waits until all are as late (even_age.hpp).
   void add(const device::Sample& sample);
+  // Samples of the device in use that were not believed (Device), since the last call.
+  void note_refused(std::uint64_t samples) { refused_ += samples; }
   // Ends the interval; a goal while engaged. `now` gives the anchors on engaging, `interval_s` the time since the last
   // call.
   std::optional<SteerGoal> finish_interval(const cable::Outputs& now, double interval_s);
@@ -80,21 +84,32 @@ class DeviceSteer {
 
  private:
   void disengage(const char* reason);
+  void begin_anew();
+  const char* lie_of(HandWatch& watch, device::Sample& sample) const;
+  bool is_clock_set(const device::Sample& tip) const;
   void take_in(const device::Sample& tip);
+  void watch_tip(const HandReading& tip, std::uint64_t came, double interval_s);
   void steer_node(const HandReading& left, const cable::Outputs& now, double interval_s);
 
   DeviceUse use_{};
   EvenAge tip_age_, node_age_;
   HandTrack tip_{}, node_{};
   HandCoast tip_coast_{}, node_coast_{};
+  HandWatch tip_watch_{}, node_watch_{};
+  const char* tip_lie_ = nullptr;  // what is wrong with samples of this interval
+  const char* node_lie_ = nullptr;
+  std::int64_t arm_us_ = 0, heard_us_ = 0;  // arm time, and when the newest tip sample came
+  std::int64_t told_us_ = -1;               // by the device's clock; < 0: none came
+  std::uint64_t refused_ = 0;               // samples since one was believed
   bool engaged_ = false, node_engaged_ = false;
   bool must_let_go_ = false;  // after a loss: nothing before the deadman was open once
+  bool node_must_let_go_ = false;
   const char* reason_ = "";
   double silent_s_ = 0.0;
   std::uint64_t samples_ = 0, came_ = 0;  // since the start, in this interval
   device::SampleRate rate_{};
   std::optional<UseRecord> ended_use_;
-  ClutchAnchor anchor_{};
+  Clutch clutch_{};
   Pose hand_{};  // newest averaged pose, or where it went on to unseen
   std::int64_t newest_us_ = -1, made_of_us_ = -1;
   std::int64_t oldest_us_ = -1, made_from_us_ = -1;  // oldest of the newest interval that had samples

@@ -25,11 +25,9 @@ device::Sample sample_between(const device::Sample& from, const device::Sample& 
 
 bool leads(const device::Sample& sample) { return sample.valid && sample.deadman; }
 
-// Between a hand and where its tracker has jumped to there is none.
 bool is_one_way(const device::Sample& from, const device::Sample& to) {
   const std::int64_t gap_us = to.t_us - from.t_us;
-  return gap_us > kGap_us && gap_us <= std::llround(1e6 * kTrackingLost_s) && leads(from) && leads(to) &&
-         !is_jump(from.pose, from.t_us, to.pose, to.t_us);
+  return gap_us > kGap_us && gap_us <= std::llround(1e6 * kTrackingLost_s) && leads(from) && leads(to);
 }
 
 }  // namespace
@@ -39,7 +37,12 @@ void EvenAge::add(const device::Sample& sample) {
   if (newest_ && waits_) bridge(sample);
   queue_.push_back(sample);
   newest_ = sample;
-  if (!sample.deadman) play_us_ = std::max(play_us_, sample.t_us);
+  if (sample.deadman) return;
+  play_us_ = std::max(play_us_, sample.t_us);
+  if (!is_late_) return;
+  before_.reset();
+  now_.reset();
+  is_late_ = false;
 }
 
 void EvenAge::bridge(const device::Sample& to) {
@@ -56,7 +59,8 @@ void EvenAge::note(std::int64_t age_us) {
     now_.reset();
     window_us_ = arm_us_;
   }
-  if ((now_ || before_) && age_us > ages().least_us + kMostWait_us) return;
+  is_late_ = (now_ || before_) && age_us > ages().least_us + kMostWait_us;
+  if (is_late_) return;
   if (!now_) now_ = Ages{age_us, age_us};
   now_ = Ages{std::min(now_->least_us, age_us), std::max(now_->most_us, age_us)};
 }
@@ -76,7 +80,7 @@ void EvenAge::go_on(std::int64_t interval_us) {
   }
   const std::int64_t due_us = arm_us_ - (is_even ? age.least_us : age.most_us);
   const std::int64_t soonest_us = play_us_ + std::llround(kHurry * static_cast<double>(interval_us));
-  play_us_ = std::max(play_us_, std::min(due_us, soonest_us));
+  play_us_ = std::max({play_us_, std::min(due_us, soonest_us), newest_->t_us - kMostWait_us});
 }
 
 std::vector<device::Sample> EvenAge::finish_interval(double interval_s) {

@@ -24,11 +24,15 @@ class EvenAge {
 
   // Another device, or another clock.
   void forget() { *this = EvenAge{}; }
-  // A sample has come; times rise. One with an open deadman waits for nothing, nor does what came before it.
+  // A sample has come that may be followed (hand_watch.hpp); times rise. One with an open deadman waits for nothing,
+  // nor does what came before it.
   void add(const device::Sample& sample);
   // Ends an interval: the samples whose time has come, oldest first. While news is never older by more than an interval
   // than it is at best the link is even, and nothing waits.
   std::vector<device::Sample> finish_interval(double interval_s);
+  // The newest sample was older at the end of the last interval than news is at best, by more than kMostWait_us: the
+  // link has become slow, or the device's clock is. It ends with an open deadman, after which the new age counts.
+  bool is_late() const { return is_late_; }
 
  private:
   // Ages of the newest sample at the end of intervals, by two clocks that need not agree: only differences count.
@@ -48,6 +52,7 @@ class EvenAge {
   std::int64_t window_us_ = 0;        // when this window began
   std::int64_t play_us_ = 0;          // what was taken by then has led the arm
   bool waits_ = false;
+  bool is_late_ = false;
 };
 
 }  // namespace liana::arbiter

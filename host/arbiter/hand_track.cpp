@@ -1,23 +1,10 @@
 #include "host/arbiter/hand_track.hpp"
 
-#include <algorithm>
-
 namespace liana::arbiter {
 
 namespace {
 double seconds(std::int64_t us) { return static_cast<double>(us) * 1e-6; }
 }  // namespace
-
-bool is_jump(const Pose& from, std::int64_t from_us, const Pose& to, std::int64_t to_us) {
-  const double dt_s = std::min(seconds(to_us - from_us), kJumpWindow_s);
-  const double way_m = norm(subtract(to.position_m, from.position_m));
-  const double turn_rad = norm(rotation_vector(multiply(to.quaternion, conjugate(from.quaternion))));
-  return way_m > kHandSpeed_m_s * dt_s || turn_rad > kHandTurn_rad_s * dt_s;
-}
-
-bool HandTrack::is_jump(const device::Sample& sample) const {
-  return any_good_ && arbiter::is_jump(last_good_, last_good_t_us_, sample.pose, sample.t_us);
-}
 
 // Positions are averaged as they are; rotations as small turns away from the first sample of the interval.
 void HandTrack::average_in(const Pose& pose) {
@@ -39,17 +26,7 @@ void HandTrack::add_sample(const device::Sample& sample) {
     position_sum_m_ = turn_sum_rad_ = Vec3{};
   }
   if (!sample.valid || !is_valid(sample.pose)) return;
-  if (is_jump(sample)) {
-    // A tracker that stays where it jumped to is believed again once the operator has let go.
-    if (!sample.deadman) {
-      last_good_ = sample.pose;
-      last_good_t_us_ = sample.t_us;
-    }
-    ++reading_.jumps;
-    return;
-  }
   any_good_ = true;
-  last_good_ = sample.pose;
   last_good_t_us_ = sample.t_us;
   average_in(sample.pose);
 }

@@ -11,7 +11,6 @@ namespace liana::arbiter {
 struct HandReading {
   std::uint32_t samples = 0;  // all that came
   std::uint32_t used = 0;     // averaged into `mean`
-  std::uint32_t jumps = 0;    // rejected: faster than a hand moves
   bool let_go = false;        // the deadman was open in at least one sample
   bool pressed = false;       // closed in the newest sample
   bool lost = false;          // no usable pose for longer than kTrackingLost_s
@@ -19,13 +18,7 @@ struct HandReading {
   Pose mean{};
 };
 
-constexpr double kHandSpeed_m_s = 4.0;  // a sample that implies more is a tracker jump, not a hand
-constexpr double kHandTurn_rad_s = 30.0;
-constexpr double kJumpWindow_s = 0.05;  // longest time over which those speeds are believed
 constexpr double kTrackingLost_s = 0.25;
-
-// No hand comes from the pose that it had at `from_us` to the one at `to_us`, a later time.
-bool is_jump(const Pose& from, std::int64_t from_us, const Pose& to, std::int64_t to_us);
 
 class HandTrack {
  public:
@@ -35,13 +28,11 @@ class HandTrack {
   HandReading finish_interval();
 
  private:
-  bool is_jump(const device::Sample& sample) const;
   void average_in(const Pose& pose);
 
   HandReading reading_{};
   Vec3 position_sum_m_{}, turn_sum_rad_{};
   Pose first_{};  // reference of the rotation average
-  Pose last_good_{};
   std::int64_t last_t_us_ = 0, last_good_t_us_ = 0;
   bool any_ = false, any_good_ = false;
 };

@@ -51,8 +51,10 @@ void feel(const std::string& typed, std::optional<teleop::Gamepad>& gamepad, tel
           api::ApiClient& client) {
   for (const teleop::Key& key : teleop::keys_in(typed)) send_all(client, session.press(key, now_s()));
   if (!gamepad) return;
-  for (const teleop::Key& key : gamepad->read()) send_all(client, session.press(key, now_s()));
+  for (const teleop::Key& key : gamepad->read(now_s())) send_all(client, session.press(key, now_s()));
   session.lean(gamepad->is_held() ? std::optional(gamepad->direction()) : std::nullopt);
+  if (gamepad->take_silence())
+    session.say("the gamepad has said nothing for 2 s: the arm holds; press its shoulder button anew");
   if (!gamepad->is_gone()) return;
   session.say("the gamepad is gone: the arm holds; go on with keys, or plug it in and start anew");
   gamepad.reset();

@@ -1,6 +1,7 @@
 #include "host/daemon/device_desk.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "host/api/request_error.hpp"
 #include "host/daemon/state_parts.hpp"
@@ -98,6 +99,7 @@ void DeviceDesk::follow(const std::string& name) {
   const std::vector<device::Device*> fitting = that_fit(name);
   name_ = name;
   followed_ = fitting.size() == 1 ? fitting.front()->id() : 0;
+  refused_ = followed_ != 0 ? fitting.front()->refused_samples() : 0;
 }
 
 void DeviceDesk::take_samples(arbiter::DeviceSteer& steer, double interval_s) {
@@ -110,6 +112,7 @@ void DeviceDesk::take_samples(arbiter::DeviceSteer& steer, double interval_s) {
     const std::vector<device::Sample> samples = device->take_samples();
     if (device->id() != followed_) continue;
     for (const device::Sample& sample : samples) steer.add(sample);
+    steer.note_refused(device->refused_samples() - std::exchange(refused_, device->refused_samples()));
   }
   door_.finish_interval(interval_s);
 }

@@ -46,6 +46,7 @@ class DeviceDesk {
   device::Door door_;
   std::string name_;            // of the use that is followed
   std::uint32_t followed_ = 0;  // number of the device in use; 0: none
+  std::uint64_t refused_ = 0;   // of its samples, by the last call
 };
 
 }  // namespace liana::daemon

@@ -99,12 +99,14 @@ struct liana_hello {
 
 enum liana_sample_flags {
   LIANA_VALID = 1,  /* the hand is tracked; otherwise the pose is the last one known */
-  LIANA_DEADMAN = 2 /* held: the arm follows */
+  LIANA_DEADMAN = 2, /* held: the arm follows */
+  LIANA_STALE = 4   /* the device has told its driver nothing new: the arm is let go, and follows after LIANA_DEADMAN
+                       was not held in a sample without this */
 };
 
 struct liana_sample {
   struct liana_header header;
-  int64_t t_us;                   /* when it was measured */
+  int64_t t_us;                   /* when it was measured; a driver that repeats old numbers says LIANA_STALE */
   uint32_t hand;                  /* 0 or 1 */
   uint32_t flags;                 /* enum liana_sample_flags */
   uint32_t buttons;               /* bit i: button i is pressed */
@@ -126,7 +128,7 @@ struct liana_welcome {
   int64_t arm_time_us;   /* when it was sent */
   int64_t answers_us;    /* t_us of the hello: with the time at which this comes, the relation of the clocks */
   double interval_s;     /* T_c, from state to state */
-  double silence_s;      /* a device in use that sends no sample for so long lets the arm hold */
+  double silence_s;      /* a device in use that sends no sample for so long has let the arm hold */
   double least_rate_hz;  /* samples below this are an alarm */
   double tip_speed_m_s;  /* fastest that the tip follows */
   uint32_t most_samples; /* of the device in one command interval; more close it */

@@ -96,6 +96,7 @@ liana_sample packet_of(const Sample& sample, std::uint32_t sequence, const Echo&
   out.hand = sample.hand;
   if (sample.valid) out.flags |= LIANA_VALID;
   if (sample.deadman) out.flags |= LIANA_DEADMAN;
+  if (sample.stale) out.flags |= LIANA_STALE;
   out.buttons = sample.buttons;
   out.echo_sequence = echo.sequence;
   out.echo_us = echo.came_us;
@@ -107,11 +108,11 @@ liana_sample packet_of(const Sample& sample, std::uint32_t sequence, const Echo&
 }
 
 const char* problem_of(const liana_sample& p, std::uint32_t hands) {
-  constexpr std::uint32_t kFlags = LIANA_VALID | LIANA_DEADMAN;
+  constexpr std::uint32_t kFlags = LIANA_VALID | LIANA_DEADMAN | LIANA_STALE;
   if (!is_time(p.t_us)) return "t_us: allowed 0 to 2^53";
   if (!is_time(p.echo_us)) return "echo_us: allowed 0 to 2^53";
   if (p.hand >= hands) return "hand: allowed 0, and 1 where hello says two hands";
-  if ((p.flags & ~kFlags) != 0) return "flags: allowed 0 to 3";
+  if ((p.flags & ~kFlags) != 0) return "flags: allowed 0 to 7";
   if (!is_sound(p.trigger, 1.0) || p.trigger < 0.0) return "trigger: allowed 0 to 1, not denormal";
   if (!are_sound(p.measured_cp.position_m, kRoom_m)) return "measured_cp: position allowed within 10 m, not denormal";
   if (!are_sound(p.measured_cp.quaternion_wxyz, 2.0) || !is_valid(pose_of(p.measured_cp)))
@@ -127,6 +128,7 @@ Sample sample_of(const liana_sample& packet) {
   out.hand = packet.hand;
   out.valid = (packet.flags & LIANA_VALID) != 0;
   out.deadman = (packet.flags & LIANA_DEADMAN) != 0;
+  out.stale = (packet.flags & LIANA_STALE) != 0;
   out.buttons = packet.buttons;
   out.trigger = packet.trigger;
   out.pose = pose_of(packet.measured_cp);

@@ -18,6 +18,7 @@ struct Sample {
   std::uint32_t hand = 0;     // 0 moves the tip, 1 a node of the arm
   bool valid = true;          // false: tracking lost, the pose is the last one known
   bool deadman = false;       // held: the arm follows
+  bool stale = false;         // the device has told nothing new: what this says is old, whatever its time
   std::uint32_t buttons = 0;  // bit i: button i is pressed
   double trigger = 0.0;       // 0 open .. 1 closed
   Pose pose{};                // of the hand in the device frame

@@ -22,6 +22,7 @@ constexpr std::array kHandle{
     RequestField{"valid", FieldType::kFlag, "the handle is tracked"},
     RequestField{"trigger", FieldType::kNumber, "deadman; held from 0.5 on", 0.0, 1.0},
     RequestField{"pose", FieldType::kPose, "of the handle in the device frame", {}, kRoom_m},
+    RequestField{"stale", FieldType::kFlag, "the headset was re-centred in this grip"}.optional(),
 };
 constexpr std::array kHandlesSample{
     RequestField{"t_us", FieldType::kInteger, "when it was taken, by the page's clock", 0.0, api::kBiggestWhole},
@@ -55,6 +56,7 @@ device::Capability capability(const std::string& name) {
 device::Sample sample_of(const api::Arguments& fields, std::uint32_t hand, std::int64_t t_us) {
   device::Sample sample{.t_us = t_us, .hand = hand, .valid = fields.flag("valid")};
   sample.trigger = fields.number("trigger");
+  sample.stale = fields.has("stale") && fields.flag("stale");
   sample.deadman = sample.trigger >= kGripped;
   sample.pose = fields.pose("pose");
   return sample;

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kRate_hz = 100.0;
 constexpr std::int64_t kPeriod_us = 10'000;
+constexpr std::int64_t kLate_us = 50'000;
 constexpr double kConnectTimeout_s = 5.0;
 constexpr std::uint64_t kNoButton = 32;
 
@@ -69,6 +70,7 @@ void serve(Spacenav& spacenav, device::Driver& driver, const PuckTable& table) {
     driver.receive(t_us);
     if (!driver.is_open()) throw std::runtime_error(driver.problem());
     driver.send(puck.step(t_us, 1.0 / kRate_hz));
+    if (t_us - due_us > kLate_us) due_us = t_us;  // the hand does not make up for a pause
   }
   driver.leave();
 }

@@ -26,6 +26,7 @@ bool Spacenav::read(Puck& puck) {
   while (spnav_poll_event(&event) != 0) {
     if (event.type == SPNAV_EVENT_MOTION)
       puck.push({event.motion.x, event.motion.y, event.motion.z, event.motion.rx, event.motion.ry, event.motion.rz});
+    if (event.type == SPNAV_EVENT_DEV && event.dev.op == SPNAV_DEV_RM) puck.lose();
     if (event.type == SPNAV_EVENT_BUTTON) puck.press(event.button.bnum, event.button.press != 0);
   }
   char byte = 0;

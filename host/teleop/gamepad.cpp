@@ -75,14 +75,20 @@ Gamepad::Gamepad(const std::string& path) {
 
 Gamepad::~Gamepad() { close(fd_); }
 
-std::vector<Key> Gamepad::read() {
+std::vector<Key> Gamepad::read(double now_s) {
   std::vector<Key> keys;
   std::array<js_event, kMostEvents> events{};
   const ssize_t bytes = is_gone_ ? 0 : ::read(fd_, events.data(), sizeof events);
   if (bytes <= 0) {
     is_gone_ = is_gone_ || bytes == 0 || (errno != EAGAIN && errno != EINTR);
+    const Direction leant = direction();
+    const bool leans = norm(leant.way) + norm(leant.turn) > 0.0;
+    if (!is_held() || !leans || now_s - heard_s_ < kSilent_s) return keys;
+    sticks_.let_go();
+    fell_silent_ = true;
     return keys;
   }
+  heard_s_ = now_s;
   for (std::size_t i = 0; i < static_cast<std::size_t>(bytes) / sizeof(js_event); ++i) {
     const auto pressed = sticks_.take(events[i].type, events[i].number, events[i].value);
     keys.insert(keys.end(), pressed.begin(), pressed.end());

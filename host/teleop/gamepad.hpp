@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/teleop/keys.hpp"
@@ -22,6 +23,8 @@ class Sticks {
   // The shoulder button is held, and was pressed since the gamepad was opened and since another button was.
   bool is_held() const { return is_held_; }
   Direction direction() const;
+  // Not held any more, before the shoulder button is pressed anew.
+  void let_go() { is_held_ = false; }
 
  private:
   std::array<double, 8> axis_{};  // -1 to 1
@@ -37,8 +40,14 @@ class Gamepad {
   Gamepad(const Gamepad&) = delete;
   Gamepad& operator=(const Gamepad&) = delete;
 
-  // Takes in what came since; the keys that buttons have pressed.
-  std::vector<Key> read();
+  // A stick that leans moves by a little all the time, or leans as far as it goes. One that says nothing for so long is
+  // let go: a gamepad out of reach says nothing either [s].
+  static constexpr double kSilent_s = 2.0;
+
+  // Takes in what came since; the keys that buttons have pressed. `now_s`: by a clock that never goes back.
+  std::vector<Key> read(double now_s);
+  // It has let go of the arm by its silence since the last call.
+  bool take_silence() { return std::exchange(fell_silent_, false); }
   // It was unplugged, or its driver has ended.
   bool is_gone() const { return is_gone_; }
   // Nothing is held on a gamepad that is gone.
@@ -48,6 +57,8 @@ class Gamepad {
  private:
   int fd_ = -1;
   bool is_gone_ = false;
+  double heard_s_ = 0.0;
+  bool fell_silent_ = false;
   Sticks sticks_;
 };
 

@@ -37,6 +37,20 @@ test('a handle that is not tracked repeats its last pose and is not valid', () =
   assert.deepEqual(samples.next(22, null, null, kUpright).right.pose, seen.right.pose);
 });
 
+// req:A32
+test('after the headset was re-centred a handle is let go, and steers again after its trigger was open', () => {
+  const samples = new HandleSamples();
+  const held = (now_ms: number, right: number, left: number) =>
+    samples.next(now_ms, handle([0, 1, 0], { deadman: right }), handle([0, 1, 0], { deadman: left }), kUpright);
+  held(0, 1, 1);
+  samples.reset();
+  const after = held(11, 1, 0.2);
+  assert.deepEqual([after.right.trigger, after.right.stale, after.left.stale, samples.waits], [0, true, undefined, true]);
+  assert.deepEqual([held(22, 1, 1).right.stale, held(33, 1, 1).left.trigger], [true, 1]);
+  assert.deepEqual([held(44, 0, 1).right.stale, samples.waits], [undefined, false]);
+  assert.equal(held(55, 1, 1).right.trigger, 1);
+});
+
 test('times of samples strictly increase, in microseconds', () => {
   const samples = new HandleSamples();
   const times = [1.5, 1.5, 1.4, 20].map((now_ms) => samples.next(now_ms, null, null, kUpright).t_us);

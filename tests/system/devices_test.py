@@ -1,6 +1,7 @@
 """Input devices at a running system (docs/devices.md): drivers in other languages, drivers that die, that flood, that
 lie, and what `liana device` tells of them (req:A30).
 """
+import itertools
 import json
 import math
 import os
@@ -36,6 +37,19 @@ class Spacenavd:
 
     def push(self, *deflection):
         self.client.send(struct.pack("8i", kMotion, *deflection, 0))
+
+    def keep_pushing(self, *deflection):
+        """As a hand does: a hundred times a second, never twice the same; ends with what is returned."""
+        over = threading.Event()
+
+        def words():
+            trembles = itertools.cycle((0, 1, -1, 2))
+            while not over.wait(0.01):
+                self.push(*[each and each + next(trembles) for each in deflection])
+
+        hand = threading.Thread(target=words)
+        hand.start()
+        return lambda: (over.set(), hand.join())
 
     def press(self, button):
         self.client.send(struct.pack("8i", kPress, button, *[0] * 6))
@@ -125,6 +139,36 @@ class Drivers(DevicesTest):
         self.assert_holds(self.client.state)
         self.assertIn("device omega is gone", " ".join(event["text"] for event in self.client.events))
 
+    # req:A12
+    def test_a_device_that_jumps_lies_of_its_time_or_says_it_is_stale_is_a_hold_that_names_why(self):
+        device = self.device()
+        self.client.enable()
+        self.client.call("use_device", device="omega")
+        now_us = lambda: round(1e6 * self.client.state["time_s"])
+        lies = {
+            "hand jumped": lambda us: (us, [0.03, 0.0, 0.0, *kHere], True),
+            "clock set": lambda us: (us + 300_000, [0.0, 0.0, 0.0, *kHere], True),
+            "samples refused": lambda us: (us, [math.nan, 0.0, 0.0, *kHere], True),
+            "input stale": lambda us: (us, [0.0, 0.0, 0.0, *kHere], True, True, True),
+        }
+        for reason, lie in lies.items():
+            with self.subTest(reason):
+                for deadman in (False, True):
+                    end_s = self.client.state["time_s"] + 0.5
+                    while self.client.state["time_s"] < end_s:
+                        device.receive(now_us())
+                        device.send(now_us(), [0.0, 0.0, 0.0, *kHere], deadman)
+                        self.client.step()
+                self.assertTrue(self.client.state["device_engaged"])
+                begin_s = self.client.state["time_s"]
+                while self.client.state["device_engaged"] and self.client.state["time_s"] < begin_s + 1.0:
+                    device.send(*lie(now_us()))
+                    self.client.step()
+                self.assertLessEqual(self.client.state["time_s"], begin_s + 0.1001)
+                self.assertEqual(self.client.state["device_reason"], reason)
+                if reason == "clock set":  # its clock goes on from there; who sets it back says hello again
+                    self.client.go_on(0.5)
+
     def test_the_driver_in_plain_c_of_the_documentation_steers(self):
         built = self.system.directory / "device_driver"
         source = SOURCE / "docs" / "examples" / "device_driver" / "driver.c"
@@ -164,13 +208,32 @@ class Spacemice(DevicesTest):
         self.client.enable()
         self.client.call("use_device", device="pointer")
         before = self.client.state
-        self.daemon.push(0, 350, 0, 0, 0, 0)
+        let_go = self.daemon.keep_pushing(0, 340, 0, 0, 0, 0)
+        self.addCleanup(let_go)
         self.patiently(lambda state: state["device_engaged"])
         state = self.patiently(self.has_moved(before))
         self.assertGreater(state["setpoint_cp"][2], before["setpoint_cp"][2], "up is up")
+        let_go()
         self.daemon.push(*[0] * 6)
         self.patiently(lambda state: not state["device_engaged"] and state["at_rest"])
         self.assert_holds(self.client.state)
+
+    # req:A12
+    def test_a_puck_that_says_no_more_while_it_is_pushed_is_a_hold_until_it_was_let_go(self):
+        self.spacemouse()
+        self.client.enable()
+        self.client.call("use_device", device="pointer")
+        let_go = self.daemon.keep_pushing(0, 340, 0, 0, 0, 0)
+        self.addCleanup(let_go)
+        self.patiently(lambda state: state["device_engaged"])
+        let_go()  # and no word of rest: it sleeps, or is out of reach
+        state = self.patiently(lambda state: not state["device_engaged"])
+        self.assertEqual(state["device_reason"], "input stale")
+        self.patiently(lambda state: state["at_rest"])
+        self.assert_holds(self.client.state)
+        self.addCleanup(self.daemon.keep_pushing(0, 340, 0, 0, 0, 0))
+        end_s = self.client.state["time_s"] + 0.5
+        self.patiently(lambda state: self.assertFalse(state["device_engaged"]) or state["time_s"] > end_s)
 
     def test_spacenavd_that_ends_is_a_hold_and_is_said(self):
         driver = self.spacemouse("--button", "0")

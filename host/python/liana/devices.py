@@ -59,10 +59,14 @@ class Device:
         body = HELLO_BODY.pack(name.encode(), KINDS[kind], 1, t_us, rate_hz, 0.1) + hand + bytes(HAND.size)
         self.socket.send(_packet(HELLO, body))
 
-    def send(self, t_us: int, pose: Sequence[float], deadman: bool = False, valid: bool = True) -> None:
-        """One sample, `pose` as `[x, y, z, qw, qx, qy, qz]`; LianaError when lianad has let the device go."""
+    def send(
+        self, t_us: int, pose: Sequence[float], deadman: bool = False, valid: bool = True, stale: bool = False
+    ) -> None:
+        """One sample, `pose` as `[x, y, z, qw, qx, qy, qz]`; `stale`: the device has told nothing new, the arm is let
+        go. LianaError when lianad has let the device go."""
         self._sequence += 1
-        body = SAMPLE_BODY.pack(t_us, 0, int(valid) + 2 * int(deadman), 0, *self._echo, 0.0, *pose, *[0.0] * 6)
+        flags = int(valid) + 2 * int(deadman) + 4 * int(stale)
+        body = SAMPLE_BODY.pack(t_us, 0, flags, 0, *self._echo, 0.0, *pose, *[0.0] * 6)
         try:
             self.socket.send(_packet(SAMPLE, body, self._sequence))
         except OSError as error:

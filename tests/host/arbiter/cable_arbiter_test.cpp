@@ -296,9 +296,9 @@ TEST_F(Arbitration, ARefusalEndsThePlannedMove) {
 TEST_F(Arbitration, ARefusalGivesTheOperatorNewAnchors) {
   use_hand();
   steered(0.2);
-  steered(0.3);
+  steered(0.21);
   arbiter_.refused();
-  EXPECT_EQ(steered(0.3)->tip_in_base.position_m, now_.tip_command.position_m);
+  EXPECT_EQ(steered(0.21)->tip_in_base.position_m, now_.tip_command.position_m);
 }
 
 // Table 2 of the source: vr handles for free space, the hand controller for the slit.

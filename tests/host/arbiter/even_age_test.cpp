@@ -176,17 +176,33 @@ TEST(EvenAge, ASilenceIsNotWaitedFor) {
   EXPECT_LE(hand.now_us() + kHandClock_us - due.back().t_us, 500'000 + 25'000 + EvenAge::kMostWait_us);
 }
 
-// Half a metre in a sample is no hand: nothing is put in between where it has been and where its tracker has jumped to.
-TEST(EvenAge, NothingIsPutIntoAJumpOfTheTracker) {
-  HandBehindLink hand(11'111, 0.5, 0.025);
+// The link has become slower by 0.3 s: said, until the deadman was open; then that is the age.
+TEST(EvenAge, NewsThatIsOlderThanEverIsLateUntilTheDeadmanOpens) {
+  HandBehindLink hand(5000, 0.1, 0.0);
   EvenAge age;
-  std::mt19937_64 random(7);
-  for (int i = 0; i < 5000; ++i) {
-    std::vector<device::Sample> came = hand.interval();
-    if (!came.empty() && random() % 5 == 0) came.front().pose.position_m[1] += 0.5;
-    for (const device::Sample& s : came) age.add(s);
-    for (const device::Sample& s : age.finish_interval(kInterval_s))
-      EXPECT_TRUE(s.pose.position_m[1] == 0.0 || s.pose.position_m[1] == 0.5) << s.pose.position_m[1];
+  for (int i = 0; i < 100; ++i) interval(hand, age);
+  EXPECT_FALSE(age.is_late());
+  hand.vary(0.4, 0.0);
+  for (int i = 0; i < 40; ++i) interval(hand, age);
+  EXPECT_TRUE(age.is_late());
+  std::vector<device::Sample> came = hand.interval();
+  ASSERT_FALSE(came.empty());
+  came.back().deadman = false;
+  for (const device::Sample& s : came) age.add(s);
+  age.finish_interval(kInterval_s);
+  for (int i = 0; i < 10; ++i) interval(hand, age);
+  EXPECT_FALSE(age.is_late());
+}
+
+// A clock that is quicker than the arm's makes every sample younger than those before it: none waits longer for that.
+TEST(EvenAge, BehindAClockThatIsTooQuickNoSampleWaitsLongerThanTheLongest) {
+  EvenAge age;
+  std::int64_t t_us = 0, played_us = 0;
+  for (int i = 0; i < 1500; ++i) {
+    for (int k = 0; k < 2; ++k) age.add(sample_at(t_us += 11'000, 1e-4 * i));
+    const std::vector<device::Sample> due = age.finish_interval(kInterval_s);
+    if (!due.empty()) played_us = due.back().t_us;
+    ASSERT_LE(t_us + kHandClock_us - played_us, EvenAge::kMostWait_us + 22'000) << i;
   }
 }
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <spnav.h>
 
+#include <functional>
+
 namespace liana::spacemouse {
 namespace {
 
@@ -41,7 +43,10 @@ TEST(Puck, IsItsOwnDeadmanWhileItIsMoved) {
   EXPECT_FALSE(puck.step(0, 0.01).deadman);
   puck.push({0, 0, 350, 0, 0, 0});
   device::Sample sample;
-  for (int i = 1; i <= 100; ++i) sample = puck.step(10000 * i, 0.01);
+  for (int i = 1; i <= 100; ++i) {
+    puck.push({0, 0, 350, i % 3, 0, 0});
+    sample = puck.step(10000 * i, 0.01);
+  }
   EXPECT_TRUE(sample.deadman);
   EXPECT_NEAR(sample.pose.position_m[0], 0.05, 1e-9);
   puck.push({});
@@ -69,8 +74,78 @@ TEST(Puck, StaysInTheRoomOfADevice) {
   Puck puck(PuckTable{.speed_m_s = 1.0});
   puck.push({350, 0, 0, 0, 0, 0});
   device::Sample sample;
-  for (int i = 1; i <= 2000; ++i) sample = puck.step(10000 * i, 0.01);
+  for (int i = 1; i <= 2000; ++i) {
+    puck.push({350, i % 2, 0, 0, 0, 0});
+    sample = puck.step(10000 * i, 0.01);
+  }
   EXPECT_EQ(sample.pose.position_m[1], -9.0);
+}
+
+// A puck, and what happens to it in the steps from now on; the first step whose sample does not lead any more, 0: none.
+int steps_until_stale(Puck& puck, const std::function<void(Puck&, int)>& happens) {
+  for (int i = 1; i <= 300; ++i) {
+    happens(puck, i);
+    const device::Sample sample = puck.step(3'000'000 + 10'000 * i, 0.01);
+    EXPECT_EQ(sample.stale, !sample.deadman);
+    if (!sample.deadman) {
+      EXPECT_EQ(norm(sample.twist.linear_m_s), 0.0);
+      return i;
+    }
+  }
+  return 0;
+}
+
+void lead(Puck& puck) {
+  for (int i = 1; i <= 100; ++i) {
+    puck.push({0, 0, 250 + i % 7, 0, i % 3, 0});
+    puck.step(10'000 * i, 0.01);
+  }
+}
+
+// Asleep, out of reach, unplugged, repeated by spacenavd: with the puck or a button as its deadman.
+// req:A12
+TEST(Puck, ThatIsPushedAndSaysNothingNewHasLetGoWithinATenthOfASecond) {
+  using Happens = std::function<void(Puck&, int)>;
+  const Happens silent = [](Puck&, int) {}, unplugged = [](Puck&puck, int) { puck.lose(); };
+  const Happens repeated = [](Puck& puck, int) { puck.push({0, 0, 252, 0, 1, 0}); };
+  const Happens slow = [](Puck& puck, int i) {
+    if (i % 25 == 0) puck.push({0, 0, 252, 0, 1, 0});
+  };
+  for (const int button : {-1, 1}) {
+    for (const Happens& happens : {silent, repeated, slow, unplugged}) {
+      Puck puck(PuckTable{.button = button});
+      puck.press(1, true);
+      lead(puck);
+      const int steps = steps_until_stale(puck, happens);
+      EXPECT_TRUE(steps >= 1 && steps <= 8) << steps;
+    }
+  }
+}
+
+TEST(Puck, ThatIsPushedToItsEndAtOnceMayRepeatItselfForASecond) {
+  Puck puck(PuckTable{});
+  const int steps = steps_until_stale(puck, [](Puck& each, int) { each.push({0, 350, 0, 0, 0, 0}); });
+  EXPECT_NEAR(steps, 100, 2);
+}
+
+TEST(Puck, ThatComesBackLeadsAfterItWasLetGo) {
+  Puck puck(PuckTable{});
+  lead(puck);
+  EXPECT_GT(steps_until_stale(puck, [](Puck&, int) {}), 0);
+  for (int i = 1; i <= 50; ++i) {
+    puck.push({0, 0, 250 + i, 0, 0, 0});
+    EXPECT_FALSE(puck.step(9'000'000 + 10'000 * i, 0.01).deadman) << "still pushed";
+  }
+  puck.push({});
+  EXPECT_FALSE(puck.step(9'900'000, 0.01).stale);
+  puck.push({0, 0, 250, 0, 0, 0});
+  EXPECT_TRUE(puck.step(9'910'000, 0.01).deadman);
+}
+
+TEST(Puck, AtRestMayBeSilentForEver) {
+  Puck puck(PuckTable{.button = 0});
+  puck.press(0, true);
+  EXPECT_EQ(steps_until_stale(puck, [](Puck&, int) {}), 0);
 }
 
 }  // namespace

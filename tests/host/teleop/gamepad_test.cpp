@@ -77,19 +77,28 @@ TEST(Gamepad, WhateverComesMovesNothingByMoreThanOne) {
   }
 }
 
-TEST(Gamepad, OneThatIsUnpluggedIsGoneAndHoldsNothing) {
+TEST(Gamepad, OneThatSaysNothingOrIsUnpluggedHoldsNothing) {
   const std::string file = testing::TempDir() + "liana-pad-" + std::to_string(getpid());
   ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
   const int other_end = open(file.c_str(), O_RDWR | O_CLOEXEC);
   Gamepad gamepad(file);
-  EXPECT_TRUE(gamepad.read().empty());
+  EXPECT_TRUE(gamepad.read(0.0).empty());
   EXPECT_FALSE(gamepad.is_gone());
-  const js_event events[]{{0, 1, JS_EVENT_BUTTON, kShoulder}, {0, 1, JS_EVENT_BUTTON, kY}};
+  const js_event events[]{
+      {0, 1, JS_EVENT_BUTTON, kShoulder}, {0, 1, JS_EVENT_BUTTON, kY}, {0, kFull, JS_EVENT_AXIS, 1}};
   ASSERT_EQ(write(other_end, events, sizeof events), static_cast<ssize_t>(sizeof events));
-  EXPECT_EQ(gamepad.read().size(), 1U);
+  EXPECT_EQ(gamepad.read(0.0).size(), 1U);
+  EXPECT_TRUE(gamepad.is_held());
+  EXPECT_TRUE(gamepad.read(Gamepad::kSilent_s - 0.1).empty());
+  EXPECT_TRUE(gamepad.is_held() && !gamepad.take_silence());
+  EXPECT_TRUE(gamepad.read(Gamepad::kSilent_s + 0.1).empty());
+  EXPECT_FALSE(gamepad.is_held()) << "out of reach, it would say nothing either";
+  EXPECT_TRUE(gamepad.take_silence() && !gamepad.take_silence());
+  ASSERT_EQ(write(other_end, events, sizeof events), static_cast<ssize_t>(sizeof events));
+  EXPECT_EQ(gamepad.read(Gamepad::kSilent_s + 0.2).size(), 1U);
   EXPECT_TRUE(gamepad.is_held());
   close(other_end);
-  EXPECT_TRUE(gamepad.read().empty());
+  EXPECT_TRUE(gamepad.read(0.0).empty());
   EXPECT_TRUE(gamepad.is_gone());
   EXPECT_FALSE(gamepad.is_held());
   std::filesystem::remove(file);

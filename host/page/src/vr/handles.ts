@@ -13,6 +13,7 @@ export interface HandleSample {
   valid: boolean;
   trigger: number;
   pose: number[];
+  stale?: true; // the headset was re-centred in this grip
 }
 
 export interface VrSample {
@@ -29,11 +30,24 @@ export function device_from_headset(turn_rad: number): Quaternion {
   return normalised(multiply([Math.cos(turn_rad / 2), 0, 0, Math.sin(turn_rad / 2)], kUpright));
 }
 
+const kGripped = 0.5; // of a trigger, as the gateway has it
+
 const kOrigin = [0, 0, 0, 1, 0, 0, 0];
 
 export class HandleSamples {
   private readonly last: Record<'right' | 'left', number[]> = { right: kOrigin, left: kOrigin };
   private last_us = -1;
+  private readonly must_let_go = new Set<'right' | 'left'>();
+
+  // The headset was re-centred: poses from now on are not those of the grip. Each handle steers again after it was let go.
+  reset(): void {
+    this.must_let_go.add('right').add('left');
+  }
+
+  // A person holds a trigger that does not count any more.
+  get waits(): boolean {
+    return this.must_let_go.size > 0;
+  }
 
   // One sample; a handle that is null, or is not tracked, repeats its last pose and is not valid. Times strictly increase.
   next(now_ms: number, right: Handle | null, left: Handle | null, device: Quaternion): VrSample {
@@ -44,6 +58,9 @@ export class HandleSamples {
   private one(side: 'right' | 'left', handle: Handle | null, device: Quaternion): HandleSample {
     const valid = !!handle && handle.is_tracked;
     if (valid) this.last[side] = [...rotated(device, handle.position_m), ...normalised(multiply(device, handle.attitude))];
-    return { valid, trigger: Math.max(0, Math.min(1, handle?.deadman ?? 0)), pose: this.last[side] };
+    const trigger = Math.max(0, Math.min(1, handle?.deadman ?? 0));
+    if (trigger < kGripped) this.must_let_go.delete(side);
+    if (this.must_let_go.has(side)) return { valid, trigger: 0, pose: this.last[side], stale: true };
+    return { valid, trigger, pose: this.last[side] };
   }
 }

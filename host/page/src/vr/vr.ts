@@ -70,6 +70,8 @@ export class Vr {
     renderer.xr.enabled = true;
     renderer.xr.setReferenceSpaceType('local-floor');
     await renderer.xr.setSession(session as unknown as Parameters<typeof renderer.xr.setSession>[0]);
+    const space = renderer.xr.getReferenceSpace() as XRReferenceSpace | null;
+    space?.addEventListener('reset', () => this.samples.reset());
     renderer.setAnimationLoop((now_ms, frame) => this.frame(now_ms, frame as XRFrame | undefined));
     session.addEventListener('end', () => this.ended());
     this.use_device();
@@ -191,7 +193,7 @@ export class Vr {
     const alarm = live.alarms.list().find((each) => each.is_active);
     const rate_Hz = this.log.rate_Hz(now_ms);
     const clear_m = values(sample, 'clearance.distance_m')[0];
-    const steering = facts.device_engaged ? 'you steer' : facts.device_reason ? `let go: ${facts.device_reason}` : 'hold a trigger to steer';
+    const steering = this.samples.waits ? 'the headset was re-centred: let go of the triggers' : facts.device_engaged ? 'you steer' : facts.device_reason ? `let go: ${facts.device_reason}` : 'hold a trigger to steer';
     this.board.write([
       sentence_of(sample, welcome.robot, welcome.scene, null).split(',')[0],
       `clearance ${length_text(clear_m)} ${facts.clearance ? `from the ${facts.clearance.body}` : ''}`,
