@@ -64,8 +64,8 @@ void FrictionFit::add(const ThetaVector& commanded_rad, const CableVector& tensi
 // The balance about one axis with the parameters as they are, and how it changes with them.
 FrictionFit::Equation FrictionFit::equation(const Moment& now, Index axis, const Fit& fit) const {
   const Index own = axis / 2;
-  Equation out{inertia_torque_Nm(table_, now.mass_kg_m2, now.sample.inertia.accel_rad_s2, axis), kBalanceNoise_Nm * kBalanceNoise_Nm,
-               Eigen::VectorXd::Zero(fit.value.size())};
+  Equation out{inertia_torque_Nm(table_, now.mass_kg_m2, now.sample.inertia.accel_rad_s2, axis),
+               kBalanceNoise_Nm * kBalanceNoise_Nm, Eigen::VectorXd::Zero(fit.value.size())};
   for (Index c = 0; c < static_cast<Index>(layout_.cable_count); ++c) {
     if (static_cast<Index>(layout_.segment[c]) < own) continue;
     double exponent = 0.0, unsure = 0.0;

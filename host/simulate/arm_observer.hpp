@@ -9,7 +9,7 @@ namespace liana::simulate {
 // has s^3 + p s^2 + (w^2 + r) s + h w^2: stable for h < p, whatever its frequency w.
 constexpr double kObserverAngle_1_s = 2.0;  // p
 constexpr double kObserverRate_1_s2 = 1.0;  // r
-constexpr double kObserverHeld_1_s = 0.2;    // h: what friction holds shows after seconds
+constexpr double kObserverHeld_1_s = 0.2;   // h: what friction holds shows after seconds
 
 class ArmObserver {
  public:

@@ -21,8 +21,9 @@ struct CablePaths {
 };
 CablePaths cable_paths(const ArmModel& model, const ThetaVector& theta_rad);
 
-// Tensions [N] that give `load_Nm` about each theta, J^T t = -load, none below `floor_N`: nearest to `wanted_N`, by turns
-// projected on balance and raised to the floor. They are balanced to rounding; the floor is kept where 50 turns reach it.
+// Tensions [N] that give `load_Nm` about each theta, J^T t = -load, none below `floor_N`: nearest to `wanted_N`, by
+// turns projected on balance and raised to the floor. They are balanced to rounding; the floor is kept where 50 turns
+// reach it.
 CableColumn balanced_tensions(const CablePaths& paths, const CableColumn& wanted_N, double floor_N,
                               const algebra::ThetaColumn& load_Nm);
 inline CableColumn balanced_tensions(const CablePaths& paths, const CableColumn& wanted_N, double floor_N) {

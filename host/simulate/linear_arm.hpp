@@ -45,7 +45,7 @@ class LinearArm {
   double damping_1_s_ = 0.0;
   CablePaths paths_;
   algebra::ThetaMatrix mass_, stiffness_;
-  algebra::ThetaMatrix keep_, follow_;  // v_middle = keep (v + h c / 2 w') + follow (w_middle - x)
+  algebra::ThetaMatrix keep_, follow_;     // v_middle = keep (v + h c / 2 w') + follow (w_middle - x)
   algebra::ThetaMatrix by_torque_rad_Nm_;  // K^-1
   CableMatrix pull_N_rad_;
 };

@@ -1,4 +1,5 @@
-// The 3-D simulation end: what the arm does when its drives are told a sequence of angles and tensions (source C, step 3).
+// The 3-D simulation end: what the arm does when its drives are told a sequence of angles and tensions (source C, step
+// 3).
 #pragma once
 
 #include "host/clearance/clearance.hpp"
@@ -7,8 +8,8 @@
 
 namespace liana::simulate {
 
-constexpr int kStepsPerInterval = 2;   // T_d = T_c / 2
-constexpr double kSwingOut_s = 0.1;    // how long the arm is followed after the sequence
+constexpr int kStepsPerInterval = 2;  // T_d = T_c / 2
+constexpr double kSwingOut_s = 0.1;   // how long the arm is followed after the sequence
 
 class Simulation {
  public:

@@ -36,9 +36,7 @@ bool SwingingArm::solve(const ThetaVector& about_rad) {
   return arm_.solve(model_, about_rad, step_s_);
 }
 
-CableColumn SwingingArm::modelled_N() const {
-  return planned_.now() + arm_.stretch_N(swing_.theta_rad - theta_.now());
-}
+CableColumn SwingingArm::modelled_N() const { return planned_.now() + arm_.stretch_N(swing_.theta_rad - theta_.now()); }
 
 bool SwingingArm::begin(const StartState& start, const ToldNow& before, const ToldNow& now, double since_s,
                         double step_s) {

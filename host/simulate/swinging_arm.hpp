@@ -1,5 +1,5 @@
-// The arm while its drives are told where to go: where its drums want it, how it swings about that, how tight its cables
-// are.
+// The arm while its drives are told where to go: where its drums want it, how it swings about that, how tight its
+// cables are.
 #pragma once
 
 #include "host/simulate/drum_lag.hpp"

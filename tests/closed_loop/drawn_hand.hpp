@@ -1,5 +1,5 @@
-// Hands that are not gentle, drawn by a seed: waves with rounded corners, chirps, steps and random walks, of position and
-// attitude, up to so many times what the tip may do.
+// Hands that are not gentle, drawn by a seed: waves with rounded corners, chirps, steps and random walks, of position
+// and attitude, up to so many times what the tip may do.
 #pragma once
 
 #include <array>

@@ -9,7 +9,8 @@
 
 namespace liana::closed_loop {
 
-// What the host knows of the arm, and the core's table of it; `physics` chooses the friction that the core is told. Read once per process.
+// What the host knows of the arm, and the core's table of it; `physics` chooses the friction that the core is told.
+// Read once per process.
 const config::RobotConfig& robot(const std::string& physics = "nominal");
 const cable::RobotTable& robot_table(const std::string& physics = "nominal");
 // Angles of a named pose of the robot [rad]; throws std::out_of_range for an unknown name.

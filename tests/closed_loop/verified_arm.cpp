@@ -48,8 +48,7 @@ void VerifiedArm::verify_next(const cable::Telecommand& in_force) {
   const auto setpoint = arbiter_.next_setpoint(image.next_tick, arm_.outputs());
   end_.watch(image);
   if (!setpoint) return;
-  const verify::Candidate<CableArm> candidate =
-      release_.candidate(*setpoint, 1, image.next_tick + interval, interval);
+  const verify::Candidate<CableArm> candidate = release_.candidate(*setpoint, 1, image.next_tick + interval, interval);
   verify::Twin<CableArm>::run(image, {&in_force, 1}, candidate, verify::max_stop_ticks(arm_.table().tick_s),
                               prediction_);
   end_.begin(image, candidate, prediction_);

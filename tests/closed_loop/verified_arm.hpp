@@ -1,5 +1,5 @@
-// The arm under control behind the real arbiter and both verification ends, as lianad puts them together: what a hand or
-// a request asks for is verified for an interval, and only what passes reaches the core.
+// The arm under control behind the real arbiter and both verification ends, as lianad puts them together: what a hand
+// or a request asks for is verified for an interval, and only what passes reaches the core.
 #pragma once
 
 #include <string>

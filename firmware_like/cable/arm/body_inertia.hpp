@@ -1,9 +1,9 @@
-// The arm's own mass: what it takes to accelerate it, and how the arm is measured to accelerate. Without it a swing looks
-// like something that pushes, and a plan of tensions lets the arm swing.
+// The arm's own mass: what it takes to accelerate it, and how the arm is measured to accelerate. Without it a swing
+// looks like something that pushes, and a plan of tensions lets the arm swing.
 //
-// Every segment is taken as a straight, even rod between its two nodes: with their velocities a and b its kinetic energy
-// is m / 6 (a a + a b + b b), so that node a feels m / 6 (2 a' + b'). A bent segment's middle lies beside the rod: the
-// torques are a few percent off (docs/force.md).
+// Every segment is taken as a straight, even rod between its two nodes: with their velocities a and b its kinetic
+// energy is m / 6 (a a + a b + b b), so that node a feels m / 6 (2 a' + b'). A bent segment's middle lies beside the
+// rod: the torques are a few percent off (docs/force.md).
 #pragma once
 
 #include <array>

@@ -114,8 +114,7 @@ CableVector pulls_for(const RobotTable& table, const TensionSolver& solver, cons
     const auto beyond = torque_beyond(table, solver, pull_N, first, j);
     first -= n;
     if (!is_solvable(solver.segment[j])) continue;
-    const AnchoredVector t =
-        solve(solver.segment[j], n, -load_Nm[2 * j] - beyond[0], -load_Nm[2 * j + 1] - beyond[1]);
+    const AnchoredVector t = solve(solver.segment[j], n, -load_Nm[2 * j] - beyond[0], -load_Nm[2 * j + 1] - beyond[1]);
     for (Index i = 0; i < n; ++i) pull_N[first + i] = t[i];
   }
   return pull_N;

@@ -1,10 +1,10 @@
 // Tension plan and elongation: what the motors must pull so that the arm stands where the kinematics says.
 //
 // Balance B^T t = -Q with B = dL/dtheta weighted by friction (physics study, section 2) and Q the torque that the arm's
-// mass takes as it is commanded to accelerate: cables that are pulled so, and lengthened so, leave no swing behind. Segments are swept from the tip
-// to the root: the cables of a segment are the only ones left that turn its two angles, so each sweep solves two
-// equations for its cables and has freedom left to bring them near the planned tension and above the floor. All
-// formulas are smooth, so that tensions never jump.
+// mass takes as it is commanded to accelerate: cables that are pulled so, and lengthened so, leave no swing behind.
+// Segments are swept from the tip to the root: the cables of a segment are the only ones left that turn its two angles,
+// so each sweep solves two equations for its cables and has freedom left to bring them near the planned tension and
+// above the floor. All formulas are smooth, so that tensions never jump.
 #pragma once
 
 #include <cstdint>

@@ -1,11 +1,11 @@
 // How hard the arm may be accelerated here: as hard as its cables can, between their floor and the ceiling of free
 // motion, at the pose where it stands.
 //
-// Torque that accelerates the arm is a change of tensions, planned with the motion (arm/tension.hpp). What a pose leaves
-// of the way from floor to ceiling is the room for it. The governor keeps, for every cable, the tension that a unit of
-// acceleration of each angle takes: G = D M, M the mass matrix and D the plan's own sweep from torques to tensions.
-// The tip filter's accelerations are bounded so that G a stays in the room whichever way the tip goes, and a tick's
-// motion so that it does in fact: an explicit reference governor (docs/governor.md, where others are compared).
+// Torque that accelerates the arm is a change of tensions, planned with the motion (arm/tension.hpp). What a pose
+// leaves of the way from floor to ceiling is the room for it. The governor keeps, for every cable, the tension that a
+// unit of acceleration of each angle takes: G = D M, M the mass matrix and D the plan's own sweep from torques to
+// tensions. The tip filter's accelerations are bounded so that G a stays in the room whichever way the tip goes, and a
+// tick's motion so that it does in fact: an explicit reference governor (docs/governor.md, where others are compared).
 #pragma once
 
 #include "firmware_like/cable/arm/body_inertia.hpp"
@@ -14,11 +14,11 @@
 namespace liana::cable {
 
 // Newtons below are those of an arm that plans 40 N, taken times TensionLimits::scale.
-constexpr double kGovernorKeep_N = 15.0;        // over the floor, for friction and swing that no plan knows
-constexpr double kGovernorLeast_N = 4.0;        // room where a pose leaves none: the way out of it
-constexpr double kGovernorAlone = 0.4;          // of a theta's acceleration limit, where it slows down by itself
-constexpr double kGovernorTip = 0.7;            // of the room, for the tip's way alone and for its turn alone
-constexpr std::uint32_t kGovernorTicks = 10;    // it looks anew in so many ticks
+constexpr double kGovernorKeep_N = 15.0;      // over the floor, for friction and swing that no plan knows
+constexpr double kGovernorLeast_N = 4.0;      // room where a pose leaves none: the way out of it
+constexpr double kGovernorAlone = 0.4;        // of a theta's acceleration limit, where it slows down by itself
+constexpr double kGovernorTip = 0.7;          // of the room, for the tip's way alone and for its turn alone
+constexpr std::uint32_t kGovernorTicks = 10;  // it looks anew in so many ticks
 
 struct GovernorState {
   MassMatrix mass_kg_m2{};

@@ -19,9 +19,10 @@ struct LimiterState {
 // Starts at rest at theta.
 void reset_limiter(const ThetaVector& theta_rad, LimiterState& state) noexcept;
 
-// Share (0..1) of a step of one tick [rad] that rate, cable speed, acceleration and the room for it allow, and the LimitBits that keep
-// it below 1. Whoever takes only this share of his motion slows down on his path instead of being left behind by the
-// limiter. Joints that would have to brake harder than they can come before joints that would have to speed up faster.
+// Share (0..1) of a step of one tick [rad] that rate, cable speed, acceleration and the room for it allow, and the
+// LimitBits that keep it below 1. Whoever takes only this share of his motion slows down on his path instead of being
+// left behind by the limiter. Joints that would have to brake harder than they can come before joints that would have
+// to speed up faster.
 struct StepShare {
   double share = 1.0;
   std::uint32_t limits = 0;
