@@ -40,6 +40,7 @@ struct Report {
   double tip_speed_m_s = 0.0;        // of the command
   double tip_rate_rad_s = 0.0;
   std::array<Vec3, kMaxSegments> node_command_m{};
+  double speed_share = 1.0, turn_share = 1.0;  // of the tip's limits that the governor leaves here
   ThetaVector load_Nm{};             // that the planned tensions give about each theta: what the arm's mass takes
   CableVector tension_plan_N{};      // at the motor
   CableVector tension_measured_N{};  // from drive torque

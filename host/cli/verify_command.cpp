@@ -49,8 +49,7 @@ Joints any_angles(const char* option, const std::string& text, const Robot& robo
 }
 
 template <class Joints, class Robot>
-simulate::ToldRows<Joints> way_of(const VerifyOptions& options, const Robot& robot, std::size_t joints,
-                                  double interval_s) {
+auto way_of(const VerifyOptions& options, const Robot& robot, std::size_t joints, double interval_s) {
   const double duration_s = parse_number_in("--duration", options.duration_s, interval_s, kLongest_s, "s");
   const Joints from_rad = any_angles<Joints>("--from-deg", options.from_deg, robot, joints);
   const Joints to_rad = any_angles<Joints>("--to-deg", options.to_deg, robot, joints);

@@ -50,6 +50,11 @@ Json rate_json(const device::SampleRate& rate) {
   return {{"hz", now_hz ? Json(*now_hz) : Json()}, {"least_s", rate.least_s()}, {"most_s", rate.most_s()}};
 }
 
+// A hand is slowed by whichever leaves it less: what is in the way, or the tensions that the pose has room for.
+bool tensions_slow(const fixture::Ease& ease, const cable::Outputs& outputs, bool engaged) {
+  return engaged && outputs.speed_share < ease.share;
+}
+
 std::string ease_name(const fixture::Ease& ease) {
   switch (ease.cause) {
     case fixture::EaseCause::kNone:
@@ -93,12 +98,13 @@ Json CableDesk::clearance_json() const {
 // What fixtures make of the hand, and the two figures that they are felt by.
 Json CableDesk::guidance_json() const {
   const fixture::Guidance& guidance = arbiter_.guidance();
+  const bool by_tension = tensions_slow(arbiter_.ease(), outputs(), arbiter_.device().engaged());
   Json out{{"fixtures", Json::array()},
            {"plane", guidance.plane_name()},
            {"taken_away_m", guidance.taken_away_m()},
            {"yaw_limited", guidance.is_yaw_limited()},
-           {"speed_share", arbiter_.ease().share},
-           {"slowed_by", ease_name(arbiter_.ease())},
+           {"speed_share", by_tension ? outputs().speed_share : arbiter_.ease().share},
+           {"slowed_by", by_tension ? "tension" : ease_name(arbiter_.ease())},
            {"pitch_allowed_deg", nullptr},
            {"pitch_used_deg", nullptr}};
   for (const config::SceneFixture& one : guidance.fixtures()) {

@@ -190,6 +190,9 @@ void visit(A& a, T& o) {
   a("tip_speed_m_s", o.tip_speed_m_s);
   a("tip_rate_rad_s", o.tip_rate_rad_s);
   visit_first(a, "node_command_m", o.node_command_m, counts_of_visitor(a).segments);
+  a("speed_share", o.speed_share);
+  a("turn_share", o.turn_share);
+  visit_first(a, "load_Nm", o.load_Nm, counts_of_visitor(a).thetas);
   visit_first(a, "tension_plan_N", o.tension_plan_N, counts_of_visitor(a).drives);
   visit_first(a, "tension_measured_N", o.tension_measured_N, counts_of_visitor(a).drives);
   visit_first(a, "payout_command_m", o.payout_command_m, counts_of_visitor(a).drives);

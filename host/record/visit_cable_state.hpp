@@ -53,7 +53,6 @@ void visit(A& a, T& s) {
   a("accel_rad_s2", s.accel_rad_s2);
   a("slow_N", s.slow_N);
   a("tension_N", s.tension_N);
-  a("force_N", s.force_N);
 }
 
 template <class A, Like<cable::TorqueBalance> T>
@@ -158,6 +157,16 @@ void visit(A& a, T& s) {
   a("limit_mask", s.limit_mask);
 }
 
+template <class A, Like<cable::GovernorState> T>
+void visit(A& a, T& s) {
+  a("mass_kg_m2", s.mass_kg_m2);
+  a("pull_N_s2", s.pull_N_s2);
+  a("room_N", s.room_N);
+  a("accel_rad_s2", s.accel_rad_s2);
+  a("linear_share", s.linear_share);
+  a("angular_share", s.angular_share);
+}
+
 template <class A, Like<cable::MotionState> T>
 void visit(A& a, T& s) {
   a("from", s.from);
@@ -176,6 +185,7 @@ void visit(A& a, T& s) {
   a("trig", s.trig);
   a("arm", s.arm);
   a("ik", s.ik);
+  a("governor", s.governor);
   a("limits", s.limits);
 }
 
@@ -237,6 +247,8 @@ void visit(A& a, T& s) {
 template <class A, Like<cable::TensionPlan> T>
 void visit(A& a, T& s) {
   a("motor_N", s.motor_N);
+  a("load_Nm", s.load_Nm);
+  a("spread_N", s.spread_N);
   a("floor_acted", s.floor_acted);
   a("ceiling_exceeded", s.ceiling_exceeded);
   a("balanced", s.balanced);

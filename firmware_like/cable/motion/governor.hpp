@@ -8,6 +8,8 @@
 // tick's motion so that it does in fact: an explicit reference governor (docs/governor.md, where others are compared).
 #pragma once
 
+#include <cmath>
+
 #include "firmware_like/cable/arm/body_inertia.hpp"
 #include "firmware_like/cable/arm/tension.hpp"
 
@@ -27,6 +29,10 @@ struct GovernorState {
   ThetaVector accel_rad_s2{};                       // of each theta alone that stays in the room
   double linear_share = 1.0, angular_share = 1.0;   // of the table's limits of the tip's acceleration and jerk
 };
+
+// Of the tip's speed limit that belongs to such a share of its acceleration: what turns as it moves is accelerated by its
+// speed squared.
+inline double speed_share(double accel_share) noexcept { return std::sqrt(accel_share); }
 
 // Room for the cables of every segment under a plan at rest.
 void take_room(const RobotTable& table, const TensionPlan& plan, GovernorState& state) noexcept;

@@ -206,10 +206,9 @@ TipFilterConfig tip_filter_config(const RobotTable& table, double tip_speed_m_s,
                                   const GovernorState& governor) noexcept {
   const MotionLimits& limits = table.limits;
   const double linear_share = governor.linear_share, angular_share = governor.angular_share;
-  // What turns as it moves is accelerated by its speed squared.
-  const FilterBounds linear{std::sqrt(linear_share) * limits.tip_speed_m_s, linear_share * limits.tip_accel_m_s2,
+  const FilterBounds linear{speed_share(linear_share) * limits.tip_speed_m_s, linear_share * limits.tip_accel_m_s2,
                             linear_share * limits.tip_jerk_m_s3};
-  const FilterBounds angular{std::sqrt(angular_share) * limits.tip_rate_rad_s,
+  const FilterBounds angular{speed_share(angular_share) * limits.tip_rate_rad_s,
                              angular_share * limits.tip_angular_accel_rad_s2,
                              angular_share * limits.tip_angular_jerk_rad_s3};
   const bool lowered = tip_speed_m_s > 0.0 && tip_speed_m_s < linear.speed;
