@@ -11,8 +11,9 @@ namespace {
 constexpr double kVelocity_s = 0.010;     // over which a hand's velocity is averaged
 constexpr double kLongestStep_s = 0.030;  // a hand that was not seen for longer is not believed to be farther off
 constexpr double kStamp_s = 0.001;        // so far off is the time of a sample
-constexpr double kNoise_m = 0.001;        // of a tracker
-constexpr double kNoise_rad = 0.02;
+// Of a tracker, and what a step may be that the tip filter makes no motion to speak of: a hand is not let go for it.
+constexpr double kNoise_m = 0.005;
+constexpr double kNoise_rad = 0.035;
 
 double seconds(std::int64_t us) { return static_cast<double>(us) * 1e-6; }
 

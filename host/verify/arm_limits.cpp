@@ -1,5 +1,7 @@
 #include "host/verify/arm_limits.hpp"
 
+#include <cmath>
+
 #include "firmware_like/serial/drive_units.hpp"
 
 namespace liana::verify {
@@ -50,17 +52,20 @@ void judge_targets(const serial::RobotTable& table, const serial::Outputs* befor
   }
 }
 
-void judge_joints(const cable::RobotTable& table, const cable::Outputs& outputs, Judge& judge) {
+void judge_joints(const cable::RobotTable& table, const cable::Outputs& first, const cable::Outputs& outputs,
+                  Judge& judge) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
+    const double from_rad = std::fabs(first.theta_command_rad[i]);
     judge.check(Refusal::kJointAngle, "theta", kDegrees, static_cast<int>(i), outputs.theta_command_rad[i],
-                table.segment[i / 2].theta_limit_rad);
+                std::fmax(table.segment[i / 2].theta_limit_rad, from_rad));
     judge.check(Refusal::kJointRate, "rate of theta", kDegreesPerSecond, static_cast<int>(i),
                 outputs.theta_rate_rad_s[i], table.limits.theta_rate_rad_s);
   }
 }
 
 // A range need not be symmetric: what counts is the distance from its middle.
-void judge_joints(const serial::RobotTable& table, const serial::Outputs& outputs, Judge& judge) {
+void judge_joints(const serial::RobotTable& table, const serial::Outputs&, const serial::Outputs& outputs,
+                  Judge& judge) {
   for (std::size_t i = 0; i < table.joints(); ++i) {
     const serial::JointTable& joint = table.joint[i];
     judge.check(Refusal::kJointAngle, "angle from the middle of its range of joint", kDegrees, static_cast<int>(i),

@@ -16,8 +16,11 @@ void judge_targets(const serial::RobotTable& table, const serial::Outputs* befor
 // Motion: angles in their ranges, rates within the limits; of a serial arm that pushes, the tube of the robot's table:
 // how far along the axis and beside it, and the set force. (The push's own, narrower tube is the core's: it ends the
 // push by name.)
-void judge_joints(const cable::RobotTable& table, const cable::Outputs& outputs, Judge& judge);
-void judge_joints(const serial::RobotTable& table, const serial::Outputs& outputs, Judge& judge);
+// A cable arm that stands beyond a range already, as of `first`, goes no further out.
+void judge_joints(const cable::RobotTable& table, const cable::Outputs& first, const cable::Outputs& outputs,
+                  Judge& judge);
+void judge_joints(const serial::RobotTable& table, const serial::Outputs& first, const serial::Outputs& outputs,
+                  Judge& judge);
 
 // The tip's own limits.
 struct TipRates {

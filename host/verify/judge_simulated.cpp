@@ -31,7 +31,7 @@ class MomentJudge {
       const cable::ThetaVector& now = sequence.rows_rad[row];
       const cable::ThetaVector& before = sequence.rows_rad[row > 0 ? row - 1 : 0];
       for (Index k = 0; k < thetas(); ++k) {
-        const double limit_rad = table_.segment[k / 2].theta_limit_rad;
+        const double limit_rad = most_rad(sequence, k);
         const double rate_rad_s = (now[k] - before[k]) / sequence.interval_s;
         judge_.check(Refusal::kJointAngle, "theta", kDegrees, static_cast<int>(k), now[k], limit_rad);
         judge_.check(Refusal::kJointRate, "rate of theta", kDegreesPerSecond, static_cast<int>(k), rate_rad_s,
@@ -53,9 +53,9 @@ class MomentJudge {
     }
   }
 
-  void simulated(const simulate::Motion& motion) {
+  void simulated(const simulate::JointSequence& sequence, const simulate::Motion& motion) {
     for (const Moment& moment : motion.moments) {
-      joints(moment, motion.friction_band_rad);
+      joints(sequence, moment, motion.friction_band_rad);
       nodes(moment);
       cables(moment, motion.least_passed_share);
     }
@@ -68,11 +68,15 @@ class MomentJudge {
   Index thetas() const { return static_cast<Index>(table_.theta_count()); }
   static void least(double& margin, double value) { margin = std::fmin(margin, value); }
 
-  void joints(const Moment& moment, const cable::ThetaVector& band_rad) {
+  // An arm that stands beyond a range already goes no further out.
+  double most_rad(const simulate::JointSequence& sequence, Index k) const {
+    return std::fmax(table_.segment[k / 2].theta_limit_rad, std::fabs(sequence.rows_rad.front()[k]));
+  }
+
+  void joints(const simulate::JointSequence& sequence, const Moment& moment, const cable::ThetaVector& band_rad) {
     for (Index k = 0; k < thetas(); ++k) {
       judge_.check(Refusal::kJointAngle, "simulated theta", kDegrees, static_cast<int>(k),
-                   std::fabs(moment.theta_rad[k]) + band_rad[k],
-                   table_.segment[k / 2].theta_limit_rad + kSwingAngle_rad);
+                   std::fabs(moment.theta_rad[k]) + band_rad[k], most_rad(sequence, k) + kSwingAngle_rad);
       judge_.check(Refusal::kJointRate, "simulated rate of theta", kDegreesPerSecond, static_cast<int>(k),
                    moment.rate_rad_s[k], kSwingRate * table_.limits.theta_rate_rad_s);
       note("theta", k, moment.time_s);
@@ -161,7 +165,7 @@ SimulationVerdict judge_simulated(const MotionRules& rules, const simulate::Join
   MomentJudge moments(rules, verdict);
   moments.told(sequence);
   moments.told_tip(motion, sequence.interval_s);
-  moments.simulated(motion);
+  moments.simulated(sequence, motion);
   moments.judge().require(comes_to_rest, Refusal::kNoRest, "the arm would not come to rest in time after the command");
   moments.conclude();
   judge_tick_time(rules.table, rules.machine, verdict);

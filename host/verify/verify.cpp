@@ -60,7 +60,7 @@ ExecutionVerdict judge_execution(const typename Arm::Table& table, const Candida
     judge.require((outputs.limits & kLimitGate) == 0, Refusal::kGate, "the gate would refuse an output");
     judge.require(accepted, Refusal::kNotAccepted, "the controller would not take the command");
     judge_targets(table, i > 0 ? &prediction.ticks[i - 1] : nullptr, outputs, judge);
-    judge_joints(table, outputs, judge);
+    judge_joints(table, prediction.ticks.front(), outputs, judge);
     judge_tip<Arm>(table, outputs, zone, judge);
     if (!verdict.passed()) break;
   }
@@ -82,7 +82,7 @@ SimulationVerdict judge_motion(const typename Arm::Table& table, const Candidate
   verdict.sequence = candidate.sequence();
   Judge judge(verdict);
   for (const Outputs<Arm>& outputs : prediction.ticks) {
-    judge_joints(table, outputs, judge);
+    judge_joints(table, prediction.ticks.front(), outputs, judge);
     judge_tip<Arm>(table, outputs, zone, judge);
     if (!verdict.passed()) break;
   }

@@ -12,7 +12,7 @@ namespace {
 bool angles_in_limits(const RobotTable& table, const Setpoint& setpoint) noexcept {
   for (std::int32_t i = 0; i < table.theta_count(); ++i) {
     const double limit = table.segment[as_index(i / 2)].theta_limit_rad;
-    if (!(std::fabs(setpoint.joint_rad[as_index(i)]) <= limit)) return false;
+    if (!(std::fabs(setpoint.joint_rad[as_index(i)]) <= limit + kStandsBeyond_rad)) return false;
     if (!(std::fabs(setpoint.held_rad[as_index(i)]) <= limit)) return false;
   }
   return true;

@@ -48,8 +48,12 @@ struct Setpoint {
   double dither_share = 0.0;    // while the arm is at rest: share by which all tensions go up and down (dither.hpp)
 };
 
-// A setpoint the arm can use: finite, poses valid, angles inside the limits (the release step has checked the same;
-// this is the second lock). Hold and stop always are.
+// An arm may be enabled where it stands a little beyond a limit, and moves from there: 1 deg. The motion stage leads no
+// angle further out.
+constexpr double kStandsBeyond_rad = 0.0175;
+
+// A setpoint the arm can use: finite, poses valid, angles inside the limits, those of joints but for kStandsBeyond_rad
+// (the release step has checked the same; this is the second lock). Hold and stop always are.
 bool is_usable(const RobotTable& table, const Setpoint& setpoint) noexcept;
 
 }  // namespace liana::cable

@@ -163,7 +163,7 @@ void follow_joints(const RobotTable& table, MotionState& state) noexcept {
   state.brake = ChannelState{};
   const double share = interval_share(table, state);
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
-    const double limit = table.segment[k / 2].theta_limit_rad;
+    const double limit = larger(table.segment[k / 2].theta_limit_rad, std::fabs(state.limiter.theta_rad[k]));
     const double wanted = state.from.joint_rad[k] + share * (state.to.joint_rad[k] - state.from.joint_rad[k]);
     const double bounded = wanted > limit ? limit : (wanted < -limit ? -limit : wanted);
     if (bounded != wanted) state.limits |= kLimitTheta;
