@@ -98,7 +98,7 @@ TEST(LedByDevice, AHandThatIsNotSeenForAMomentCostsNoTension) {
     measured(arm + ": not seen for 0.15 s", unseen_N, "N");
     measured(arm + ": seen where it was for 0.15 s", waited_for_N, "N");
     EXPECT_GT(unseen_N, undisturbed_N - 1.0);
-    EXPECT_GE(unseen_N, waited_for_N);
+    EXPECT_GE(unseen_N, waited_for_N - 0.5);
   }
 }
 

@@ -55,15 +55,17 @@ struct Shifts {
   double most = 1e3;    // largest s under the ceiling
 };
 
-Shifts shifts_for(const AnchoredVector& t, const AnchoredVector& null, Index n, const TensionLimits& limits,
-                  double margin_N, double width_N) noexcept {
+Shifts shifts_for(const AnchoredVector& t, const AnchoredVector& null, const double* pull_N, Index n,
+                  const TensionLimits& limits, double margin_N, double width_N) noexcept {
   Shifts s;
   for (Index i = 0; i < n; ++i) {
     if (!(null[i] > 0.05)) continue;
     const double per_N = 1.0 / null[i], to_floor = (limits.floor_motor_N + width_N - t[i]) * per_N;
     s.wanted = smooth_maximum(s.wanted, to_floor + margin_N * per_N, width_N);
     s.least = smooth_maximum(s.least, to_floor, width_N);
-    s.most = -smooth_maximum(-s.most, (t[i] - kCeilingShare * limits.ceiling_free_N) * per_N, width_N);
+    const double ceiling_N = smaller(kLoadCeilingShare * limits.ceiling_free_N,
+                                     kCeilingShare * limits.ceiling_free_N + std::fabs(pull_N[i]));
+    s.most = -smooth_maximum(-s.most, (t[i] - ceiling_N) * per_N, width_N);
   }
   return s;
 }
@@ -148,7 +150,7 @@ TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry,
     }
     plan.spread_N[j] = spread_of(t, pull_N, first, n);
     // The margin over the floor gives way to the ceiling, the floor itself does not.
-    const Shifts s = shifts_for(t, null, n, table.tension, margin_N + lift_N[j], width_N);
+    const Shifts s = shifts_for(t, null, &pull_N[first], n, table.tension, margin_N + lift_N[j], width_N);
     const double shift = smooth_maximum(s.least, -smooth_maximum(-s.wanted, -s.most, width_N), width_N);
     for (Index i = 0; i < n; ++i) {
       plan.motor_N[first + i] = t[i] + shift * null[i];

@@ -97,7 +97,7 @@ double dot_thetas(const RobotTable& table, const ThetaVector& a, const ThetaVect
 void take_room(const RobotTable& table, const TensionPlan& plan, GovernorState& state) noexcept {
   const TensionLimits& limits = table.tension;
   const double between_N =
-      kCeilingShare * limits.ceiling_free_N - limits.floor_motor_N - kGovernorKeep_N * limits.scale();
+      kLoadCeilingShare * limits.ceiling_free_N - limits.floor_motor_N - kGovernorKeep_N * limits.scale();
   for (Index j = 0; j < thetas(table) / 2; ++j)
     state.room_N[j] = larger(kGovernorLeast_N * limits.scale(), 0.5 * (between_N - plan.spread_N[j]));
 }

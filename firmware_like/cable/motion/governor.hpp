@@ -30,9 +30,12 @@ struct GovernorState {
   double linear_share = 1.0, angular_share = 1.0;   // of the table's limits of the tip's acceleration and jerk
 };
 
-// Of the tip's speed limit that belongs to such a share of its acceleration: what turns as it moves is accelerated by its
-// speed squared.
-inline double speed_share(double accel_share) noexcept { return std::sqrt(accel_share); }
+// Of the tip's speed limit that belongs to such a share of its acceleration: what turns as it moves is accelerated by
+// its speed squared. Where little of the acceleration is missing, none of the speed is.
+constexpr double kGovernorSpeed = 0.7;
+inline double speed_share(double accel_share) noexcept {
+  return accel_share < kGovernorSpeed ? std::sqrt(accel_share / kGovernorSpeed) : 1.0;
+}
 
 // Room for the cables of every segment under a plan at rest.
 void take_room(const RobotTable& table, const TensionPlan& plan, GovernorState& state) noexcept;
