@@ -15,7 +15,7 @@ constexpr double kStamp_s = 0.001;        // so far off is the time of a sample
 constexpr double kNoise_m = 0.005;
 constexpr double kNoise_rad = 0.035;
 
-double seconds(std::int64_t us) { return static_cast<double>(us) * 1e-6; }
+double in_seconds(std::int64_t us) { return static_cast<double>(us) * 1e-6; }
 
 Vec3 turn_between(const Pose& from, const Pose& to) {
   return rotation_vector(multiply(to.quaternion, conjugate(from.quaternion)));
@@ -42,7 +42,7 @@ HandLimits limits_of(device::Kind kind) {
 }
 
 bool HandWatch::leads_to(const Track& from, const device::Sample& to) const {
-  const double dt_s = seconds(to.t_us - from.t_us), short_s = std::min(dt_s, kLongestStep_s);
+  const double dt_s = in_seconds(to.t_us - from.t_us), short_s = std::min(dt_s, kLongestStep_s);
   const Vec3 way_m = subtract(to.pose.position_m, from.pose.position_m);
   const Vec3 turn_rad = turn_between(from.pose, to.pose);
   const double most_s = from.is_moving_known ? dt_s : short_s;
@@ -56,7 +56,7 @@ bool HandWatch::leads_to(const Track& from, const device::Sample& to) const {
 }
 
 void HandWatch::follow(const device::Sample& sample) {
-  const double dt_s = seconds(sample.t_us - hand_->t_us);
+  const double dt_s = in_seconds(sample.t_us - hand_->t_us);
   const double share = hand_->is_moving_known ? std::min(1.0, dt_s / kVelocity_s) : 1.0;
   const auto nearer = [share](const Vec3& from, const Vec3& to) { return add(from, scale(subtract(to, from), share)); };
   const Vec3 way_m = subtract(sample.pose.position_m, hand_->pose.position_m);

@@ -14,12 +14,6 @@ using algebra::ThetaColumn;
 using algebra::view;
 using Index = std::size_t;
 
-ThetaVector vector(const ThetaColumn& theta) {
-  ThetaVector out{};
-  view(out, theta.size()) = theta;
-  return out;
-}
-
 double length_m(const RobotTable& table) {
   double sum_m = 0.0;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m)

@@ -16,12 +16,6 @@ double largest_change(const ThetaColumn& a, const ThetaVector& b) {
   return (a - view(b, a.size())).cwiseAbs().maxCoeff();
 }
 
-ThetaVector vector(const ThetaColumn& theta) {
-  ThetaVector out{};
-  view(out, theta.size()) = theta;
-  return out;
-}
-
 CableColumn planned_tensions(const ArmModel& model, const CablePaths& paths, const ThetaColumn& load_Nm) {
   const TensionLimits& limits = model.table.tension;
   return balanced_tensions(paths, CableColumn::Constant(paths.wrap_rad.size(), limits.plan_N),

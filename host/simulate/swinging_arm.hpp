@@ -10,6 +10,12 @@ namespace liana::simulate {
 
 constexpr double kNewPose_rad = 0.06;  // an angle that has moved further (3.4 deg): the equations are solved anew
 
+inline ThetaVector vector(const algebra::ThetaColumn& theta) {
+  ThetaVector out{};
+  algebra::view(out, theta.size()) = theta;
+  return out;
+}
+
 // What the drives' lengths are made of at one moment: angles, and tensions that give a load there.
 struct ToldNow {
   algebra::ThetaColumn theta_rad, load_Nm;

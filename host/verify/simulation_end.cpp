@@ -22,27 +22,6 @@ Vector between(const Vector& from, const Vector& to, double share) {
   return out;
 }
 
-// What tensions are planned to do at the rows.
-void read_plan(const TwinImage<CableArm>& image, const Candidate<CableArm>& candidate,
-               const Prediction<CableArm>& prediction, simulate::JointSequence& out) {
-  const auto interval = static_cast<std::size_t>(image.controller.table().interval_ticks);
-  const std::size_t last = prediction.ticks.size() - 1;
-  const cable::Outputs &now = image.last_outputs, &begins = prediction.ticks.front();
-  out.loads_Nm.assign(1, now.load_Nm);
-  out.tensions_N.assign(1, now.tension_plan_N);
-  const auto rows = (candidate.first_tick() - image.next_tick) / interval;
-  for (std::uint64_t row = 1; row <= rows; ++row) {
-    const double share = static_cast<double>(row * interval) / static_cast<double>(rows * interval + 1);
-    out.loads_Nm.push_back(between(now.load_Nm, begins.load_Nm, share));
-    out.tensions_N.push_back(between(now.tension_plan_N, begins.tension_plan_N, share));
-  }
-  for (std::size_t tick = interval - 1; tick < last + interval; tick += interval) {
-    const cable::Outputs& told = prediction.ticks[std::min(tick, last)];
-    out.loads_Nm.push_back(told.load_Nm);
-    out.tensions_N.push_back(told.tension_plan_N);
-  }
-}
-
 }  // namespace
 
 template <class Arm>
@@ -73,6 +52,27 @@ LIANA_READ_SEQUENCE(cable::CableArm);
 LIANA_READ_SEQUENCE(serial::SerialArm);
 #undef LIANA_READ_SEQUENCE
 
+void read_sequence(const TwinImage<CableArm>& image, const Candidate<CableArm>& candidate,
+                   const Prediction<CableArm>& prediction, simulate::JointSequence& out) {
+  read_sequence<CableArm>(image, candidate, prediction, out);
+  const auto interval = static_cast<std::size_t>(image.controller.table().interval_ticks);
+  const std::size_t last = prediction.ticks.size() - 1;
+  const cable::Outputs &now = image.last_outputs, &begins = prediction.ticks.front();
+  out.loads_Nm.assign(1, now.load_Nm);
+  out.tensions_N.assign(1, now.tension_plan_N);
+  const auto rows = (candidate.first_tick() - image.next_tick) / interval;
+  for (std::uint64_t row = 1; row <= rows; ++row) {
+    const double share = static_cast<double>(row * interval) / static_cast<double>(rows * interval + 1);
+    out.loads_Nm.push_back(between(now.load_Nm, begins.load_Nm, share));
+    out.tensions_N.push_back(between(now.tension_plan_N, begins.tension_plan_N, share));
+  }
+  for (std::size_t tick = interval - 1; tick < last + interval; tick += interval) {
+    const cable::Outputs& told = prediction.ticks[std::min(tick, last)];
+    out.loads_Nm.push_back(told.load_Nm);
+    out.tensions_N.push_back(told.tension_plan_N);
+  }
+}
+
 SimulationEnd<CableArm>::SimulationEnd(const simulate::ArmModel& arm, const MotionRules& rules)
     : rules_(rules), worker_(arm, rules.scene, kEnough_m), observer_(arm) {}
 
@@ -99,7 +99,6 @@ void SimulationEnd<CableArm>::begin(const TwinImage<CableArm>& image, const Cand
   number_ = candidate.sequence();
   comes_to_rest_ = prediction.comes_to_rest;
   read_sequence(image, candidate, prediction, sequence_);
-  read_plan(image, candidate, prediction, sequence_);
   simulate::StartState start = observer_.now();
   start.drawing_in_base = rules_.drawing_in_base;
   for (std::size_t k = 0; k < start.theta_rad.size(); ++k) start.theta_rad[k] += theta_off_rad_[k];

@@ -20,6 +20,9 @@ constexpr double kWhenever = std::numeric_limits<double>::infinity();
 template <class Arm>
 void read_sequence(const TwinImage<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction,
                    simulate::ToldRows<arbiter::Joints<Arm>>& out);
+// The same of a cable arm, with what its tensions are planned to do at the rows.
+void read_sequence(const TwinImage<cable::CableArm>& image, const Candidate<cable::CableArm>& candidate,
+                   const Prediction<cable::CableArm>& prediction, simulate::JointSequence& out);
 
 template <class Arm>
 class SimulationEnd;

@@ -13,26 +13,26 @@
 namespace liana::closed_loop {
 namespace {
 
-constexpr double kSeconds = 9.0, kBegins_s = 0.3, kLetsGo_s = 7.0;
+constexpr double kLed_s = 9.0, kBegins_s = 0.3, kLetsGo_s = 7.0;
 constexpr int kSamples = 2;  // in an interval
 
-struct Led {
+struct LedByHand {
   double least_motor_N = 1e9, most_contact_N = 0.0, most_tip_m_s = 0.0;
   std::size_t refused = 0;
   std::int32_t faults = 0;
 };
 
-Led lead(const std::string& pose, std::uint64_t seed, const std::string& physics = "nominal") {
+LedByHand lead_by_hand(const std::string& pose, std::uint64_t seed, const std::string& physics = "nominal") {
   VerifiedArm arm({physics, seed, true, pose}, true);
   DrawnHand hand(seed, HandBounds{});
   arbiter::DeviceUse use;
   use.kind = device::Kind::kHandController;
   use.speed_m_s = arm.arm().table().limits.tip_speed_m_s;
   arm.arbiter().use_device(arm.arm().outputs(), use);
-  Led out;
+  LedByHand out;
   Vec3 tip_m = arm.arm().plant().tip_in_base().position_m;
   arm.arm().plant().take_load();
-  for (double t_s = 0.0; t_s < kSeconds; t_s += arm.interval_s()) {
+  for (double t_s = 0.0; t_s < kLed_s; t_s += arm.interval_s()) {
     for (int i = 1; i <= kSamples; ++i) {
       const double at_s = t_s + arm.interval_s() * i / kSamples;
       device::Sample sample{.t_us = std::llround(1e6 * at_s), .valid = true, .deadman = t_s < kLetsGo_s};
@@ -63,7 +63,7 @@ TEST(DrawnHand, LeadsTheArmWithoutSlackContactOrFault) {
                {"panel_edge", 16}, {"zero", 2},    {"segment5_in_slit", 4}, {"fixture", 18}};
   for (const auto& [pose, seed] : hands) {
     const std::string name = pose + std::string(", seed ") + std::to_string(seed);
-    const Led led = lead(pose, seed);
+    const LedByHand led = lead_by_hand(pose, seed);
     measured(name + ": least tension at any motor", led.least_motor_N, "N");
     measured(name + ": true tip", led.most_tip_m_s, "m/s");
     measured(name + ": commands refused", static_cast<double>(led.refused), "");

@@ -16,7 +16,7 @@ const config::SceneConfig kNothing{};
 
 // From one pose to another in `seconds`, as evenly as a minimum jerk, and standing there for a second.
 JointSequence way(const ThetaVector& from_rad, const ThetaVector& to_rad, double seconds) {
-  JointSequence sequence{0.02, {}};
+  JointSequence sequence{{0.02, {}}, {}, {}};
   for (int i = 0; i * 0.02 <= seconds + 1.0; ++i) {
     const double s = std::min(1.0, i * 0.02 / seconds);
     const double share = s * s * s * (10.0 + s * (6.0 * s - 15.0));
@@ -125,7 +125,7 @@ TEST(Simulation, MovesAsTheBenchsFullDynamicsDoes) {
 TEST(Simulation, AnArmThatIsToldToStandStands) {
   StartState start;
   start.theta_rad = zhu2022::radians(zhu2022::kPanelEdge_deg);
-  const JointSequence told{0.02, std::vector<ThetaVector>(20, start.theta_rad)};
+  const JointSequence told{{0.02, std::vector<ThetaVector>(20, start.theta_rad)}, {}, {}};
   Simulation simulation(zhu2022_model(), kNothing);
   for (const Moment& moment : simulation.run(start, told).moments) {
     EXPECT_EQ(moment.theta_rad, start.theta_rad);
@@ -139,7 +139,7 @@ TEST(Simulation, BeginsWhereTheArmIsMeasuredAndNotWhereItIsTold) {
   const ThetaVector told_rad = zhu2022::radians(zhu2022::kPanelEdge_deg);
   start.theta_rad = turned(told_rad, 0.1, 1);
   Simulation simulation(zhu2022_model(), kNothing);
-  const Motion& motion = simulation.run(start, {0.02, std::vector<ThetaVector>(20, told_rad)});
+  const Motion& motion = simulation.run(start, {{0.02, std::vector<ThetaVector>(20, told_rad)}, {}, {}});
   EXPECT_EQ(motion.moments.back().theta_rad, start.theta_rad);
 }
 
@@ -170,12 +170,12 @@ TEST(Simulation, ASceneThatStandsBesideItsDrawingIsMetWhereItStands) {
 TEST(Simulation, TheDrumsLagBehindARampByTheirTimeConstant) {
   const algebra::ThetaColumn rate = algebra::ThetaColumn::Constant(1, 0.03);
   algebra::ThetaColumn told = algebra::ThetaColumn::Zero(1);
-  DrumLag lag(0.03, 0.01, told, 0.0 * rate);
+  DrumLag<algebra::ThetaColumn> lag(0.03, 0.01, told, 0.0 * rate);
   for (int i = 0; i < 100; ++i) lag.step(told += 0.01 * rate);
-  EXPECT_NEAR(lag.drums_rad()[0], told[0] - 0.03 * 0.03, 1e-12);
-  DrumLag moving(0.03, 0.01, told, rate);
+  EXPECT_NEAR(lag.now()[0], told[0] - 0.03 * 0.03, 1e-12);
+  DrumLag<algebra::ThetaColumn> moving(0.03, 0.01, told, rate);
   moving.step(told + 0.01 * rate);
-  EXPECT_NEAR(moving.drums_rad()[0], told[0] + 0.01 * 0.03 - 0.03 * 0.03, 1e-15) << "a motion that goes on has no jolt";
+  EXPECT_NEAR(moving.now()[0], told[0] + 0.01 * 0.03 - 0.03 * 0.03, 1e-15) << "a motion that goes on has no jolt";
 }
 
 // Straight lines between rows: no step leaves what two rows keep.

@@ -58,10 +58,10 @@ double farthest_link_mm(const ThetaVector& a_rad, const ThetaVector& b_rad) {
 }
 
 Off after_a_second(const std::vector<Seen>& seen, std::size_t begin, Simulation& simulation) {
-  StartState start{seen[begin].measured_rad, {}, seen[begin].tension_N};
+  StartState start{.theta_rad = seen[begin].measured_rad, .tension_N = seen[begin].tension_N};
   for (std::size_t k = 0; k < zhu2022::kThetas; ++k)
     start.rate_rad_s[k] = (seen[begin].measured_rad[k] - seen[begin - 10].measured_rad[k]) / 0.2;
-  JointSequence told{0.02, {}};
+  JointSequence told{{0.02, {}}, {}, {}};
   for (std::size_t i = begin; i <= begin + kAhead; ++i) told.rows_rad.push_back(seen[i].told_rad);
   const Motion& motion = simulation.run(start, told);
   const ThetaVector& simulated_rad = motion.moments[kAhead * kStepsPerInterval].theta_rad;
