@@ -1,7 +1,5 @@
 #include "host/simulate/swinging_arm.hpp"
 
-#include <algorithm>
-
 namespace liana::simulate {
 
 namespace {
@@ -45,7 +43,7 @@ bool SwingingArm::begin(const StartState& start, const ToldNow& before, const To
   swing_.rate_rad_s = view(start.rate_rad_s, thetas);
   swing_.drums_rad = swing_.theta_rad + view(start.ahead_rad, thetas);
   const Eigen::Map<const CableColumn> measured_N(start.tension_N.data(), cables);
-  beside_N_ = measured_N.isZero() ? CableColumn(CableColumn::Zero(cables)) : CableColumn(measured_N - modelled_N());
+  beside_N_ = (measured_N.isZero() ? planned_.now() : CableColumn(measured_N)) - modelled_N();
   return true;
 }
 
@@ -67,10 +65,12 @@ void SwingingArm::correct(const ThetaColumn& theta_rad, const ThetaColumn& rate_
 
 JointSequence planned_with(const ArmModel& model, const ToldRows<ThetaVector>& rows) {
   const Eigen::Index thetas = algebra::theta_count(model.table), cables = model.table.cable_count();
-  const auto row = [&](std::size_t i) { return view(rows.rows_rad[std::min(i, rows.rows_rad.size() - 1)], thetas); };
+  const auto row = [&](std::size_t i) { return view(rows.rows_rad[i], thetas); };
   JointSequence out{rows, {}, {}};
   for (std::size_t i = 0; i < rows.rows_rad.size(); ++i) {
-    const ThetaColumn change_rad = row(i + 1) - 2.0 * row(i) + row(i > 0 ? i - 1 : 0);
+    const bool ends = i == 0 || i + 1 == rows.rows_rad.size();  // what comes before and after is not known
+    ThetaColumn change_rad = ThetaColumn::Zero(thetas);
+    if (!ends) change_rad = row(i + 1) - 2.0 * row(i) + row(i - 1);
     Chain chain;
     place(model, rows.rows_rad[i], chain);
     const ThetaColumn load_Nm = mass_matrix(model, chain) * change_rad / (rows.interval_s * rows.interval_s);

@@ -30,7 +30,8 @@ class ATipBetweenWalls : public testing::Test {
       motion.moments.push_back(moment);
     }
     motion.least_passed_share.fill(1.0);
-    return judge_simulated(rules_, {}, true, motion, too_near_);
+    const simulate::JointSequence told{{0.02, {{}}}, {}, {}};
+    return judge_simulated(rules_, told, true, motion, too_near_);
   }
 
   MotionRules rules_;
