@@ -100,13 +100,14 @@ class MomentJudge {
 
   void cables(const Moment& moment, const cable::CableVector& passed_share) {
     const cable::TensionLimits& limits = table_.tension;
+    const double unsure_N = kSwingTension_N * limits.scale();
     for (Index c = 0; c < static_cast<Index>(table_.cable_count()); ++c) {
       const double tension_N = moment.tension_N[c];
-      const double left_N = (tension_N - kSwingTension_N) * passed_share[c] - limits.floor_anywhere_N;
+      const double left_N = (tension_N - unsure_N) * passed_share[c] - limits.floor_anywhere_N;
       judge_.check(Refusal::kSwingTension, "tension with inertia of cable", kNewtons, static_cast<int>(c),
-                   tension_N + kSwingTension_N, limits.alarm_N);
+                   tension_N + unsure_N, limits.alarm_N);
       judge_.require(left_N >= 0.0, Refusal::kSwingTension, "slack with inertia: cable", static_cast<int>(c));
-      least(verdict_.margins.tension_N, std::fmin(limits.alarm_N - tension_N - kSwingTension_N, left_N));
+      least(verdict_.margins.tension_N, std::fmin(limits.alarm_N - tension_N - unsure_N, left_N));
       note("cable", c, moment.time_s);
     }
   }

@@ -48,8 +48,8 @@ struct Setpoint {
   double dither_share = 0.0;    // while the arm is at rest: share by which all tensions go up and down (dither.hpp)
 };
 
-// An arm may be enabled where it stands a little beyond a limit, and moves from there: 0.75 deg. The motion stage leads no
-// angle further out.
+// An arm may be enabled where it stands a little beyond a limit, and moves from there: 0.75 deg. The motion stage leads
+// no angle further out.
 constexpr double kStandsBeyond_rad = 0.0131;
 
 // A setpoint the arm can use: finite, poses valid, angles inside the limits, those of joints but for kStandsBeyond_rad
