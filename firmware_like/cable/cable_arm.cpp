@@ -160,8 +160,7 @@ ThetaVector CableArm::inertia_load_Nm() noexcept {
 
 void CableArm::govern() noexcept {
   if (plans_now()) take_room(table_, tension_, motion_.governor);
-  look_at_load(table_, model_.geometry, ratio_, motion_.arm, motion_.held_mask, motion_.shape.tick, !live_,
-               motion_.governor);
+  look_at_load(table_, model_.geometry, ratio_, motion_.arm, motion_.held_mask, motion_.shape.tick, motion_.governor);
 }
 
 std::uint32_t CableArm::plan_tensions(bool plans_now, bool is_sound) noexcept {
@@ -215,7 +214,9 @@ std::uint32_t CableArm::propose(const Orders& orders, const DriveCommands& sent,
     damp_payouts(is_sound, wanted_m);
   }
   if (let_go_.stage == LetGoStage::kOut) let_out(wanted_m);
+  const CableVector asked_m = wanted_m;
   const std::uint32_t limited = limit_payout_speed(wanted_m);
+  if (limited != 0 && !is_let_go(let_go_)) take_told_tensions(asked_m, wanted_m);
   payout_command_m_ = wanted_m;
   propose_payouts(out);
   lets_out_ = count_let_go(limited == 0, let_go_);
@@ -250,6 +251,14 @@ std::uint32_t CableArm::limit_payout_speed(CableVector& wanted_m) const noexcept
     limits = kLimitCableSpeed;
   }
   return limits;
+}
+
+// Lengths that the cable speed keeps from what was planned give other tensions: those are told, not the planned ones.
+void CableArm::take_told_tensions(const CableVector& asked_m, const CableVector& told_m) noexcept {
+  for (Index c = 0; c < cables(); ++c) {
+    const double more_N = table_.cable_EA_N * (asked_m[c] - told_m[c]) / asked_m[c];
+    pull_N_[c] = clamp(pull_N_[c] + more_N, 0.0, table_.tension.ceiling_free_N);
+  }
 }
 
 void CableArm::ramp_payouts(CableVector& wanted_m) const noexcept {

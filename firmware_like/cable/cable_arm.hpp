@@ -158,6 +158,7 @@ class CableArm {
   void damp_payouts(bool is_sound, CableVector& wanted_m) noexcept;
   void let_out(CableVector& wanted_m) const noexcept;
   std::uint32_t limit_payout_speed(CableVector& wanted_m) const noexcept;
+  void take_told_tensions(const CableVector& asked_m, const CableVector& told_m) noexcept;
   void propose_payouts(DriveProposals& out) const noexcept;
   Index cables() const noexcept { return static_cast<Index>(layout_.cable_count); }
 

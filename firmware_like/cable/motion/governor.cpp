@@ -103,16 +103,16 @@ void take_room(const RobotTable& table, const TensionPlan& plan, GovernorState& 
 }
 
 void look_at_load(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio,
-                  const ArmKinematics& arm, std::uint32_t held_mask, std::uint32_t tick, bool whole,
+                  const ArmKinematics& arm, std::uint32_t held_mask, std::uint32_t tick,
                   GovernorState& state) noexcept {
   const Index half = thetas(table) / 2;
-  if (whole || tick == 5) update_mass_matrix(table, arm, state.mass_kg_m2);
-  if (whole || tick == 6 || tick == 8) {
+  if (tick == 5) update_mass_matrix(table, arm, state.mass_kg_m2);
+  if (tick == 6 || tick == 8) {
     const TensionSolver solver = tension_solver(table, geometry, ratio);
-    if (whole || tick == 6) update_pulls(table, solver, 0, half, state);
-    if (whole || tick == 8) update_pulls(table, solver, half, thetas(table), state);
+    if (tick == 6) update_pulls(table, solver, 0, half, state);
+    if (tick == 8) update_pulls(table, solver, half, thetas(table), state);
   }
-  if (whole || tick == 9) {
+  if (tick == 9) {
     update_shares(table, arm.tip_jacobian, held_mask, state);
     update_accels(table, state);
   }
