@@ -163,6 +163,7 @@ void visit(A& a, T& s) {
   a("pull_N_s2", s.pull_N_s2);
   a("room_N", s.room_N);
   a("accel_rad_s2", s.accel_rad_s2);
+  a("cycle", s.cycle);
   a("linear_share", s.linear_share);
   a("angular_share", s.angular_share);
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "firmware_like/math/cholesky.hpp"
+#include "firmware_like/math/pair.hpp"
 #include "firmware_like/math/scalar.hpp"
 
 namespace liana::cable {
@@ -86,10 +87,9 @@ void update_accels(const RobotTable& table, GovernorState& state) noexcept {
   }
 }
 
+// Over the thetas, two at a time; there are two for each segment.
 double dot_thetas(const RobotTable& table, const ThetaVector& a, const ThetaVector& b) noexcept {
-  double sum = 0.0;
-  for (Index k = 0; k < thetas(table); ++k) sum += a[k] * b[k];
-  return sum;
+  return dot_pairs(a.data(), b.data(), static_cast<Index>(table.segment_count));
 }
 
 }  // namespace
@@ -105,6 +105,9 @@ void take_room(const RobotTable& table, const TensionPlan& plan, GovernorState& 
 void look_at_load(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio,
                   const ArmKinematics& arm, std::uint32_t held_mask, std::uint32_t tick,
                   GovernorState& state) noexcept {
+  const bool looks = state.cycle == 0;
+  if (tick == 9) state.cycle = state.cycle + 1 < kGovernorCycles ? state.cycle + 1 : 0;
+  if (!looks) return;
   const Index half = thetas(table) / 2;
   if (tick == 5) update_mass_matrix(table, arm, state.mass_kg_m2);
   if (tick == 6 || tick == 8) {
@@ -136,8 +139,9 @@ LoadShares shares_in_room(const RobotTable& table, const ThetaVector& asked_rad_
     const double room_N_s = state.room_N[j] * table.tick_s;
     for (std::int32_t i = 0; i < table.segment[j].cables; ++i, ++c) {
       const double asked = dot_thetas(table, state.pull_N_s2[c], asked_rad_s);
-      const double now = dot_thetas(table, state.pull_N_s2[c], now_rad_s) * (asked < 0.0 ? -1.0 : 1.0);
-      const double size = std::fabs(asked);
+      const double going = dot_thetas(table, state.pull_N_s2[c], now_rad_s);
+      if (std::fabs(asked - going) <= room_N_s) continue;
+      const double now = asked < 0.0 ? -going : going, size = std::fabs(asked);
       if (size > now + room_N_s) out.most = smaller(out.most, larger(0.0, now + room_N_s) / size);
       if (now - room_N_s > 0.0) out.least = larger(out.least, smaller(1.0, (now - room_N_s) / larger(size, 1e-12)));
     }

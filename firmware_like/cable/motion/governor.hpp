@@ -21,13 +21,14 @@ constexpr double kGovernorKeep_N = 15.0;      // over the floor, for friction an
 constexpr double kGovernorLeast_N = 4.0;      // room where a pose leaves none: the way out of it
 constexpr double kGovernorAlone = 0.4;        // of a theta's acceleration limit, where it slows down by itself
 constexpr double kGovernorTip = 0.7;          // of the room, for the tip's way alone and for its turn alone
-constexpr std::uint32_t kGovernorTicks = 10;  // it looks anew in so many ticks
+constexpr std::uint32_t kGovernorCycles = 3;  // of the shape's ten ticks: it looks anew in so many of them
 
 struct GovernorState {
   MassMatrix mass_kg_m2{};
   std::array<ThetaVector, kMaxCables> pull_N_s2{};  // G: newtons per rad/s2
   SegmentVector room_N{};                           // of each segment's cables, up as down
   ThetaVector accel_rad_s2{};                       // of each theta alone that stays in the room
+  std::uint32_t cycle = 0;                          // 0: it looks
   double linear_share = 1.0, angular_share = 1.0;   // of the table's limits of the tip's acceleration and jerk
 };
 
@@ -41,7 +42,7 @@ inline double speed_share(double accel_share) noexcept {
 // Room for the cables of every segment under a plan at rest.
 void take_room(const RobotTable& table, const TensionPlan& plan, GovernorState& state) noexcept;
 
-// One tick of the look: dear work is spread over the cycle's ticks 5, 6, 8 and 9, which have little else to do. Before
+// One tick of the look: dear work is spread over ticks 5, 6, 8 and 9, which have little else to do. Before
 // the arm may move it has looked for seconds. Cost: 5,000 instructions in one of these ticks.
 void look_at_load(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio,
                   const ArmKinematics& arm, std::uint32_t held_mask, std::uint32_t tick, GovernorState& state) noexcept;

@@ -24,6 +24,8 @@ constexpr double kHeldSlow_rad_s = 2e-5;  // to this rate
 constexpr double kHeldArrival_rad_s =
     7e-5;  // goes the rest straight: others make up for its steps many times magnified
 
+constexpr MotionState kNothing{};  // copied, not made anew: an arm that stands is reset in every tick
+
 bool is_tip(const Setpoint& setpoint) noexcept { return setpoint.kind == CommandKind::kTip; }
 
 FilterBounds held_bounds(const RobotTable& table) noexcept {
@@ -104,11 +106,14 @@ IkGoal ik_goal(const MotionState& state) noexcept { return {state.filter.pose, s
 // How far every theta may go in this tick so that it can brake before its limit with what it may brake with by itself:
 // the others take over smoothly, before it stands. One that is faster already slows down so.
 FollowBounds bounds_before_limits(const RobotTable& table, const MotionState& state) noexcept {
-  const double h = table.tick_s;
+  const double h = table.tick_s, fast = 1.2 * table.limits.theta_rate_rad_s, fast2 = fast * fast;
   FollowBounds out{state.limiter.theta_rad, {}, {}};
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
     const double theta = state.limiter.theta_rad[k], rate = state.limiter.rate_rad_s[k];
     const double accel = state.governor.accel_rad_s2[k], limit = table.segment[k / 2].theta_limit_rad;
+    out.most_rad[k] = limit;
+    out.least_rad[k] = -limit;
+    if (2.0 * accel * (limit - std::fabs(theta)) > fast2) continue;  // far from both
     const double up = larger(braking_speed(larger(0.0, limit - theta), accel, h), rate - accel * h);
     const double down = larger(braking_speed(larger(0.0, limit + theta), accel, h), -rate - accel * h);
     out.most_rad[k] = smaller(limit, theta + up * h);
@@ -227,7 +232,7 @@ Twist tip_twist(const RobotTable& table, const MotionState& state) noexcept {
 }
 
 void reset_motion(const RobotTable& table, const ThetaVector& theta_rad, MotionState& state) noexcept {
-  state = MotionState{};
+  state = kNothing;
   state.ik_rad = theta_rad;
   state.governor.room_N.fill(kGovernorLeast_N * table.tension.scale());
   state.governor.accel_rad_s2.fill(kGovernorAlone * table.limits.theta_accel_rad_s2);
