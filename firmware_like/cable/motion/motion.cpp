@@ -16,6 +16,7 @@ constexpr double kHeldShare = 0.4;  // of the theta limits that held variables u
 constexpr double kHeldBrakeAccel =
     0.3;  // of the theta acceleration limit; others make up for it with up to three times
 constexpr Leash kLeash{0.001, 0.004, 0.001, 0.008};  // the target waits for an arm that does not come after it
+constexpr double kFollowRates = 3.0;                 // times a joint's rate: further the IK does not go in a tick
 constexpr double kBrakeRoom = 0.8;                   // of the room for acceleration, where joints brake
 constexpr double kBehind =
     1e-4;  // m and rad: from here the target does not wait, or a blocked arm could not be led away
@@ -111,8 +112,8 @@ FollowBounds bounds_before_limits(const RobotTable& table, const MotionState& st
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
     const double theta = state.limiter.theta_rad[k], rate = state.limiter.rate_rad_s[k];
     const double accel = state.governor.accel_rad_s2[k], limit = table.segment[k / 2].theta_limit_rad;
-    out.most_rad[k] = limit;
-    out.least_rad[k] = -limit;
+    out.most_rad[k] = smaller(limit, theta + kFollowRates * fast * h);
+    out.least_rad[k] = larger(-limit, theta - kFollowRates * fast * h);
     if (2.0 * accel * (limit - std::fabs(theta)) > fast2) continue;  // far from both
     const double up = larger(braking_speed(larger(0.0, limit - theta), accel, h), rate - accel * h);
     const double down = larger(braking_speed(larger(0.0, limit + theta), accel, h), -rate - accel * h);
