@@ -41,8 +41,6 @@ class SimulationEnd<cable::CableArm> {
   // From now on: what is known of arm and scene beside the measured angles and the drawing. `prediction_m` takes the
   // place of the scene's own; angles and placement are those of a StartState.
   void believe(const cable::ThetaVector& theta_off_rad, const Pose& drawing_in_base, double prediction_m);
-  // How the arm is and swings, as watched last.
-  const simulate::StartState& estimate() const { return observer_.now(); }
   // Begins with what the candidate makes the controller tell its drives, from where the arm is measured to be.
   void begin(const TwinImage<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction);
   // The verdict on what was begun; refused as kNoVerdict where it takes longer than `patience_s`.

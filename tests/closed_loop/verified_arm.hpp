@@ -32,9 +32,6 @@ class VerifiedArm {
   double interval_s() const { return arm_.table().tick_s * arm_.table().interval_ticks; }
   double time_s() const { return static_cast<double>(arm_.inputs().tick) * arm_.table().tick_s; }
   const std::vector<Refused>& refused() const { return refused_; }
-  const simulate::StartState& estimate() const { return end_.estimate(); }
-  // Of the last candidate.
-  const verify::SimulationVerdict& simulated() const { return simulation_; }
 
  private:
   void verify_next(const cable::Telecommand& in_force);
