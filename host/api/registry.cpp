@@ -137,9 +137,10 @@ class Search {
     if (!socket.starts_with('/')) {
       std::error_code error;
       const fs::path folder = fs::read_symlink(process + "/cwd", error);
-      if (error)
+      if (error) {
         return miss("the API socket '" + socket + "' of lianad (process " + process.substr(6) + ")", error.message(),
                     true);
+      }
       socket = folder / socket;
     }
     // It may see other files than we do.

@@ -16,7 +16,7 @@ constexpr double kHeldShare = 0.4;  // of the theta limits that held variables u
 constexpr double kHeldBrakeAccel =
     0.3;  // of the theta acceleration limit; others make up for it with up to three times
 constexpr Leash kLeash{0.001, 0.004, 0.001, 0.008};  // the target waits for an arm that does not come after it
-constexpr double kFollowRates = 3.0;                 // times a joint's rate: further the IK does not go in a tick
+constexpr double kFollowRates = 10.0;                 // times a joint's rate: further the IK does not go in a tick
 constexpr double kBrakeRoom = 0.8;                   // of the room for acceleration, where joints brake
 constexpr double kBehind =
     1e-4;  // m and rad: from here the target does not wait, or a blocked arm could not be led away
