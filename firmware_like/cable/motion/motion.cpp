@@ -17,7 +17,8 @@ constexpr double kHeldBrakeAccel =
     0.3;  // of the theta acceleration limit; others make up for it with up to three times
 constexpr Leash kLeash{0.001, 0.004, 0.001, 0.008};  // the target waits for an arm that does not come after it
 constexpr double kFollowRates = 10.0;                 // times a joint's rate: further the IK does not go in a tick
-constexpr double kBrakeRoom = 0.8;                   // of the room for acceleration, where joints brake
+constexpr double kBrakeRoom = 0.8;                   // of the room for acceleration that a stop takes
+constexpr double kLeastTaken_s = 1e-6;               // of an arm that all but stands
 constexpr double kBehind =
     1e-4;  // m and rad: from here the target does not wait, or a blocked arm could not be led away
 constexpr double kHeldNear_rad = 2e-6;    // from here a held variable that has slowed down
@@ -139,15 +140,33 @@ void report_tip(const RobotTable& table, const FollowStep& step, MotionState& st
   if (state.ik.outcome == IkOutcome::kUnreachable) state.limits |= kLimitReach;
 }
 
+// Bounds of a channel that slows down from `speed` by so much of itself in a second.
+void slow_by(double share_1_s, double speed, FilterBounds& bounds) noexcept {
+  const double less = smaller(1.0, share_1_s * speed / bounds.accel);
+  bounds.accel *= less;
+  bounds.jerk *= less;
+}
+
+// A stop takes no more of the room than kBrakeRoom the way the arm goes now, whatever goes together in it: tip, turn
+// and shape.
+TipFilterConfig braking_config(const RobotTable& table, const MotionState& state) noexcept {
+  TipFilterConfig config = tip_filter_config(table, state.to.tip_speed_m_s, state.governor);
+  const double share_1_s =
+      kBrakeRoom / larger(room_taken(table, state.limiter.rate_rad_s, state.governor), kLeastTaken_s);
+  slow_by(share_1_s, norm(state.filter.linear.velocity), config.linear);
+  slow_by(share_1_s, norm(state.filter.angular.velocity), config.angular);
+  return config;
+}
+
 FollowStep follow_tip(const RobotTable& table, const CableGeometry& geometry, bool braking,
                       MotionState& state) noexcept {
   const Pose target_before = state.filter.pose;
   const ThetaVector ik_before = state.ik_rad;
-  const TipFilterConfig config = tip_filter_config(table, state.to.tip_speed_m_s, state.governor);
   if (braking) {
-    brake_tip(config, state.filter);
+    brake_tip(braking_config(table, state), state.filter);
     brake_held(table, state);
   } else {
+    const TipFilterConfig config = tip_filter_config(table, state.to.tip_speed_m_s, state.governor);
     filter_tip(config, interpolated_target(table, state), state.filter);
     hold_back(kLeash, state.ik.residual, table.tick_s, state.filter);
     advance_held(table, state);
