@@ -8,6 +8,13 @@
 
 namespace liana::arbiter {
 
+namespace {
+
+// Of the tip's speed limit that a hand may ask for: an arm that friction held swings on faster than it is led.
+constexpr double kHandSpeed = 0.9;
+
+}  // namespace
+
 CableArbiter::CableArbiter(const cable::RobotTable& table, const SpeedZone& zone, SearchResult taken,
                            PathCheck<cable::CableArm> check, const fixture::Guidance& guidance)
     : table_(table),
@@ -140,10 +147,14 @@ void CableArbiter::cap_tip_speed(double speed_m_s) {
   ask_speed();
 }
 
-void CableArbiter::ask_speed() { moves_.limit_tip_speed(ease_.share * std::min(asked_speed_m_s_, cap_m_s_)); }
+void CableArbiter::ask_speed() {
+  const double most_m_s = was_engaged_ ? kHandSpeed * robot_speed_m_s_ : robot_speed_m_s_;
+  moves_.limit_tip_speed(ease_.share * std::min({asked_speed_m_s_, cap_m_s_, most_m_s}));
+}
 
 void CableArbiter::lead_nobody() {
   guidance_.stop();
+  refusal_wait_.forget();
   ease_ = {};
   ask_speed();
 }
@@ -174,7 +185,7 @@ void CableArbiter::hold() {
 void CableArbiter::refused(const std::string& why) {
   moves_.refused(why);
   dither_ = {};
-  device_.drop_anchor();
+  if (was_engaged_) refusal_wait_.refuse(led_from_, led_to_);
 }
 
 std::optional<cable::Setpoint> CableArbiter::next_setpoint(std::uint64_t tick, const cable::Outputs& now) {
@@ -200,6 +211,7 @@ std::optional<cable::Setpoint> CableArbiter::next_setpoint(std::uint64_t tick, c
   if (steer) return steered_setpoint(now, *steer);
   if (was_engaged_) moves_.hold();  // the operator let go: stop along the path
   was_engaged_ = false;
+  ask_speed();
   if (found == ShapeLead::Found::kNotYet) return std::nullopt;
   if (lead_.ends(now)) moves_.ask_anew();
   wish_nodes();
@@ -222,7 +234,15 @@ std::optional<cable::Setpoint> CableArbiter::steered_setpoint(const cable::Outpu
   wish_nodes();
   const std::uint32_t held = moves_.wishes().held_mask;
   const Pose led = guidance_.guide(goal.tip_in_base, {now.tip_command, now.theta_command_rad, held}, interval_s_);
+  if (refusal_wait_.holds(now.tip_command, led, interval_s_)) {
+    ease_ = {0.0, fixture::EaseCause::kRefused};
+    return std::nullopt;
+  }
+  led_from_ = now.tip_command;
+  led_to_ = led;
   ease_ = fixture::ease(table_, now.theta_command_rad, held, led);
+  if (refusal_wait_.speed_share() < ease_.share)
+    ease_ = {refusal_wait_.speed_share(), fixture::EaseCause::kRefused};
   ask_speed();
   return moves_.steer(now, led);
 }

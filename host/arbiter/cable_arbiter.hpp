@@ -10,6 +10,7 @@
 #include "host/arbiter/cable_kind.hpp"
 #include "host/arbiter/device_steer.hpp"
 #include "host/arbiter/dither_order.hpp"
+#include "host/arbiter/refusal_wait.hpp"
 #include "host/arbiter/shape_lead.hpp"
 #include "host/arbiter/speed_zone.hpp"
 #include "host/fixture/ease.hpp"
@@ -69,8 +70,8 @@ class CableArbiter {
 
   // Ends the interval: what to verify for the next one; nothing = the arm holds. `tick` counts the ticks done.
   std::optional<cable::Setpoint> next_setpoint(std::uint64_t tick, const cable::Outputs& now);
-  // The setpoint was refused: planned moves end, the operator's clutch takes new anchors. The way back stops and starts
-  // again, some times.
+  // The setpoint was refused: planned moves end, and the arm waits for an operator who steers it (refusal_wait.hpp).
+  // The way back stops and starts again, some times.
   void refused(const std::string& why = "");
 
   // A planned move or a dither is under way.
@@ -126,6 +127,8 @@ class CableArbiter {
   DeviceSteer device_;
   cable::NodeTarget device_node_{};
   bool was_engaged_ = false;
+  RefusalWait refusal_wait_;
+  Pose led_from_{}, led_to_{};  // last setpoint of the hand: where the tip was commanded to be, and its goal
   fixture::Guidance guidance_;
   fixture::Ease ease_;
 };

@@ -61,6 +61,8 @@ std::string ease_name(const fixture::Ease& ease) {
       return "";
     case fixture::EaseCause::kSingular:
       return "near singular";
+    case fixture::EaseCause::kRefused:
+      return "refused";
     case fixture::EaseCause::kJointLimit:
       break;
   }

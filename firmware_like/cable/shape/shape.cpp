@@ -156,13 +156,11 @@ ThetaVector followed_change(const RobotTable& table, const ShapePace& pace, cons
   return change;
 }
 
-// A cycle begins: the velocity is brought back into the null space, and so is its change over the cycle; no limit is
-// passed in it.
+// A cycle begins: over it the velocity goes to one in the null space of now, which may have turned far where the tip
+// loses a direction; no limit is passed in it.
 void follow(const Stand& stand, bool braking, const ShapePace& pace, ShapeState& state) noexcept {
   const Index n = static_cast<Index>(stand.space.theta_count);
-  NullPoint rate{coordinates(stand.space, state.rate_rad_s), {}};
-  state.rate_rad_s = combine(stand.space, rate.z);
-  state.change_rad_s = ThetaVector{};
+  NullPoint rate;
   ThetaVector change = braking ? ThetaVector{} : followed_change(stand.table, pace, state);
   for (Index k = 0; k < n; ++k) change[k] += state.rate_rad_s[k];
   rate.z = coordinates(stand.space, change);

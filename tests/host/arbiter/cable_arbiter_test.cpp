@@ -293,12 +293,32 @@ TEST_F(Arbitration, ARefusalEndsThePlannedMove) {
   EXPECT_FALSE(next());
 }
 
-TEST_F(Arbitration, ARefusalGivesTheOperatorNewAnchors) {
+// req:C5
+TEST_F(Arbitration, AHandThatPushesOnAfterARefusalWaitsAndKeepsItsPlaceBesideTheTip) {
   use_hand();
   steered(0.2);
-  steered(0.21);
+  const double asked_m = steered(0.25)->tip_in_base.position_m[0];
   arbiter_.refused();
-  EXPECT_EQ(steered(0.21)->tip_in_base.position_m, now_.tip_command.position_m);
+  std::array<int, 3> waited{};
+  for (int& intervals : waited) {
+    std::optional<cable::Setpoint> asked;
+    for (; !(asked = steered(0.26)); ++intervals) ASSERT_LT(intervals, 100);
+    EXPECT_NEAR(asked->tip_in_base.position_m[0], asked_m + 0.01, 1e-9) << "nothing of the hand's way is lost";
+    EXPECT_LT(asked->tip_speed_m_s, 0.4 * table_.limits.tip_speed_m_s) << "it begins slowly";
+    arbiter_.refused();
+  }
+  EXPECT_EQ(waited, (std::array<int, 3>{9, 19, 39})) << "twice as long each time";
+}
+
+// req:C5
+TEST_F(Arbitration, AHandThatTurnsBackAfterARefusalIsFollowedAtOnce) {
+  use_hand();
+  steered(0.2);
+  steered(0.25);
+  arbiter_.refused();
+  EXPECT_FALSE(steered(0.25));
+  for (const double x : {0.23, 0.21, 0.19}) EXPECT_FALSE(steered(x)) << x;
+  EXPECT_TRUE(steered(0.17)) << "beside the place where it gripped";
 }
 
 // Table 2 of the source: vr handles for free space, the hand controller for the slit.
