@@ -108,7 +108,6 @@ void visit(A& a, T& s) {
   a("rate_rad_s", s.rate_rad_s);
   a("change_rad_s", s.change_rad_s);
   a("wanted_rad_s", s.wanted_rad_s);
-  a("brake", s.brake);
   a("pulls", s.pulls);
   a("weight", s.weight);
   a("next_pull", s.next_pull);

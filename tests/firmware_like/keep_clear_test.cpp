@@ -103,7 +103,7 @@ TEST(KeepClear, TheTickPushesTheArmsMiddleAwayWithinItsRatesWhileTheTipStays) {
   double largest_rate = 0.0;
   for (std::int32_t tick = 0; tick < 60 * 250; ++tick) {
     const ArmKinematics arm = forward_kinematics(robot, theta);
-    theta = zhu2022::plus(theta, shape_move(robot, arm, {}, clear, 0, false, kShapeBesideTip, theta, shape));
+    theta = zhu2022::plus(theta, shape_move(robot, arm, {}, clear, 0, kShapeBesideTip, theta, shape));
     shape.tick = (shape.tick + 1) % kShapeTicks;
     servo_ik(robot, goal, arm, theta);
     for (const double r : shape.rate_rad_s) largest_rate = std::max(largest_rate, std::fabs(r));

@@ -46,7 +46,7 @@ void run(const RobotTable& robot, const NodeTargets& nodes, std::uint32_t held, 
   ShapeState shape;
   for (std::int32_t i = 0; i < ticks; ++i) {
     const ArmKinematics arm = arm_at(robot, theta);
-    theta = zhu2022::plus(theta, shape_move(robot, arm, nodes, {}, held, false, kShapeBesideTip, theta, shape));
+    theta = zhu2022::plus(theta, shape_move(robot, arm, nodes, {}, held, kShapeBesideTip, theta, shape));
     count_on(shape);
     servo_ik(robot, goal, arm, theta);
   }
@@ -202,8 +202,7 @@ TEST(Shape, MovesStayWithinLimitsAndBelowTheirShareOfTheRate) {
     }
     const NodeTargets nodes = target_of(1 + i % 4, random.vector(3.0), 1.0);
     for (std::int32_t tick = 0; tick < 100; ++tick) {
-      const ThetaVector move =
-          shape_move(robot, arm_at(robot, theta), nodes, {}, kX5, false, kShapeBesideTip, theta, shape);
+      const ThetaVector move = shape_move(robot, arm_at(robot, theta), nodes, {}, kX5, kShapeBesideTip, theta, shape);
       count_on(shape);
       theta = zhu2022::plus(theta, move);
       for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
@@ -214,25 +213,6 @@ TEST(Shape, MovesStayWithinLimitsAndBelowTheirShareOfTheRate) {
       ASSERT_EQ(move[8], 0.0);
     }
   }
-}
-
-TEST(Shape, BrakingEndsTheShapeMotionWithinABoundedNumberOfTicks) {
-  const RobotTable robot = zhu2022::table();
-  ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
-  ShapeState shape;
-  const NodeTargets nodes = target_of(3, {0.0, 0.0, 0.0});
-  for (std::int32_t i = 0; i < 250; ++i) {
-    theta = zhu2022::plus(theta,
-                          shape_move(robot, arm_at(robot, theta), nodes, {}, 0, false, kShapeBesideTip, theta, shape));
-    count_on(shape);
-  }
-  ASSERT_GT(zhu2022::length(shape.rate_rad_s), 0.1 * kDegree);
-  for (std::int32_t i = 0; i < 150; ++i) {
-    theta = zhu2022::plus(theta,
-                          shape_move(robot, arm_at(robot, theta), nodes, {}, 0, true, kShapeBesideTip, theta, shape));
-    count_on(shape);
-  }
-  EXPECT_LT(zhu2022::length(shape.rate_rad_s), 1e-9);
 }
 
 // The pitch of the segment that enters the slit next is drawn to zero more than the others.
@@ -258,11 +238,12 @@ TEST(Shape, TheMoveOfATickDoesNotMoveTheTip) {
       ThetaVector theta = random.theta(robot, i % 2 == 0 ? 20.0 : std::pow(10.0, random.uniform(-6.0, 0.0)));
       if (i % 4 == 0) theta[0] = theta[3] = 20.0 * kDegree;
       ShapeState shape;
-      shape.rate_rad_s = random.theta(robot, 0.5);
       NodeTargets nodes = target_of(3, random.vector(2.0));
       nodes[1] = {2, random.vector(2.0), 0.5, 0.01};
       const ArmKinematics arm = arm_at(robot, theta);
-      const ThetaVector move = shape_move(robot, arm, nodes, {}, held, i % 5 == 0, kShapeBesideTip, theta, shape);
+      const NullSpace space = null_space(arm.tip_jacobian, robot.theta_count(), held);
+      shape.rate_rad_s = combine(space, coordinates(space, random.theta(robot, 0.5)));
+      const ThetaVector move = shape_move(robot, arm, nodes, {}, held, kShapeBesideTip, theta, shape);
       ASSERT_LE(tip_rate(arm.tip_jacobian, move), 1e-9 * zhu2022::length(move)) << i;
     }
   }
@@ -352,7 +333,7 @@ TEST(Shape, MotionIsSmoothWhateverTheTargetsDo) {
       if (tick % 700 == 0) nodes = target_of(2 + i % 3, random.vector(3.0));
       const ThetaVector before = shape.rate_rad_s;
       const ArmKinematics arm = arm_at(robot, theta);
-      theta = zhu2022::plus(theta, shape_move(robot, arm, nodes, {}, 0, false, kShapeBesideTip, theta, shape));
+      theta = zhu2022::plus(theta, shape_move(robot, arm, nodes, {}, 0, kShapeBesideTip, theta, shape));
       count_on(shape);
       servo_ik(robot, goal, arm, theta);
       ASSERT_LE(zhu2022::largest_difference(shape.rate_rad_s, before), 2.2 * accel) << i << " " << tick;
@@ -373,7 +354,7 @@ TEST(Shape, ArmsOfOtherSizesKeepTheirTipToo) {
     const NodeTargets nodes = target_of(2, add(arm.node_in_base[2].position_m, {0.0, 0.0, 0.2}));
     ThetaVector move{};
     for (std::uint32_t tick = 0; tick < 2 * kShapeTicks; ++tick) {
-      move = shape_move(robot, arm, nodes, {}, 0, false, kShapeBesideTip, theta, shape);
+      move = shape_move(robot, arm, nodes, {}, 0, kShapeBesideTip, theta, shape);
       count_on(shape);
     }
     EXPECT_LE(tip_rate(arm.tip_jacobian, move), 1e-9 * zhu2022::length(move));

@@ -43,7 +43,7 @@ void run_ticks(const cable::RobotTable& robot, const cable::IkGoal& goal, const 
     const cable::ThetaVector before = arm.theta_rad, rate_before = arm.rate_rad_s;
     const cable::ArmKinematics at = forward_kinematics(robot, before);
     const cable::ThetaVector move =
-        shape_move(robot, at, nodes, {}, goal.held_mask, false, cable::kShapeAlone, before, arm.shape);
+        shape_move(robot, at, nodes, {}, goal.held_mask, cable::kShapeAlone, before, arm.shape);
     arm.shape.tick = (arm.shape.tick + 1) % cable::kShapeTicks;
     arm.theta_rad = zhu2022::plus(before, move);
     servo_ik(robot, goal, at, arm.theta_rad);

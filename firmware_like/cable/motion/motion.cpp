@@ -12,13 +12,15 @@ namespace {
 
 using Index = std::size_t;
 
-constexpr double kHeldShare = 0.4;  // of the theta limits that held variables use on their way
-constexpr double kHeldBrakeAccel =
-    0.3;  // of the theta acceleration limit; others make up for it with up to three times
+constexpr double kHeldShare = 0.4;                   // of the theta limits that held variables use on their way
 constexpr Leash kLeash{0.001, 0.004, 0.001, 0.008};  // the target waits for an arm that does not come after it
-constexpr double kFollowRates = 10.0;                 // times a joint's rate: further the IK does not go in a tick
-constexpr double kBrakeRoom = 0.8;                   // of the room for acceleration that a stop takes
-constexpr double kLeastTaken_s = 1e-6;               // of an arm that all but stands
+constexpr double kFollowRates = 10.0;                // times a joint's rate: further the IK does not go in a tick
+// To a stop the thetas slow down as one, about as fast as the tip does and as smoothly: shares of the theta
+// acceleration limit, of the same per second for its change, and of the room for acceleration. Stops from every kind of
+// motion keep the tensions of the motion itself (tests/closed_loop/braking_test.cpp).
+constexpr double kBrakeAccel = 0.4;
+constexpr double kBrakeJerk_1_s = 3.0;
+constexpr double kBrakeRoom = 0.8;
 constexpr double kBehind =
     1e-4;  // m and rad: from here the target does not wait, or a blocked arm could not be led away
 constexpr double kHeldNear_rad = 2e-6;    // from here a held variable that has slowed down
@@ -57,20 +59,6 @@ void advance_held(const RobotTable& table, MotionState& state) noexcept {
   }
 }
 
-// Held thetas on their way slow down as smoothly as they came; stopped dead, they would leave the rest of the arm,
-// which makes up for them, to its momentum.
-void brake_held(const RobotTable& table, MotionState& state) noexcept {
-  const double rate = kHeldShare * table.limits.theta_rate_rad_s, accel = table.limits.theta_accel_rad_s2;
-  const FilterBounds bounds{rate, kHeldBrakeAccel * accel, kBrakeJerk_1_s * accel};
-  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
-    if (((state.held_mask >> k) & 1u) == 0) continue;
-    HeldProfile& held = state.held[k];
-    brake_channel(bounds, table.tick_s, held.channel);
-    held.value_rad += held.channel.velocity[0] * table.tick_s;
-    state.ik_rad[k] = held.value_rad;
-  }
-}
-
 double interval_share(const RobotTable& table, const MotionState& state) noexcept {
   return liana::interval_share(state.interval_tick, table.interval_ticks);
 }
@@ -94,10 +82,9 @@ void slow_down(const RobotTable& table, double share, const Pose& target_before,
   }
 }
 
-// A shape that is fast already keeps the pace beside the tip until it has slowed down, or it would shoot past; so does
-// one that has to stop.
-const ShapePace& shape_pace(const RobotTable& table, bool braking, const MotionState& state) noexcept {
-  if (braking || !state.held_at_target || !at_rest(state.filter)) return kShapeBesideTip;
+// A shape that is fast already keeps the pace beside the tip until it has slowed down, or it would shoot past.
+const ShapePace& shape_pace(const RobotTable& table, const MotionState& state) noexcept {
+  if (!state.held_at_target || !at_rest(state.filter)) return kShapeBesideTip;
   double fastest = 0.0;
   for (const double rate : state.shape.rate_rad_s) fastest = larger(fastest, std::fabs(rate));
   return fastest > 1.01 * kShapeAlone.rate_share * table.limits.theta_rate_rad_s ? kShapeBesideTip : kShapeAlone;
@@ -125,9 +112,9 @@ FollowBounds bounds_before_limits(const RobotTable& table, const MotionState& st
 }
 
 // Shape and servo IK: angles for the filtered target, from kinematics where the command stands.
-FollowStep solve_tip(const RobotTable& table, bool braking, MotionState& state) noexcept {
-  const ThetaVector move = shape_move(table, state.arm, state.to.node, state.to.clear, state.held_mask, braking,
-                                      shape_pace(table, braking, state), state.ik_rad, state.shape);
+FollowStep solve_tip(const RobotTable& table, MotionState& state) noexcept {
+  const ThetaVector move = shape_move(table, state.arm, state.to.node, state.to.clear, state.held_mask,
+                                      shape_pace(table, state), state.ik_rad, state.shape);
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) state.ik_rad[k] += move[k];
   return follow_ik(table, ik_goal(state), state.arm, bounds_before_limits(table, state), state.ik_rad);
 }
@@ -140,40 +127,16 @@ void report_tip(const RobotTable& table, const FollowStep& step, MotionState& st
   if (state.ik.outcome == IkOutcome::kUnreachable) state.limits |= kLimitReach;
 }
 
-// Bounds of a channel that slows down from `speed` by so much of itself in a second.
-void slow_by(double share_1_s, double speed, FilterBounds& bounds) noexcept {
-  const double less = smaller(1.0, share_1_s * speed / bounds.accel);
-  bounds.accel *= less;
-  bounds.jerk *= less;
-}
-
-// A stop takes no more of the room than kBrakeRoom the way the arm goes now, whatever goes together in it: tip, turn
-// and shape.
-TipFilterConfig braking_config(const RobotTable& table, const MotionState& state) noexcept {
-  TipFilterConfig config = tip_filter_config(table, state.to.tip_speed_m_s, state.governor);
-  const double share_1_s =
-      kBrakeRoom / larger(room_taken(table, state.limiter.rate_rad_s, state.governor), kLeastTaken_s);
-  slow_by(share_1_s, norm(state.filter.linear.velocity), config.linear);
-  slow_by(share_1_s, norm(state.filter.angular.velocity), config.angular);
-  return config;
-}
-
-FollowStep follow_tip(const RobotTable& table, const CableGeometry& geometry, bool braking,
-                      MotionState& state) noexcept {
+FollowStep follow_tip(const RobotTable& table, const CableGeometry& geometry, MotionState& state) noexcept {
   const Pose target_before = state.filter.pose;
   const ThetaVector ik_before = state.ik_rad;
-  if (braking) {
-    brake_tip(braking_config(table, state), state.filter);
-    brake_held(table, state);
-  } else {
-    const TipFilterConfig config = tip_filter_config(table, state.to.tip_speed_m_s, state.governor);
-    filter_tip(config, interpolated_target(table, state), state.filter);
-    hold_back(kLeash, state.ik.residual, table.tick_s, state.filter);
-    advance_held(table, state);
-  }
+  const TipFilterConfig config = tip_filter_config(table, state.to.tip_speed_m_s, state.governor);
+  filter_tip(config, interpolated_target(table, state), state.filter);
+  hold_back(kLeash, state.ik.residual, table.tick_s, state.filter);
+  advance_held(table, state);
   if (state.filter.speed_limited) state.limits |= kLimitTipSpeed;
   if (state.filter.accel_limited) state.limits |= kLimitTipAccel;
-  const FollowStep ik_step = solve_tip(table, braking, state);
+  const FollowStep ik_step = solve_tip(table, state);
 
   ThetaVector step{};
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) step[k] = state.ik_rad[k] - ik_before[k];
@@ -185,7 +148,6 @@ FollowStep follow_tip(const RobotTable& table, const CableGeometry& geometry, bo
 
 // Joint reference: linear over the command interval; the limiter does the rest.
 void follow_joints(const RobotTable& table, MotionState& state) noexcept {
-  state.brake = ChannelState{};
   const double share = interval_share(table, state);
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
     const double limit = larger(table.segment[k / 2].theta_limit_rad, std::fabs(state.limiter.theta_rad[k]));
@@ -196,10 +158,10 @@ void follow_joints(const RobotTable& table, MotionState& state) noexcept {
   }
 }
 
-// Braking of joint motion: all joints by one factor, which the fastest of them gives, so that they come to rest
-// together and the arm stays on its path; joints that stop one by one would no longer cancel at the tip, and the tip
-// would move faster for a while. As gentle as the shape's and the tip's own stops, whichever takes longer.
-void brake_joints(const RobotTable& table, MotionState& state) noexcept {
+// Whatever moves comes to rest by one factor for all joints, which the fastest of them gives: they stop together, the
+// arm stays on its path, and no inverse is taken where the tip loses a direction. As gentle as the shape's and the
+// tip's own stops and as the room for acceleration allows the way the arm goes now, whichever takes longest.
+void brake(const RobotTable& table, MotionState& state) noexcept {
   const double fastest = largest_rate(table, state.limiter);
   const Twist tip = tip_twist(table, state);
   const double per_m = fastest / larger(norm(tip.linear_m_s), 1e-9);
@@ -212,12 +174,38 @@ void brake_joints(const RobotTable& table, MotionState& state) noexcept {
       smaller(kBrakeAccel * own, smaller(per_m * limits.tip_accel_m_s2, per_rad * limits.tip_angular_accel_rad_s2)),
       smaller(kBrakeJerk_1_s * own, smaller(per_m * limits.tip_jerk_m_s3, per_rad * limits.tip_angular_jerk_rad_s3))};
   state.brake.velocity[0] = fastest;
+  state.brake.acceleration[0] = smaller(state.brake.acceleration[0], bounds.accel);
   brake_channel(bounds, table.tick_s, state.brake);
   const double share = fastest > 0.0 ? larger(0.0, state.brake.velocity[0]) / fastest : 0.0;
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
     state.ik_rad[k] = state.limiter.theta_rad[k] + share * state.limiter.rate_rad_s[k] * table.tick_s;
     state.limiter.reference_rad[k] = state.limiter.theta_rad[k];
   }
+  state.ik = IkReport{};
+}
+
+// How the fastest joint speeds up: a stop goes on from there.
+void note_brake(const RobotTable& table, MotionState& state) noexcept {
+  const double fastest = largest_rate(table, state.limiter);
+  state.brake.acceleration = {(fastest - state.brake.velocity[0]) / table.tick_s, 0.0, 0.0};
+  state.brake.velocity = {fastest, 0.0, 0.0};
+}
+
+// The tip is led on from pose, rates and acceleration of the joints; what they do now lives on as shape velocity, which
+// goes over smoothly.
+void take_over(const RobotTable& table, MotionState& state) noexcept {
+  state.ik_rad = state.limiter.theta_rad;
+  const std::uint32_t tick = state.shape.tick;
+  state.shape = ShapeState{};
+  state.shape.tick = tick;
+  state.shape.rate_rad_s = state.limiter.rate_rad_s;
+  const Twist tip = tip_twist(table, state);
+  const double speeds_up_1_s = state.brake.acceleration[0] / larger(state.brake.velocity[0], 1e-6);
+  state.filter = TipFilterState{};
+  state.filter.pose = state.arm.tip_in_base;
+  state.filter.linear = {tip.linear_m_s, scale(tip.linear_m_s, speeds_up_1_s)};
+  state.filter.angular = {tip.angular_rad_s, scale(tip.angular_rad_s, speeds_up_1_s)};
+  state.ik = IkReport{};
 }
 
 void take_kinematics(const RobotTable& table, MotionState& state) noexcept {
@@ -263,28 +251,18 @@ void reset_motion(const RobotTable& table, const ThetaVector& theta_rad, MotionS
 
 void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionState& state) noexcept {
   state.from = state.to;
-  if (is_tip(setpoint) && (!is_tip(state.to) || state.braking)) {
-    if (!is_tip(state.to)) {  // from joint motion: take over pose and rates
-      state.ik_rad = state.limiter.theta_rad;
-      const std::uint32_t tick = state.shape.tick;
-      state.shape = ShapeState{};
-      state.shape.tick = tick;
-      const Twist tip = tip_twist(table, state);
-      state.filter = TipFilterState{};
-      state.filter.pose = state.arm.tip_in_base;
-      state.filter.linear.velocity = tip.linear_m_s;
-      state.filter.angular.velocity = tip.angular_rad_s;
-    }
+  const bool begins = state.to.kind != setpoint.kind || state.braking;
+  const std::uint32_t held_mask = is_tip(setpoint) ? setpoint.held_mask : 0u;
+  if (begins && is_tip(setpoint)) {
+    take_over(table, state);
     state.from = setpoint;
     state.from.tip_in_base = state.filter.pose;
-  }
-  if (is_joint(setpoint.kind) && (state.to.kind != setpoint.kind || state.braking)) {
+  } else if (begins) {
     state.from = setpoint;
     state.from.joint_rad = state.limiter.theta_rad;
   }
-  const std::uint32_t held_mask = is_tip(setpoint) ? setpoint.held_mask : 0u;
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
-    const bool newly_held = ((held_mask >> k) & 1u) != 0 && ((state.held_mask >> k) & 1u) == 0;
+    const bool newly_held = ((held_mask >> k) & 1u) != 0 && (begins || ((state.held_mask >> k) & 1u) == 0);
     if (newly_held) state.held[k] = HeldProfile{state.ik_rad[k], {{state.limiter.rate_rad_s[k], 0.0, 0.0}, {}}};
   }
   // A changed mask changes how thetas share the tip's motion. What they do now lives on as shape velocity, which goes
@@ -300,26 +278,28 @@ void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionSt
 
 void advance_motion(const RobotTable& table, const CableGeometry& geometry, bool allowed, MotionState& state) noexcept {
   state.limits = 0;
-  const bool braking = state.braking || !allowed;
+  const bool braking = state.braking || !allowed, leads_tip = is_tip(state.to) && !braking;
   if (state.interval_tick < table.interval_ticks) ++state.interval_tick;
   FollowStep ik_step;
-  if (is_tip(state.to)) {
-    ik_step = follow_tip(table, geometry, braking, state);
-  } else if (braking) {
-    brake_joints(table, state);
+  if (braking) {
+    brake(table, state);
+  } else if (leads_tip) {
+    ik_step = follow_tip(table, geometry, state);
   } else {
     follow_joints(table, state);
   }
   const double rate_share = state.to.kind == CommandKind::kRetreat ? kRetreatRateShare : 1.0;
-  limit_motion(table, geometry, state.ik_rad, state.limiter, is_tip(state.to), rate_share);
+  limit_motion(table, geometry, state.ik_rad, state.limiter, braking || leads_tip, rate_share);
   state.limits |= state.limiter.limits;
   take_kinematics(table, state);
-  if (is_tip(state.to)) report_tip(table, ik_step, state);
+  if (leads_tip) report_tip(table, ik_step, state);
+  if (!braking) note_brake(table, state);
+  if (!leads_tip) state.filter.pose = state.arm.tip_in_base;
   state.shape.tick = state.shape.tick + 1 < kShapeTicks ? state.shape.tick + 1 : 0;
 }
 
 bool at_rest(const RobotTable& table, const MotionState& state) noexcept {
-  const bool filter_rests = !is_tip(state.to) || at_rest(state.filter);
+  const bool filter_rests = !is_tip(state.to) || state.braking || at_rest(state.filter);
   return filter_rests && largest_rate(table, state.limiter) < 1e-6;
 }
 

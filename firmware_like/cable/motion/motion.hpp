@@ -32,7 +32,7 @@ struct MotionState {
   std::uint32_t held_mask = 0;
   bool held_at_target = true;
   LimiterState limiter{};
-  ChannelState brake{};  // [0]: the largest rate of braking joints; at rest while they do not brake
+  ChannelState brake{};  // [0]: rate of the fastest joint, and how it changes: by it all come to rest
   ArmTrig trig{};        // of the commanded angles (limiter.theta_rad)
   ArmKinematics arm{};   // at the commanded angles
   IkReport ik{};

@@ -158,10 +158,10 @@ ThetaVector followed_change(const RobotTable& table, const ShapePace& pace, cons
 
 // A cycle begins: over it the velocity goes to one in the null space of now, which may have turned far where the tip
 // loses a direction; no limit is passed in it.
-void follow(const Stand& stand, bool braking, const ShapePace& pace, ShapeState& state) noexcept {
+void follow(const Stand& stand, const ShapePace& pace, ShapeState& state) noexcept {
   const Index n = static_cast<Index>(stand.space.theta_count);
   NullPoint rate;
-  ThetaVector change = braking ? ThetaVector{} : followed_change(stand.table, pace, state);
+  ThetaVector change = followed_change(stand.table, pace, state);
   for (Index k = 0; k < n; ++k) change[k] += state.rate_rad_s[k];
   rate.z = coordinates(stand.space, change);
   rate.theta_rad = combine(stand.space, rate.z);
@@ -172,31 +172,12 @@ void follow(const Stand& stand, bool braking, const ShapePace& pace, ShapeState&
   for (Index k = 0; k < n; ++k) state.change_rad_s[k] = (rate.theta_rad[k] - state.rate_rad_s[k]) / kShapeTicks;
 }
 
-// A tick on the way to zero: all thetas by one factor, which the largest of them gives.
-void brake(const RobotTable& table, ShapeState& state) noexcept {
-  const Index n = static_cast<Index>(table.theta_count());
-  const double accel = kBrakeAccel * table.limits.theta_accel_rad_s2,
-               jerk = kBrakeJerk_1_s * table.limits.theta_accel_rad_s2;
-  const double largest = largest_entry(state.rate_rad_s, n);
-  state.brake.velocity[0] = largest;
-  brake_channel({table.limits.theta_rate_rad_s, accel, jerk}, table.tick_s, state.brake);
-  const double factor = largest > 0.0 ? larger(0.0, state.brake.velocity[0]) / largest : 0.0;
-  for (Index k = 0; k < n; ++k) state.rate_rad_s[k] *= factor;
-}
-
 // Pulls of a round, some a tick.
 void gather_pulls(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm,
                   const NodeTargets& nodes, const KeepClearTargets& clear, ShapeState& state) noexcept {
   const double weight = larger(largest_weight(table, nodes), largest_weight(clear));
   for (std::uint32_t i = 0; i < kPullsPerTick && !state.is_gathered; ++i)
     state.is_gathered = !gather(table, theta_rad, arm, nodes, clear, weight, state);
-}
-
-// Nothing is wanted any more; the next round begins anew.
-void forget_wanted(ShapeState& state) noexcept {
-  state.wanted_rad_s = ThetaVector{};
-  state.next_pull = 0;
-  state.is_gathered = false;
 }
 
 }  // namespace
@@ -225,13 +206,12 @@ void add_nodes(const RobotTable& table, const ArmKinematics& arm, const NodeTarg
 }
 
 ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes,
-                       const KeepClearTargets& clear, std::uint32_t held_mask, bool braking, const ShapePace& pace,
+                       const KeepClearTargets& clear, std::uint32_t held_mask, const ShapePace& pace,
                        const ThetaVector& theta_rad, ShapeState& state) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
   const bool follows = state.tick == kFollowTick || held_mask != state.held_mask;
-  const bool solves = state.tick == kSolveTick && state.is_gathered && !braking;
+  const bool solves = state.tick == kSolveTick && state.is_gathered;
   state.held_mask = held_mask;
-  if (braking) forget_wanted(state);
   if (follows || solves) {
     const NullSpace space = null_space(arm.tip_jacobian, table.theta_count(), held_mask);
     const Stand stand{table, theta_rad, space, least_room_rad(table, theta_rad)};
@@ -239,18 +219,15 @@ ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const 
       state.wanted_rad_s = wanted_rate(stand, held_mask, pace, state);
       state.is_gathered = false;
     }
-    if (follows) follow(stand, braking, pace, state);
-  } else if (!braking) {
+    if (follows) follow(stand, pace, state);
+  } else {
     gather_pulls(table, theta_rad, arm, nodes, clear, state);
   }
-  if (braking) {
-    brake(table, state);
-  } else {
-    state.brake = ChannelState{};
-    for (Index k = 0; k < n; ++k) state.rate_rad_s[k] += state.change_rad_s[k];
-  }
   ThetaVector move{};
-  for (Index k = 0; k < n; ++k) move[k] = state.rate_rad_s[k] * table.tick_s;
+  for (Index k = 0; k < n; ++k) {
+    state.rate_rad_s[k] += state.change_rad_s[k];
+    move[k] = state.rate_rad_s[k] * table.tick_s;
+  }
   return move;
 }
 

@@ -34,12 +34,6 @@ constexpr ShapePace kShapeBesideTip{1.0, 0.35, 0.1, 0.5, 2.0};  // the shape has
 // off a cable. With the pace above, long ways of the shape let cables go slack (docs/shape.md).
 constexpr ShapePace kShapeAlone{0.75, 0.15, 0.025, 0.75, 6.0};
 
-// To a stop the thetas slow down as one, about as fast as the tip does and as smoothly: shares of the theta
-// acceleration limit, and of the same per second for its change. Stops from every kind of motion keep the tensions of
-// the motion itself (tests/closed_loop/braking_test.cpp).
-constexpr double kBrakeAccel = 0.4;
-constexpr double kBrakeJerk_1_s = 3.0;
-
 // Sum over the nodes of lambda_j max(0, d_j - threshold_j) [m]: what add_nodes works on.
 double node_excess_m(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes) noexcept;
 
@@ -63,7 +57,6 @@ struct ShapeState {
   ThetaVector rate_rad_s{};    // null-space velocity
   ThetaVector change_rad_s{};  // of it in each tick until the next cycle
   ThetaVector wanted_rad_s{};  // of the last round: what the velocity follows
-  ChannelState brake{};        // [0]: the largest rate on its way to zero; at rest while the shape does not brake
   PullSum pulls{};             // of this round so far
   double weight = 0.0;         // largest of its targets
   std::uint64_t next_pull = 0;
@@ -74,11 +67,11 @@ struct ShapeState {
 };
 
 // Shape motion of one tick [rad] at theta, whose kinematics are `arm`: within joint limits, at most the pace's share of
-// the rate limit (1 % more while the null space turns), held thetas still, |J move| <= 1e-9 |move| where a cycle begins
-// and what the null space turns by in the rest of it. The velocity in
-// `state` follows what is wanted smoothly, so that a new target never jerks the arm; while braking it goes to zero.
+// the rate limit (1 % more while the null space turns), held thetas still, |J move| <= 1e-9 |move| where a cycle ends
+// but for what the null space has turned by in it. The velocity in `state` follows what is wanted smoothly, so that a
+// new target never jerks the arm.
 ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes,
-                       const KeepClearTargets& clear, std::uint32_t held_mask, bool braking, const ShapePace& pace,
+                       const KeepClearTargets& clear, std::uint32_t held_mask, const ShapePace& pace,
                        const ThetaVector& theta_rad, ShapeState& state) noexcept;
 
 }  // namespace liana::cable
