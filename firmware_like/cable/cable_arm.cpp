@@ -127,6 +127,7 @@ void CableArm::start_ramp(const DriveCommands& sent) noexcept {
 }
 
 // What is in force goes evenly to where the plan will be when the next one is made: it never jumps, and does not lag.
+// Near the floor it goes no lower than the plan itself: what goes on falling seldom does.
 void CableArm::aim_tensions(const TensionPlan& plan) noexcept {
   const CableVector in_force_N = live_ ? tension_.motor_N : plan.motor_N;
   const ThetaVector in_force_Nm = live_ ? tension_.load_Nm : plan.load_Nm;
@@ -136,7 +137,8 @@ void CableArm::aim_tensions(const TensionPlan& plan) noexcept {
   planned_Nm_ = plan.load_Nm;
   for (Index c = 0; c < cables(); ++c) {
     const double ahead_N = smaller(table_.tension.ceiling_free_N, 2.0 * plan.motor_N[c] - planned_N_[c]);
-    const double next_N = larger(table_.tension.floor_motor_N, ahead_N);
+    const double low_N = smaller(plan.motor_N[c], table_.tension.floor_motor_N + kAheadOver_N * table_.tension.scale());
+    const double next_N = larger(larger(table_.tension.floor_motor_N, low_N), ahead_N);
     tension_change_N_[c] = (next_N - in_force_N[c]) / kPlanTicks;
   }
   planned_N_ = plan.motor_N;
