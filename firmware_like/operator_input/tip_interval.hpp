@@ -38,4 +38,17 @@ inline void slow_filter(const Pose& before, double share, TipFilterState& filter
   slow_channel(share, filter.angular);
 }
 
+// Takes back all but a share of how the tick changed the velocities of `before`.
+inline void go_between(const TipFilterState& before, double share, double tick_s, TipFilterState& filter) noexcept {
+  const auto between = [share](const ChannelState& from, ChannelState& to) {
+    to.velocity = add(from.velocity, scale(subtract(to.velocity, from.velocity), share));
+    to.acceleration = scale(to.acceleration, share);
+  };
+  between(before.linear, filter.linear);
+  between(before.angular, filter.angular);
+  filter.pose.position_m = add(before.pose.position_m, scale(filter.linear.velocity, tick_s));
+  filter.pose.quaternion =
+      normalize(multiply(quaternion_of(scale(filter.angular.velocity, tick_s)), before.pose.quaternion));
+}
+
 }  // namespace liana

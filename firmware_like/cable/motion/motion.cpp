@@ -82,6 +82,31 @@ void slow_down(const RobotTable& table, double share, const Pose& target_before,
   }
 }
 
+// What would brake the arm harder than there is room for goes between what is asked for and on as it goes, the target
+// as the joints.
+void stay_in_room(const RobotTable& table, const TipFilterState& before, const ThetaVector& ik_before,
+                  const FollowStep& step, MotionState& state) noexcept {
+  const Index thetas = static_cast<Index>(table.theta_count());
+  ThetaVector change_rad{}, accel_rad_s2{};
+  for (Index k = 0; k < thetas; ++k) {
+    change_rad[k] = state.ik_rad[k] - ik_before[k] - state.limiter.rate_rad_s[k] * table.tick_s;
+    accel_rad_s2[k] = change_rad[k] / (table.tick_s * table.tick_s);
+  }
+  const double taken = room_taken(table, accel_rad_s2, state.governor);
+  if (!(taken > 1.0)) return;
+  const double share = 1.0 / taken;
+  for (Index k = 0; k < thetas; ++k) {
+    const double step_rad = state.limiter.rate_rad_s[k] * table.tick_s + share * change_rad[k];
+    state.ik_rad[k] = ik_before[k] + step_rad;
+    if (((state.held_mask >> k) & 1u) == 0) continue;
+    state.held[k].value_rad = state.ik_rad[k];
+    state.held[k].channel.velocity[0] = step_rad / table.tick_s;
+    if (state.ik_rad[k] != state.to.held_rad[k]) state.held_at_target = false;
+  }
+  if (step.left2 < kBehind * kBehind) go_between(before, share, table.tick_s, state.filter);
+  state.limits |= kLimitThetaAccel;
+}
+
 // A shape that is fast already keeps the pace beside the tip until it has slowed down, or it would shoot past.
 const ShapePace& shape_pace(const RobotTable& table, const MotionState& state) noexcept {
   if (!state.held_at_target || !at_rest(state.filter)) return kShapeBesideTip;
@@ -128,7 +153,7 @@ void report_tip(const RobotTable& table, const FollowStep& step, MotionState& st
 }
 
 FollowStep follow_tip(const RobotTable& table, const CableGeometry& geometry, MotionState& state) noexcept {
-  const Pose target_before = state.filter.pose;
+  const TipFilterState before = state.filter;
   const ThetaVector ik_before = state.ik_rad;
   const TipFilterConfig config = tip_filter_config(table, state.to.tip_speed_m_s, state.governor);
   filter_tip(config, interpolated_target(table, state), state.filter);
@@ -142,7 +167,8 @@ FollowStep follow_tip(const RobotTable& table, const CableGeometry& geometry, Mo
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) step[k] = state.ik_rad[k] - ik_before[k];
   const StepShare allowed = allowed_share(table, geometry, step, state.governor, state.limiter);
   state.limits |= allowed.limits;
-  if (allowed.share < 1.0) slow_down(table, allowed.share, target_before, ik_before, ik_step, state);
+  if (allowed.share < 1.0) slow_down(table, allowed.share, before.pose, ik_before, ik_step, state);
+  stay_in_room(table, before, ik_before, ik_step, state);
   return ik_step;
 }
 
