@@ -64,7 +64,7 @@ Shifts shifts_for(const AnchoredVector& t, const AnchoredVector& null, const dou
     s.wanted = smooth_maximum(s.wanted, to_floor + margin_N * per_N, width_N);
     s.least = smooth_maximum(s.least, to_floor, width_N);
     const double ceiling_N = smaller(kLoadCeilingShare * limits.ceiling_free_N,
-                                     kCeilingShare * limits.ceiling_free_N + std::fabs(pull_N[i]));
+                                     kCeilingShare * limits.ceiling_free_N + kLoadLift * std::fabs(pull_N[i]));
     s.most = -smooth_maximum(-s.most, (t[i] - ceiling_N) * per_N, width_N);
   }
   return s;

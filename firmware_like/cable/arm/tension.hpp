@@ -22,8 +22,10 @@ constexpr double kFloorMargin_N = 22.0;
 constexpr double kMarginFriction =
     0.08;  // above this mu the margin shrinks with 1 / mu: friction spreads tensions, and less fits under the ceiling
 // Of the ceiling, up to which that margin may raise tensions: with 0.7 a cable came down to 12.8 N in a crossing, and
-// with 0.92 the friction of worn cables took one off. What a load adds comes on top, up to the second share.
+// with 0.92 the friction of worn cables took one off. What a load adds to one cable and takes off another comes on top,
+// so that the lowest stays where it is, up to the second share.
 constexpr double kCeilingShare = 0.8;
+constexpr double kLoadLift = 2.0;
 constexpr double kLoadCeilingShare = 0.95;
 
 struct TensionPlan {
