@@ -241,8 +241,7 @@ std::optional<cable::Setpoint> CableArbiter::steered_setpoint(const cable::Outpu
   led_from_ = now.tip_command;
   led_to_ = led;
   ease_ = fixture::ease(table_, now.theta_command_rad, held, led);
-  if (refusal_wait_.speed_share() < ease_.share)
-    ease_ = {refusal_wait_.speed_share(), fixture::EaseCause::kRefused};
+  if (refusal_wait_.speed_share() < ease_.share) ease_ = {refusal_wait_.speed_share(), fixture::EaseCause::kRefused};
   ask_speed();
   return moves_.steer(now, led);
 }

@@ -51,7 +51,9 @@ class RefusalWait {
     const Vec3 shift_m = subtract(goal.position_m, tip.position_m);
     return (shifts && is_along(shift_m, shift_m_)) || (turns && is_along(turn_between(tip, goal), turn_rad_));
   }
-  static bool is_along(const Vec3& way, const Vec3& refused) { return dot(way, refused) > kSame * dot(refused, refused); }
+  static bool is_along(const Vec3& way, const Vec3& refused) {
+    return dot(way, refused) > kSame * dot(refused, refused);
+  }
 
   Vec3 shift_m_{}, turn_rad_{};
   double left_s_ = 0.0, wait_s_ = kFirst_s, share_ = 1.0, passed_s_ = 0.0;

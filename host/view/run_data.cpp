@@ -92,22 +92,35 @@ Json columns_json(const std::vector<Column>& columns) {
   return list;
 }
 
-// Of facts the first whole, of later ones the members that are others than before.
-Json facts_json(const std::vector<std::pair<std::uint64_t, Json>>& facts) {
+std::uint64_t ticks_in_a_second(const RunData& run) {
+  return static_cast<std::uint64_t>(std::lround(1.0 / run.period_s));
+}
+
+// What `now` has otherwise than `before`; null where a member is gone.
+Json changed(const Json& before, const Json& now) {
+  Json out = Json::object();
+  for (const auto& [name, value] : now.items()) {
+    if (before.member_or_null(name) != value) out[name] = value;
+  }
+  for (const auto& [name, value] : before.items()) {
+    if (!now.contains(name)) out[name] = nullptr;
+  }
+  return out;
+}
+
+// Of facts the first whole, of later ones the members that are others than before. Limits act and end many times a
+// second: where nothing else has changed they are told once in one.
+Json facts_json(const RunData& run) {
   Json list = Json::array();
-  const Json* before = nullptr;
-  for (const auto& [tick, now] : facts) {
-    Json changed = Json::object();
-    for (const auto& [name, value] : now.items()) {
-      if (before == nullptr || before->member_or_null(name) != value) changed[name] = value;
-    }
-    if (before != nullptr) {
-      for (const auto& [name, value] : before->items()) {
-        if (!now.contains(name)) changed[name] = nullptr;
-      }
-    }
-    list.push_back({{"tick", tick}, {"state", changed}});
-    before = &now;
+  Json before = Json::object();
+  std::uint64_t next = 0;
+  for (const auto& [tick, now] : run.facts) {
+    const Json difference = changed(before, now);
+    const bool limits_alone = difference.size() == 1 && difference.contains("limits");
+    if (limits_alone && tick < next) continue;
+    next = tick + ticks_in_a_second(run);
+    list.push_back({{"tick", tick}, {"state", difference}});
+    before = now;
   }
   return list;
 }
@@ -115,7 +128,7 @@ Json facts_json(const std::vector<std::pair<std::uint64_t, Json>>& facts) {
 // All that were refused, and of the others one a second.
 Json commands_json(const RunData& run) {
   Json list = Json::array();
-  const auto second = static_cast<std::uint64_t>(std::lround(1.0 / run.period_s));
+  const std::uint64_t second = ticks_in_a_second(run);
   std::uint64_t next = 0;
   for (const report::CommandLife& life : run.commands) {
     if (!life.is_refused() && life.tick < next) continue;
@@ -166,7 +179,7 @@ std::string page_of(const RunData& run, const std::string& page) {
                   {"steps", steps_json(run.events)},
                   {"events", run.events},
                   {"commands", commands_json(run)},
-                  {"facts", facts_json(run.facts)},
+                  {"facts", facts_json(run)},
                   {"telemetry",
                    {{"rows", grid.rows},
                     {"ticks", {{"first", grid.first}, {"every", grid.every}}},

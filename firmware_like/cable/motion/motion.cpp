@@ -18,8 +18,8 @@ constexpr double kFollowRates = 10.0;                // times a joint's rate: fu
 // To a stop the thetas slow down as one, about as fast as the tip does and as smoothly: shares of the theta
 // acceleration limit, of the same per second for its change, and of the room for acceleration. Stops from every kind of
 // motion keep the tensions of the motion itself (tests/closed_loop/braking_test.cpp).
-constexpr double kBrakeAccel = 0.4;
-constexpr double kBrakeJerk_1_s = 3.0;
+constexpr double kBrakeAccel = 0.8;
+constexpr double kBrakeJerk_1_s = 8.0;
 constexpr double kBrakeRoom = 0.8;
 constexpr double kBehind =
     1e-4;  // m and rad: from here the target does not wait, or a blocked arm could not be led away
@@ -200,7 +200,7 @@ void brake(const RobotTable& table, MotionState& state) noexcept {
       smaller(kBrakeAccel * own, smaller(per_m * limits.tip_accel_m_s2, per_rad * limits.tip_angular_accel_rad_s2)),
       smaller(kBrakeJerk_1_s * own, smaller(per_m * limits.tip_jerk_m_s3, per_rad * limits.tip_angular_jerk_rad_s3))};
   state.brake.velocity[0] = fastest;
-  state.brake.acceleration[0] = smaller(state.brake.acceleration[0], bounds.accel);
+  state.brake.acceleration[0] = clamp(state.brake.acceleration[0], -bounds.accel, 0.0);
   brake_channel(bounds, table.tick_s, state.brake);
   const double share = fastest > 0.0 ? larger(0.0, state.brake.velocity[0]) / fastest : 0.0;
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {

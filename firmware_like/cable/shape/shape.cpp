@@ -157,10 +157,11 @@ ThetaVector followed_change(const RobotTable& table, const ShapePace& pace, cons
 }
 
 // A cycle begins: over it the velocity goes to one in the null space of now, which may have turned far where the tip
-// loses a direction; no limit is passed in it.
-void follow(const Stand& stand, const ShapePace& pace, ShapeState& state) noexcept {
+// loses a direction; no limit is passed in it. What is held anew (`at_once`) stands still from now on.
+void follow(const Stand& stand, bool at_once, const ShapePace& pace, ShapeState& state) noexcept {
   const Index n = static_cast<Index>(stand.space.theta_count);
   NullPoint rate;
+  if (at_once) state.rate_rad_s = combine(stand.space, coordinates(stand.space, state.rate_rad_s));
   ThetaVector change = followed_change(stand.table, pace, state);
   for (Index k = 0; k < n; ++k) change[k] += state.rate_rad_s[k];
   rate.z = coordinates(stand.space, change);
@@ -209,7 +210,8 @@ ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const 
                        const KeepClearTargets& clear, std::uint32_t held_mask, const ShapePace& pace,
                        const ThetaVector& theta_rad, ShapeState& state) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
-  const bool follows = state.tick == kFollowTick || held_mask != state.held_mask;
+  const bool holds_anew = held_mask != state.held_mask;
+  const bool follows = state.tick == kFollowTick || holds_anew;
   const bool solves = state.tick == kSolveTick && state.is_gathered;
   state.held_mask = held_mask;
   if (follows || solves) {
@@ -219,7 +221,7 @@ ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const 
       state.wanted_rad_s = wanted_rate(stand, held_mask, pace, state);
       state.is_gathered = false;
     }
-    if (follows) follow(stand, pace, state);
+    if (follows) follow(stand, holds_anew, pace, state);
   } else {
     gather_pulls(table, theta_rad, arm, nodes, clear, state);
   }
