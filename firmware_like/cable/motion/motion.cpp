@@ -14,7 +14,7 @@ using Index = std::size_t;
 
 constexpr double kHeldShare = 0.4;                   // of the theta limits that held variables use on their way
 constexpr Leash kLeash{0.001, 0.004, 0.001, 0.008};  // the target waits for an arm that does not come after it
-constexpr double kFollowRates = 10.0;                // times a joint's rate: further the IK does not go in a tick
+constexpr double kFollowRates = 5.0;                // times a joint's rate: further the IK does not go in a tick
 // To a stop the thetas slow down as one, about as fast as the tip does and as smoothly: shares of the theta
 // acceleration limit, of the same per second for its change, and of the room for acceleration. Stops from every kind of
 // motion keep the tensions of the motion itself (tests/closed_loop/braking_test.cpp).
@@ -320,12 +320,15 @@ void advance_motion(const RobotTable& table, const CableGeometry& geometry, bool
   take_kinematics(table, state);
   if (leads_tip) report_tip(table, ik_step, state);
   if (!braking) note_brake(table, state);
-  if (!leads_tip) state.filter.pose = state.arm.tip_in_base;
+  if (!leads_tip) {
+    state.filter = TipFilterState{};
+    state.filter.pose = state.arm.tip_in_base;
+  }
   state.shape.tick = state.shape.tick + 1 < kShapeTicks ? state.shape.tick + 1 : 0;
 }
 
 bool at_rest(const RobotTable& table, const MotionState& state) noexcept {
-  const bool filter_rests = !is_tip(state.to) || state.braking || at_rest(state.filter);
+  const bool filter_rests = !is_tip(state.to) || at_rest(state.filter);
   return filter_rests && largest_rate(table, state.limiter) < 1e-6;
 }
 

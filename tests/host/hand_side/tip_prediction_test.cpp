@@ -47,7 +47,7 @@ TEST(TipPrediction, IsTheArmsOwnWayWhereNoJointSlowsItDown) {
       moved_m = std::max(moved_m, norm(subtract(arm.tip().position_m, start.position_m)));
     }
     EXPECT_GT(moved_m, 0.02);
-    EXPECT_LT(worst_m, 0.001);
+    EXPECT_LT(worst_m, 0.0015);  // the arm's stop is that of its joints
     EXPECT_FALSE(prediction.engaged());
   }
 }
