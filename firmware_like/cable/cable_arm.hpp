@@ -28,7 +28,7 @@ namespace liana::cable {
 constexpr double kPretensionRamp_s = 3.0;     // from the tensions found to the planned ones
 constexpr std::uint32_t kPlanTicks = 5;       // tensions are planned anew, and reached evenly until then
 constexpr std::uint32_t kPlanTick = 2;        // of them: one that has nothing to do with the shape
-constexpr double kAheadOver_N = 8.0;           // over the floor, of an arm that plans 40 N: below, nothing is foreseen
+constexpr double kAheadOver_N = 8.0;          // over the floor, of an arm that plans 40 N: below, nothing is foreseen
 constexpr double kSlackCheckShare = 0.5;      // of the tension floor: every cable must reach it before the arm may move
 constexpr std::uint32_t kHomingTicks = 25;    // the estimate has to stand still this long
 constexpr double kHomingStep_rad = 2e-4;      // largest Gauss-Newton step of a converged estimate

@@ -14,7 +14,7 @@ using Index = std::size_t;
 
 constexpr double kHeldShare = 0.4;                   // of the theta limits that held variables use on their way
 constexpr Leash kLeash{0.001, 0.004, 0.001, 0.008};  // the target waits for an arm that does not come after it
-constexpr double kFollowRates = 5.0;                // times a joint's rate: further the IK does not go in a tick
+constexpr double kFollowRates = 5.0;                 // times a joint's rate: further the IK does not go in a tick
 // To a stop the thetas slow down as one, about as fast as the tip does and as smoothly: shares of the theta
 // acceleration limit, of the same per second for its change, and of the room for acceleration. Stops from every kind of
 // motion keep the tensions of the motion itself (tests/closed_loop/braking_test.cpp).
