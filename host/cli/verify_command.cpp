@@ -67,8 +67,7 @@ verify::Verdict verdict_of(const VerifyOptions& options, const config::RobotConf
   const verify::MotionRules rules{
       robot.table, scene, {scene.slit, robot.table.limits.tip_speed_slit_m_s}, robot.machine, robot.module_radius_m};
   verify::TooNear too_near;
-  verify::TooSlack too_slack;
-  return verify::judge_simulated(rules, way, true, simulation.run(start, way), too_near, too_slack);
+  return verify::judge_simulated(rules, way, true, simulation.run(start, way), too_near);
 }
 
 // No buses say how long a command interval is, and nothing but how finely the motion is looked at hangs on it.

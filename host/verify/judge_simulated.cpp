@@ -24,8 +24,8 @@ std::string numbered(const char* what, Index index) { return what + std::string(
 // Checks of every moment, in the order of time; remembers when and where the first one failed.
 class MomentJudge {
  public:
-  MomentJudge(const MotionRules& rules, TooSlack& too_slack, SimulationVerdict& verdict)
-      : table_(rules.table), zone_(rules.zone), too_slack_(too_slack), verdict_(verdict), judge_(verdict) {}
+  MomentJudge(const MotionRules& rules, SimulationVerdict& verdict)
+      : table_(rules.table), zone_(rules.zone), verdict_(verdict), judge_(verdict) {}
 
   void told(const simulate::JointSequence& sequence) {
     for (Index row = 0; row < sequence.rows_rad.size(); ++row) {
@@ -55,7 +55,6 @@ class MomentJudge {
   }
 
   void simulated(const simulate::JointSequence& sequence, const simulate::Motion& motion) {
-    if (!motion.moments.empty()) too_slack_.stand(left_N(motion.moments.front(), motion.least_passed_share));
     for (const Moment& moment : motion.moments) {
       joints(sequence, moment, motion.friction_band_rad);
       nodes(moment);
@@ -100,37 +99,26 @@ class MomentJudge {
     note("tip", kNoIndex, moment.time_s);
   }
 
-  double unsure_N() const { return kSwingTension_N * table_.tension.scale(); }
-
-  // What cables have at their far end over floor_anywhere_N, less what the simulation may be off by.
-  cable::CableVector left_N(const Moment& moment, const cable::CableVector& passed_share) const {
-    cable::CableVector out{};
-    for (Index c = 0; c < static_cast<Index>(table_.cable_count()); ++c)
-      out[c] = (moment.tension_N[c] - unsure_N()) * passed_share[c] - table_.tension.floor_anywhere_N;
-    return out;
-  }
-
   void cables(const Moment& moment, const cable::CableVector& passed_share) {
     const cable::TensionLimits& limits = table_.tension;
-    const cable::CableVector left = left_N(moment, passed_share);
+    const double unsure_N = kSwingTension_N * limits.scale();
     for (Index c = 0; c < static_cast<Index>(table_.cable_count()); ++c) {
       const double tension_N = moment.tension_N[c];
+      const double left_N = (tension_N - unsure_N) * passed_share[c] - limits.floor_anywhere_N;
       judge_.check(Refusal::kSwingTension, "tension with inertia of cable", kNewtons, static_cast<int>(c),
-                   tension_N + unsure_N(), limits.alarm_N);
-      const double least_N = too_slack_.least_left_N(c, limits.scale());
-      const bool is_taut = left[c] >= least_N && tension_N * passed_share[c] >= limits.floor_anywhere_N;
-      if (!is_taut && verdict_.passed())
-        judge_.refuse(Refusal::kSwingTension, slack_text(c, tension_N, passed_share[c]));
-      least(verdict_.margins.tension_N, std::fmin(limits.alarm_N - tension_N - unsure_N(), left[c]));
+                   tension_N + unsure_N, limits.alarm_N);
+      if (left_N < 0.0 && verdict_.passed())
+        judge_.refuse(Refusal::kSwingTension,
+                      slack_text(c, tension_N, limits.floor_anywhere_N / passed_share[c] + unsure_N));
+      least(verdict_.margins.tension_N, std::fmin(limits.alarm_N - tension_N - unsure_N, left_N));
       note("cable", c, moment.time_s);
     }
   }
 
-  std::string slack_text(Index c, double tension_N, double passed_share) const {
-    const double asked_N = table_.tension.floor_anywhere_N / passed_share + unsure_N();
+  static std::string slack_text(Index c, double tension_N, double asked_N) {
     char text[128];
     std::snprintf(text, sizeof text,
-                  "slack with inertia: cable %d would come down to %.1f N at the motor, %.1f N are asked for",
+                  "slack with inertia: cable %d would have %.1f N at the motor, %.1f N are asked for",
                   static_cast<int>(c) + 1, tension_N, asked_N);
     return text;
   }
@@ -144,7 +132,6 @@ class MomentJudge {
 
   const cable::RobotTable& table_;
   const arbiter::SpeedZone& zone_;
-  TooSlack& too_slack_;
   SimulationVerdict& verdict_;
   Judge judge_;
 };
@@ -174,19 +161,8 @@ void judge_walls(const MotionRules& rules, const config::SceneFixture& walls, co
 
 }  // namespace
 
-void TooSlack::stand(const cable::CableVector& left_N) {
-  for (Index c = 0; c < left_N.size(); ++c) {
-    begins_N_[c] = std::fmin(0.0, left_N[c]);
-    most_N_[c] = most_N_[c] < 0.0 ? std::fmin(0.0, std::fmax(most_N_[c], left_N[c])) : begins_N_[c];
-  }
-}
-
-double TooSlack::least_left_N(std::size_t c, double scale) const {
-  return most_N_[c] < 0.0 ? std::fmin(begins_N_[c], most_N_[c] - kGivenAway_N * scale) : 0.0;
-}
-
 SimulationVerdict judge_simulated(const MotionRules& rules, const simulate::JointSequence& sequence, bool comes_to_rest,
-                                  const simulate::Motion& motion, TooNear& too_near, TooSlack& too_slack) {
+                                  const simulate::Motion& motion, TooNear& too_near) {
   SimulationVerdict verdict;
   if (!motion.solved) {
     refuse(verdict, Refusal::kNotFinite, "the simulated arm's equations have no solution", {});
@@ -198,7 +174,7 @@ SimulationVerdict judge_simulated(const MotionRules& rules, const simulate::Join
   for (const config::SceneFixture& fixture : rules.scene.fixtures)
     if (verdict.passed()) judge_walls(rules, fixture, motion, verdict);
   if (verdict.passed()) verdict.first = {};
-  MomentJudge moments(rules, too_slack, verdict);
+  MomentJudge moments(rules, verdict);
   moments.told(sequence);
   moments.told_tip(motion, sequence.interval_s);
   moments.simulated(sequence, motion);

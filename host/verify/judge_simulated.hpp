@@ -24,24 +24,9 @@ struct MotionRules {
   Pose drawing_in_base{};     // where the scene stands
 };
 
-// Cables that come nearer to slack already than commands may bring them, as where two angles stand at their limits.
-// Motions may lead them out, and else to no more than 1 N less than the most they have had since (of an arm that plans
-// 40 N): one after the other they bring them no nearer. Never to less than floor_anywhere_N, simulated.
-class TooSlack {
- public:
-  // The next motion begins with so much left [N], a number for each cable.
-  void stand(const cable::CableVector& left_N);
-  // So much has to be left of cable c.
-  double least_left_N(std::size_t c, double scale) const;
-
- private:
-  static constexpr double kGivenAway_N = 1.0;
-  cable::CableVector begins_N_{}, most_N_{};  // left as the motion begins, and at most since; 0: it is taut enough
-};
-
-// `comes_to_rest`: the sequence ends with the arm told to stand. `too_near` and `too_slack`: of all motions of
-// this arm in turn. Cost: about 300 instructions a moment.
+// `comes_to_rest`: the sequence ends with the arm told to stand. `too_near`: of all motions of this arm in turn. Cost:
+// about 300 instructions a moment.
 SimulationVerdict judge_simulated(const MotionRules& rules, const simulate::JointSequence& sequence, bool comes_to_rest,
-                                  const simulate::Motion& motion, TooNear& too_near, TooSlack& too_slack);
+                                  const simulate::Motion& motion, TooNear& too_near);
 
 }  // namespace liana::verify

@@ -81,10 +81,7 @@ void SimulationEnd<CableArm>::watch(const TwinImage<CableArm>& image) {
   const cable::Outputs& now = image.last_outputs;
   const double since_s = static_cast<double>(image.next_tick - watched_tick_) * rules_.table.tick_s;
   if (since_s <= 0.0) return;
-  if (now.state != OperatingState::kEnabled) {
-    too_near_.forget();
-    too_slack_ = {};
-  }
+  if (now.state != OperatingState::kEnabled) too_near_.forget();
   if (now.homed == 0) observer_.forget();
   observer_.watch(now.theta_measured_rad, now.tension_measured_N, told_now(rules_.table, now), since_s);
   watched_tick_ = image.next_tick;
@@ -112,7 +109,7 @@ SimulationVerdict SimulationEnd<CableArm>::verdict(double patience_s) {
   const simulate::Motion* motion = begun_ ? worker_.motion(patience_s) : nullptr;
   SimulationVerdict verdict;
   if (motion != nullptr) {
-    verdict = judge_simulated(rules_, sequence_, comes_to_rest_, *motion, too_near_, too_slack_);
+    verdict = judge_simulated(rules_, sequence_, comes_to_rest_, *motion, too_near_);
   } else {
     verdict.code = Refusal::kNoVerdict;
     verdict.text = "the simulation had no verdict before the command's interval";

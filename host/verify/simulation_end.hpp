@@ -53,7 +53,6 @@ class SimulationEnd<cable::CableArm> {
   cable::ThetaVector theta_off_rad_{};  // believed angles less measured ones
   simulate::JointSequence sequence_;
   TooNear too_near_;
-  TooSlack too_slack_;
   std::uint64_t number_ = 0;  // of the candidate
   bool comes_to_rest_ = false;
   bool begun_ = false;

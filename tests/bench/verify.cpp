@@ -84,7 +84,7 @@ class Verifier {
     meter_.once("simulate", name, [&] {
       verify::read_sequence(image_, candidate, prediction_, sequence_);
       return verify::judge_simulated(rules_, sequence_, prediction_.comes_to_rest, simulation_.run(start_, sequence_),
-                                     too_near_, too_slack_)
+                                     too_near_)
           .share;
     });
   }
@@ -127,7 +127,6 @@ class Verifier {
   simulate::Simulation simulation_{{robot_, 0.03, 0.4, 0.2}, scene_, verify::kEnough_m};
   simulate::StartState start_;
   verify::TooNear too_near_;
-  verify::TooSlack too_slack_;
   simulate::JointSequence sequence_;
   std::string text_;
 };

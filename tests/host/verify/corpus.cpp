@@ -339,8 +339,7 @@ SimulationVerdict verdict_of(const Command& command) {
   simulate::Simulation simulation({command.table, command.link_radius_m, 0.4, 0.2}, command.scene);
   const MotionRules rules{command.table, command.scene, {}, {}};
   TooNear too_near;
-  TooSlack too_slack;
-  return judge_simulated(rules, way, true, simulation.run(start, way), too_near, too_slack);
+  return judge_simulated(rules, way, true, simulation.run(start, way), too_near);
 }
 
 }  // namespace liana::verify::corpus

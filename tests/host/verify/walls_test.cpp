@@ -31,12 +31,11 @@ class ATipBetweenWalls : public testing::Test {
     }
     motion.least_passed_share.fill(1.0);
     const simulate::JointSequence told{{0.02, {{}}}, {}, {}};
-    return judge_simulated(rules_, told, true, motion, too_near_, too_slack_);
+    return judge_simulated(rules_, told, true, motion, too_near_);
   }
 
   MotionRules rules_;
   TooNear too_near_;
-  TooSlack too_slack_;
 };
 
 TEST_F(ATipBetweenWalls, ThatWouldPassOneIsRefusedByTheFixturesNameAndWhen) {
