@@ -125,14 +125,14 @@ Json facts_json(const RunData& run) {
   return list;
 }
 
-// All that were refused, and of the others one a second.
+// All that were refused, and of the others one in two seconds.
 Json commands_json(const RunData& run) {
   Json list = Json::array();
   const std::uint64_t second = ticks_in_a_second(run);
   std::uint64_t next = 0;
   for (const report::CommandLife& life : run.commands) {
     if (!life.is_refused() && life.tick < next) continue;
-    if (!life.is_refused()) next = life.tick + second;
+    if (!life.is_refused()) next = life.tick + 2 * second;
     list.push_back(report::command_json(life));
   }
   return list;
