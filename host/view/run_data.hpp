@@ -28,8 +28,8 @@ struct RunData {
 };
 
 // The page: `page` with its line `<!-- liana-run -->` replaced by the run. Numbers are shown 25 times a second of arm
-// time, fewer in a run of more than 20 minutes; of released commands one in two seconds. Throws std::runtime_error when the
-// page has no such line.
+// time, fewer in a run of more than 20 minutes; of released commands one in two seconds. Throws std::runtime_error when
+// the page has no such line.
 std::string page_of(const RunData& run, const std::string& page);
 
 }  // namespace liana::view
