@@ -73,7 +73,7 @@ class DeviceSteer {
   // Ends the interval; a goal while engaged. `now` gives the anchors on engaging, `interval_s` the time since the last
   // call.
   std::optional<SteerGoal> finish_interval(const cable::Outputs& now, double interval_s);
-  // A refused command: engages again at once, with new anchors.
+  // A planned move is under way: engages again where it ends, with new anchors.
   void drop_anchor() { engaged_ = false; }
   // Handles are for free space: in the slit they are let go.
   void leave_slit() { disengage("in_slit"); }

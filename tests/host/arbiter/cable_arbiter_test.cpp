@@ -293,7 +293,6 @@ TEST_F(Arbitration, ARefusalEndsThePlannedMove) {
   EXPECT_FALSE(next());
 }
 
-// req:C5
 TEST_F(Arbitration, AHandThatPushesOnAfterARefusalWaitsAndKeepsItsPlaceBesideTheTip) {
   use_hand();
   steered(0.2);
@@ -310,7 +309,6 @@ TEST_F(Arbitration, AHandThatPushesOnAfterARefusalWaitsAndKeepsItsPlaceBesideThe
   EXPECT_EQ(waited, (std::array<int, 3>{9, 19, 39})) << "twice as long each time";
 }
 
-// req:C5
 TEST_F(Arbitration, AHandThatTurnsBackAfterARefusalIsFollowedAtOnce) {
   use_hand();
   steered(0.2);
