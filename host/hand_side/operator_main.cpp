@@ -120,15 +120,18 @@ void act(Run& run, const Json& state) {
   }
 }
 
-// One message in, the answers out; false when lianad stops.
+// One message in, the answers out; false when lianad stops. The devices leave before the last `done`: a run's events
+// do not depend on how quickly this process ends.
 bool answer(Run& run, const Json& message, bool lockstep) {
   const std::string op = message.value("op", "");
   if (op == "camera") run.pictures.push_back(message);
   if (op == "error") std::fprintf(stderr, "liana-operator: refused: %s\n", message.value("message", "").c_str());
   if (op != "state") return true;
   act(run, message);
+  const bool stopping = message.value("stopping", false);
+  if (stopping) run.devices.leave();
   if (lockstep) run.client.send({{"op", "done"}, {"tick", message.at("tick")}});
-  return !message.value("stopping", false);
+  return !stopping;
 }
 
 void write_figures(const std::string& path, const Json& figures) {

@@ -53,4 +53,8 @@ void OwnDevices::receive(std::int64_t now_us) {
   }
 }
 
+void OwnDevices::leave() {
+  for (device::Driver* driver : {&handles_, &controller_}) driver->leave();
+}
+
 }  // namespace liana::operator_side

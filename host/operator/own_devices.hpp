@@ -24,6 +24,8 @@ class OwnDevices {
   void send(device::Kind kind, const std::vector<device::Sample>& samples);
   // Takes what lianad tells, at `now_us`; throws std::runtime_error when it has refused one of them.
   void receive(std::int64_t now_us);
+  // Tells lianad that both leave.
+  void leave();
   // What lianad told the hand controller last; nothing before the first, or when that is too old to be felt.
   const liana_state* controller_state(std::int64_t now_us) const { return controller_.state(now_us); }
 
