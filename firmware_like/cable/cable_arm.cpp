@@ -112,6 +112,7 @@ void CableArm::stop_planning() noexcept {
   ramp_ = 0.0;
   damping_ = DampingState{};
   lift_N_ = SegmentVector{};
+  taut_N_ = CableVector{};
   dither_ = DitherState{};
   let_go_ = LetGoState{};
   lets_out_ = false;
@@ -166,7 +167,10 @@ void CableArm::govern() noexcept {
 }
 
 std::uint32_t CableArm::plan_tensions(bool plans_now, bool is_sound) noexcept {
-  if (ramp_ >= 1.0 && is_sound) keep_taut(table_, estimator_.tension_N, lift_N_);
+  if (ramp_ >= 1.0 && is_sound) {
+    keep_taut(table_, estimator_.tension_N, lift_N_);
+    wind_in(table_, estimator_.tension_N, taut_N_);
+  }
   if (is_let_go(let_go_)) {  // nothing may lag now
     tension_ = is_loose(let_go_) ? plan_without(table_, layout_, model_.geometry, ratio_, let_go_.segment)
                                  : plan_tension(table_, model_.geometry, ratio_, lift_N_);
@@ -230,7 +234,7 @@ void CableArm::dither(bool is_sound) noexcept {
   const bool may = is_sound && !motion_.braking && at_rest(table_, motion_);
   const double change = advance_dither(may ? motion_.to.dither_share : 0.0, table_.tick_s, dither_);
   for (Index c = 0; c < cables(); ++c)
-    pull_N_[c] = smaller(table_.tension.ceiling_free_N, (1.0 + change) * tension_.motor_N[c]);
+    pull_N_[c] = smaller(table_.tension.ceiling_free_N, (1.0 + change) * tension_.motor_N[c] + taut_N_[c]);
   if (dither_.share > 0.0) fade_slip(layout_, kDitherFade_1_s * dither_.share * table_.tick_s, slip_);
 }
 

@@ -115,6 +115,7 @@ class CableArm {
     v("ratio", self.ratio_);
     v("damping", self.damping_);
     v("lift_N", self.lift_N_);
+    v("taut_N", self.taut_N_);
     v("plan_rate_rad_s", self.plan_rate_rad_s_);
     v("let_go", self.let_go_);
     v("lets_out", self.lets_out_);
@@ -194,6 +195,7 @@ class CableArm {
   TensionRatio ratio_{};      // planned friction
   DampingState damping_{};
   SegmentVector lift_N_{};          // pulled tighter than planned
+  CableVector taut_N_{};            // the same of single cables
   ThetaVector plan_rate_rad_s_{};   // commanded, when tensions were planned last
   LetGoState let_go_{};             // cables of a segment that has lost one
   std::int32_t missed_ = -1;        // cable, found by watch_drive and judged by watch in the same tick; else -1

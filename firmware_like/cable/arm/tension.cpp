@@ -175,6 +175,15 @@ void keep_taut(const RobotTable& table, const CableVector& tension_N, SegmentVec
   }
 }
 
+void wind_in(const RobotTable& table, const CableVector& tension_N, CableVector& taut_N) noexcept {
+  const double limit_N = kTautLimit_N * table.tension.scale();
+  for (Index c = 0; c < static_cast<Index>(table.cable_count()); ++c) {
+    const double missing_N = larger(0.0, table.tension.floor_motor_N - tension_N[c]);
+    const double rate_N_s = kTautRate_1_s * missing_N - taut_N[c] / kTautLeak_s;
+    taut_N[c] = smaller(taut_N[c] + rate_N_s * table.tick_s, limit_N);
+  }
+}
+
 CableVector payout_for(const RobotTable& table, const CableLayout& layout, const CableParts& part_m,
                        const TensionRatio& ratio, const CableVector& motor_N) noexcept {
   CableVector payout{};

@@ -71,6 +71,15 @@ constexpr double kLiftLimit_N = 20.0;  // without friction
 // One tick of that lift from measured tensions at the motor, low-passed.
 void keep_taut(const RobotTable& table, const CableVector& tension_N, SegmentVector& lift_N) noexcept;
 
+// An arm that friction holds beside its command has cables that are looser than planned, whatever the segment is pulled
+// to: a single cable under the floor is wound in until it is there, slower than the arm's modes.
+constexpr double kTautRate_1_s = 3.0;
+constexpr double kTautLeak_s = 10.0;
+constexpr double kTautLimit_N = 60.0;
+
+// One tick of what each cable is pulled beyond the plan, from measured tensions at the motor, low-passed.
+void wind_in(const RobotTable& table, const CableVector& tension_N, CableVector& taut_N) noexcept;
+
 // Unstretched length from drum to anchor when the cables are pulled with motor_N: the elastic part is taken off piece
 // by piece.
 CableVector payout_for(const RobotTable& table, const CableLayout& layout, const CableParts& part_m,
