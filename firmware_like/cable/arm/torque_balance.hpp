@@ -46,7 +46,7 @@ struct TorqueBalance {
   std::array<CableVector, kMaxTheta> pull_Nm{};    // of every cable about each angle
   std::array<SegmentVector, kMaxCables> own{};     // variance of friction's exponent in the middle of each segment
   std::array<SegmentVector, kMaxCables> shared{};  // of it, what later segments share
-  ThetaVector rate_rad_s{};                        // commanded, when the last round ended
+  ThetaVector least_rad_s{}, most_rad_s{};         // rates commanded in this round, and when the last one ended
   double stir = 0.0;                               // acceleration of all segments, each times its `inertia`; fades
 };
 
