@@ -21,10 +21,9 @@ First at_itself(const simulate::Nearest& nearest, const LinkName& link_name) {
 }
 
 // An arm that is too near already may go away; the way back out may need it to go along beside a body first.
-bool leads_away(const simulate::Distances& distances, const TooNear& too_near) {
-  const double start_m = distances.scene_at_start_m;
-  const std::optional<double> farthest_m = too_near.farthest_m();
-  const double end_m = farthest_m ? std::min(start_m, *farthest_m - kGivenAway_m) : start_m;
+bool leads_away(const simulate::Distances& distances, double travel_m, const TooNear& too_near) {
+  const double start_m = distances.scene_at_start_m, kept_m = too_near.farthest_m().value_or(start_m) - kGivenAway_m;
+  const double end_m = start_m < kept_m ? start_m + kAwayShare * travel_m : kept_m;
   return distances.scene_at_end_m >= end_m && distances.scene.distance_m >= start_m - kGivenAway_m;
 }
 
@@ -36,11 +35,10 @@ const simulate::BodyBeside* entered(const simulate::Distances& distances, double
   return nullptr;
 }
 
-// An arm that touches itself already may unfold, and no more than rounding the other way.
+// An arm that touches itself, or all but does, may unfold, and no more than rounding the other way.
 bool leads_apart(const simulate::Distances& distances) {
   const double start_m = distances.self_at_start_m;
-  return start_m <= 0.0 && distances.self_at_end_m >= start_m - kRounded_m &&
-         distances.self.distance_m >= start_m - kGivenAway_m;
+  return distances.self_at_end_m >= start_m - kRounded_m && distances.self.distance_m >= start_m - kGivenAway_m;
 }
 
 }  // namespace
@@ -61,7 +59,7 @@ void refuse(SimulationVerdict& verdict, Refusal code, const std::string& text, c
 
 // Before anything else: a contact is what a command is stopped for.
 void judge_distances(const config::SceneConfig& scene, const simulate::Distances& distances, const LinkName& link_name,
-                     TooNear& too_near, SimulationVerdict& verdict) {
+                     double travel_m, TooNear& too_near, SimulationVerdict& verdict) {
   const config::SceneMargins& levels = scene.margins;
   const double least_m = distances.scene.distance_m, start_m = distances.scene_at_start_m;
   const double claimed_m = least_m - levels.prediction_m;
@@ -78,7 +76,7 @@ void judge_distances(const config::SceneConfig& scene, const simulate::Distances
                " have to be left; it stands " + in_millimetres(stands_m) + " off",
            where);
   };
-  if (!std::isfinite(least_m) || (claimed_m < levels.refuse_m && !leads_away(distances, too_near))) {
+  if (!std::isfinite(least_m) || (claimed_m < levels.refuse_m && !leads_away(distances, travel_m, too_near))) {
     refuse_contact(least_m, start_m, first);
   } else if (const simulate::BodyBeside* body = entered(distances, levels.prediction_m)) {
     refuse_contact(body->nearest.distance_m, body->at_start_m, at_scene(scene, body->nearest, link_name));

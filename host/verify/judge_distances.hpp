@@ -14,8 +14,12 @@ namespace liana::verify {
 // What the bound between poses and the noise of a measured pose may give away.
 constexpr double kGivenAway_m = 1e-3;
 
+// Of what the arm moves, an arm that has crept nearer has to go away from the scene.
+constexpr double kAwayShare = 0.1;
+
 // How far off the scene an arm stands that is nearer than commands may leave it. Motions may lead it away, and else to
-// no nearer than 1 mm less than the farthest it has stood off since: one after the other they bring it no closer.
+// no nearer than 1 mm less than the farthest it has stood off since. What is no nearer as simulated may be nearer by
+// the simulation's error, again and again: an arm that has come nearer than that only goes away.
 class TooNear {
  public:
   // The next motion begins so far off.
@@ -35,9 +39,10 @@ using LinkName = std::function<std::string(std::int32_t)>;
 std::string plain_link_name(std::int32_t link);
 
 // Refuses contact with the scene (208) and with itself (209); sets `slowly`, margins.clearance_m and where the arm
-// comes nearest. `too_near`: of all motions of this arm in turn.
+// comes nearest. `travel_m`: the farthest that any point of the arm is moved. `too_near`: of all motions of this arm in
+// turn.
 void judge_distances(const config::SceneConfig& scene, const simulate::Distances& distances, const LinkName& link_name,
-                     TooNear& too_near, SimulationVerdict& verdict);
+                     double travel_m, TooNear& too_near, SimulationVerdict& verdict);
 
 // Of what is refused: why, and what comes first.
 void refuse(SimulationVerdict& verdict, Refusal code, const std::string& text, const First& first);

@@ -56,7 +56,7 @@ class MomentJudge {
 
   void simulated(const simulate::JointSequence& sequence, const simulate::Motion& motion) {
     for (const Moment& moment : motion.moments) {
-      joints(sequence, moment, motion.friction_band_rad);
+      joints(sequence, motion, moment);
       nodes(moment);
       cables(moment, motion.least_passed_share);
     }
@@ -74,10 +74,12 @@ class MomentJudge {
     return std::fmax(table_.segment[k / 2].theta_limit_rad, std::fabs(sequence.rows_rad.front()[k]));
   }
 
-  void joints(const simulate::JointSequence& sequence, const Moment& moment, const cable::ThetaVector& band_rad) {
+  void joints(const simulate::JointSequence& sequence, const simulate::Motion& motion, const Moment& moment) {
     for (Index k = 0; k < thetas(); ++k) {
+      const double stands_rad = std::fabs(motion.moments.front().theta_rad[k]);
       judge_.check(Refusal::kJointAngle, "simulated theta", kDegrees, static_cast<int>(k),
-                   std::fabs(moment.theta_rad[k]) + band_rad[k], most_rad(sequence, k) + kSwingAngle_rad);
+                   std::fabs(moment.theta_rad[k]) + motion.friction_band_rad[k],
+                   std::fmax(most_rad(sequence, k), stands_rad) + kSwingAngle_rad);
       judge_.check(Refusal::kJointRate, "simulated rate of theta", kDegreesPerSecond, static_cast<int>(k),
                    moment.rate_rad_s[k], kSwingRate * table_.limits.theta_rate_rad_s);
       note("theta", k, moment.time_s);
@@ -136,6 +138,17 @@ class MomentJudge {
   Judge judge_;
 };
 
+// The farthest that any node is moved.
+double travel_m(const cable::RobotTable& table, const simulate::Motion& motion) {
+  double most_m = 0.0;
+  if (motion.moments.empty()) return most_m;
+  for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
+    const Vec3 way_m = subtract(motion.moments.back().node_in_base_m[m], motion.moments.front().node_in_base_m[m]);
+    most_m = std::fmax(most_m, norm(way_m));
+  }
+  return most_m;
+}
+
 // When the tip passes a wall of the fixture from between them, and by how much; nothing where it does not. A tip that
 // is beyond a wall already may go back, and by what the noise of a measured pose gives away no farther; one in the room
 // behind a wall, where it came past none, is no concern of theirs.
@@ -169,7 +182,7 @@ SimulationVerdict judge_simulated(const MotionRules& rules, const simulate::Join
     return verdict;
   }
   verdict.margins = {0.0, 1e3, 1e3, 1e6, 0.0};
-  judge_distances(rules.scene, motion.distances, plain_link_name, too_near, verdict);
+  judge_distances(rules.scene, motion.distances, plain_link_name, travel_m(rules.table, motion), too_near, verdict);
   const First nearest = verdict.first;
   for (const config::SceneFixture& fixture : rules.scene.fixtures)
     if (verdict.passed()) judge_walls(rules, fixture, motion, verdict);
