@@ -161,11 +161,12 @@ void Arbiter<Arm>::ask_anew() {
 }
 
 template <class Arm>
-void Arbiter<Arm>::refused(const std::string& why) {
-  if (std::visit([](auto& way) { return way.refused(); }, way_)) return;
+bool Arbiter<Arm>::refused(const std::string& why, bool may_swing_less) {
   const auto* back = std::get_if<WayBack<Arm>>(&way_);
+  if ((back != nullptr || may_swing_less) && std::visit([](auto& way) { return way.refused(); }, way_)) return true;
   const std::string detail = why.empty() ? "" : ": " + why;
   hold((back != nullptr ? back->why_ended() : "refused") + detail);
+  return false;
 }
 
 template <class Arm>
@@ -188,7 +189,8 @@ bool Arbiter<Arm>::begin_interval(std::uint64_t tick, const Now& now) {
   start_ramp_.note(now.tip_command.position_m, interval_s(table_));
   speed_rise_.pass(interval_s(table_));
   const auto* back = std::get_if<WayBack<Arm>>(&way_);
-  way_out_.stand(tick, command_rad_, back != nullptr && back->has_begun());
+  const bool stops = now.at_rest == 0 && (back != nullptr || std::holds_alternative<Idle>(way_));
+  way_out_.stand(tick, command_rad_, back != nullptr && back->has_begun(), stops);
   return true;
 }
 
@@ -237,8 +239,10 @@ typename Arm::Setpoint Arbiter<Arm>::tip_setpoint(const Now& now, const Pose& go
   setpoint.kind = CommandKind::kTip;
   setpoint.tip_in_base = goal;
   Kind::add_wishes(wishes_, setpoint);
-  setpoint.tip_speed_m_s = speed_rise_.limited(
-      zone_.advice_at(now.tip_command.position_m, zone_.advice_at(goal.position_m, tip_speed_m_s_)));
+  const auto* target = std::get_if<TipTarget<Arm>>(&way_);
+  const double most_m_s = tip_speed_m_s_ * (target != nullptr ? target->speed_share() : 1.0);
+  setpoint.tip_speed_m_s =
+      speed_rise_.limited(zone_.advice_at(now.tip_command.position_m, zone_.advice_at(goal.position_m, most_m_s)));
   if (zone_.slows_at(now.tip_command.position_m))
     setpoint.tip_speed_m_s = std::min(setpoint.tip_speed_m_s, start_ramp_.speed_m_s());
   return setpoint;

@@ -182,10 +182,11 @@ void CableArbiter::hold() {
   device_.let_go();
 }
 
-void CableArbiter::refused(const std::string& why) {
-  moves_.refused(why);
+bool CableArbiter::refused(const std::string& why, bool may_swing_less) {
+  const bool goes_on = moves_.refused(why, may_swing_less && !was_engaged_);
   dither_ = {};
   if (was_engaged_) refusal_wait_.refuse(led_from_, led_to_);
+  return goes_on || was_engaged_;
 }
 
 std::optional<cable::Setpoint> CableArbiter::next_setpoint(std::uint64_t tick, const cable::Outputs& now) {

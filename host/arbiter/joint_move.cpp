@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "host/arbiter/cable_kind.hpp"
 #include "host/arbiter/serial_kind.hpp"
@@ -37,20 +38,30 @@ TipWay steepest_tip_way(const typename Arm::Table& table, const Joints<Arm>& fro
 template <class Arm>
 JointMove<Arm>::JointMove(const Table& table, const Joints<Arm>& from_rad, const Joints<Arm>& to_rad, double rate_rad_s,
                           const motion::Swings& swings)
-    : from_rad_(from_rad), to_rad_(to_rad), interval_s_(interval_s(table)) {
+    : table_(table), rate_rad_s_(rate_rad_s), swings_(swings), to_rad_(to_rad), interval_s_(interval_s(table)) {
+  plan(from_rad);
+}
+
+template <class Arm>
+void JointMove<Arm>::plan(const Joints<Arm>& from_rad) {
   using Kind = ArmKind<Arm>;
+  const double share = again_.speed_share();
+  from_rad_ = from_rad;
+  time_s_ = 0.0;
   motion::MoveNeeds needs;
-  for (std::size_t i = 0; i < Kind::joint_count(table); ++i) {
-    const double way_rad = std::fabs(to_rad[i] - from_rad[i]);
-    needs.speed_s =
-        std::max(needs.speed_s, way_rad / (motion::kMoveShare * std::min(rate_rad_s, Kind::rate_rad_s(table, i))));
-    needs.accel_s2 = std::max(needs.accel_s2, way_rad / Kind::move_accel_rad_s2(table, i));
+  for (std::size_t i = 0; i < Kind::joint_count(table_); ++i) {
+    const double way_rad = std::fabs(to_rad_[i] - from_rad[i]);
+    needs.speed_s = std::max(
+        needs.speed_s, way_rad / (motion::kMoveShare * std::min(share * rate_rad_s_, Kind::rate_rad_s(table_, i))));
+    needs.accel_s2 = std::max(needs.accel_s2, way_rad / Kind::move_accel_rad_s2(table_, i));
   }
-  const TipWay tip = steepest_tip_way<Arm>(table, from_rad, to_rad);
-  const TipBounds bounds = Kind::tip_bounds(table);
+  const TipWay tip = steepest_tip_way<Arm>(table_, from_rad, to_rad_);
+  TipBounds bounds = Kind::tip_bounds(table_);
+  bounds.linear.speed *= share;
+  bounds.angular.speed *= share;
   needs.add(tip.travel_m, motion::share_of(bounds.linear));
   needs.add(tip.turn_rad, motion::share_of(bounds.angular));
-  law_ = motion::TimeLaw(needs, swings);
+  law_ = motion::TimeLaw(needs, swings_);
 }
 
 template <class Arm>
@@ -60,6 +71,9 @@ Joints<Arm> JointMove<Arm>::at(double time_s) const {
 
 template <class Arm>
 Goal<Arm> JointMove<Arm>::next(const liana::Outputs<Arm>& now) {
+  if (again_.waits(now.at_rest != 0)) return {};
+  if (!has_begun_ && now.at_rest == 0) return {};
+  if (!std::exchange(has_begun_, true)) plan(ArmKind<Arm>::command_rad(now));
   time_s_ += interval_s_;
   is_over_ = time_s_ >= law_.duration_s() && now.at_rest != 0;
   return at(time_s_);

@@ -71,9 +71,10 @@ std::optional<SerialArbiter::Setpoint> SerialArbiter::next_setpoint(std::uint64_
   return setpoint;
 }
 
-void SerialArbiter::refused(const std::string& why) {
-  if (asked_) return asked_.reset();
-  Base::refused(why);
+bool SerialArbiter::refused(const std::string& why, bool may_swing_less) {
+  if (!asked_) return Base::refused(why, may_swing_less);
+  asked_.reset();
+  return false;
 }
 
 }  // namespace liana::arbiter

@@ -1,6 +1,9 @@
 // A way of moving: the tip along a straight line, turning about one axis, on one time law.
 #pragma once
 
+#include <utility>
+
+#include "host/arbiter/another_try.hpp"
 #include "host/arbiter/arm_kind.hpp"
 #include "host/motion/time_law.hpp"
 
@@ -21,7 +24,8 @@ class TipLine {
   motion::TimeLaw law_;
 };
 
-// Over when the time is up; what then stays the goal is the line's end.
+// Over when the time is up; what then stays the goal is the line's end. What was refused goes on from rest, straight to
+// the end and more slowly.
 template <class Arm>
 class LineMove {
  public:
@@ -29,18 +33,34 @@ class LineMove {
 
   LineMove(const typename Arm::Table& table, const Pose& from, const Pose& to, double speed_m_s,
            const motion::Swings& swings)
-      : line_(ArmKind<Arm>::tip_bounds(table), from, to, speed_m_s, swings), interval_s_(interval_s(table)) {}
+      : bounds_(ArmKind<Arm>::tip_bounds(table)),
+        speed_m_s_(speed_m_s),
+        swings_(swings),
+        line_(bounds_, from, to, speed_m_s, swings),
+        interval_s_(interval_s(table)) {}
 
   Pose end() const { return line_.at(line_.duration_s()); }
 
-  Goal<Arm> next(const liana::Outputs<Arm>&) { return line_.at(time_s_ += interval_s_); }
+  Goal<Arm> next(const liana::Outputs<Arm>& now) {
+    if (again_.waits(now.at_rest != 0)) return {};
+    if (std::exchange(is_refused_, false)) {
+      line_ = TipLine(bounds_, now.tip_command, end(), speed_m_s_ * again_.speed_share(), swings_);
+      time_s_ = 0.0;
+    }
+    return line_.at(time_s_ += interval_s_);
+  }
   bool is_over() const { return time_s_ >= line_.duration_s(); }
-  bool refused() { return false; }
+  bool refused() { return is_refused_ = again_.refused(); }
 
  private:
+  TipBounds bounds_;
+  double speed_m_s_;
+  motion::Swings swings_;
   TipLine line_;
   double interval_s_;
   double time_s_ = 0.0;
+  bool is_refused_ = false;
+  AnotherTry again_;
 };
 
 }  // namespace liana::arbiter

@@ -1,10 +1,11 @@
 // A way of moving: the tip goes to a pose as the core's filter takes it there, and the pose is asked for until all has
 // come to be; then nothing more is, and the null space comes to rest. For streams of goals, for steering by hand, and
-// for staying where a line has ended.
+// for staying where a line has ended. What was refused is tried again from rest.
 #pragma once
 
 #include <cstdint>
 
+#include "host/arbiter/another_try.hpp"
 #include "host/arbiter/arm_kind.hpp"
 
 namespace liana::arbiter {
@@ -29,12 +30,17 @@ class TipTarget {
   void ask_anew() { intervals_ = 0; }
 
   Goal<Arm> next(const liana::Outputs<Arm>& now) {
+    if (again_.waits(now.at_rest != 0)) return {};
     is_over_ = intervals_ >= kSettledIntervals && ArmKind<Arm>::has_arrived(wishes_, now, is_near(now.tip_command));
     ++intervals_;
     return is_over_ ? Goal<Arm>{} : goal_;
   }
   bool is_over() const { return is_over_; }
-  bool refused() { return false; }
+  bool refused() {
+    intervals_ = 0;
+    return again_.refused();
+  }
+  double speed_share() const { return again_.speed_share(); }
 
  private:
   bool is_near(const Pose& tip) const {
@@ -46,6 +52,7 @@ class TipTarget {
   const Wishes& wishes_;
   std::int32_t intervals_ = 0;  // since the goal or what is wished besides was set
   bool is_over_ = false;
+  AnotherTry again_;
 };
 
 }  // namespace liana::arbiter

@@ -56,7 +56,7 @@ class WayBack {
     const bool was_faulty = std::exchange(is_faulty_, now.faults.count > 0);
     if (was_faulty != is_faulty_) start_again();
     if (!rests()) return come_to_rest(now);
-    return arrived_ ? arrive(now) : Goal<Arm>(step(now));
+    return arrived_ ? arrive(now) : step(now);
   }
   // All the way has been gone, or it cannot go on.
   bool is_over() const { return is_over_; }
@@ -118,7 +118,7 @@ class WayBack {
   }
 
   // One command interval on.
-  Joints<Arm> step(const liana::Outputs<Arm>& now) {
+  Goal<Arm> step(const liana::Outputs<Arm>& now) {
     if (join_) return go_on_joining(now);
     pace_ = risen(std::min(is_faulty_ ? kRetreatPace : kWayBackPace, pace_ + kPaceGain));
     share_ += is_faulty_ ? std::min(pace_, retreat_share()) : pace_;
@@ -161,8 +161,8 @@ class WayBack {
     path_.drop_newest();
     share_ -= 1.0;
   }
-  Joints<Arm> go_on_joining(const liana::Outputs<Arm>& now) {
-    const Joints<Arm> joint_rad = std::get<Joints<Arm>>(join_->next(now));
+  Goal<Arm> go_on_joining(const liana::Outputs<Arm>& now) {
+    const Goal<Arm> joint_rad = join_->next(now);
     if (!join_->is_over()) return joint_rad;
     join_.reset();
     path_.drop_newest();

@@ -26,12 +26,15 @@ class WayOut {
   Memory& path() { return path_; }
   const Memory& path() const { return path_; }
   // The arm is not enabled: the path waits.
-  void wait() { is_joined_ = false; }
-  // Once per command interval in which the arm is enabled: where the command stands. While it goes back along the path
-  // nothing is noted. In the first one the path is joined, or given up.
-  void stand(std::uint64_t tick, const Joints<Arm>& joint_rad, bool goes_back) {
+  void wait() { is_joined_ = went_back_ = false; }
+  // Once per command interval in which the arm is enabled: where the command stands. While it goes back along the path,
+  // or only `stops` after that, nothing is noted: a stop goes on along the path, and would be a cusp in it. In the
+  // first one the path is joined, or given up.
+  void stand(std::uint64_t tick, const Joints<Arm>& joint_rad, bool goes_back, bool stops) {
     if (!std::exchange(is_joined_, true)) return join(tick, joint_rad);
-    if (!goes_back) path_.note(tick, joint_rad);
+    const bool is_back = goes_back || (went_back_ && stops);
+    if (std::exchange(went_back_, is_back) && !is_back) path_.come_back_to(joint_rad);
+    if (!is_back) path_.note(tick, joint_rad);
     if (retract_.phase == RetractPhase::kDone && Memory::largest_change(joint_rad, done_rad_) > kMoved_rad)
       retract_ = {};
   }
@@ -69,7 +72,8 @@ class WayOut {
   const Table& table_;
   Memory path_;
   bool is_joined_ = false;
-  std::string why_lost_;  // of the path before this one
+  bool went_back_ = false;  // and has not come to rest, or been led elsewhere, since
+  std::string why_lost_;    // of the path before this one
   std::uint64_t until_tick_ = 0;
   RetractState retract_;
   Joints<Arm> done_rad_{};  // where the last one ended

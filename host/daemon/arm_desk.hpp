@@ -16,6 +16,7 @@
 #include "host/record/visit_serial.hpp"
 #include "host/time/time_mode.hpp"
 #include "host/verify/model_watch.hpp"
+#include "host/verify/refusal_table.hpp"
 #include "host/verify/release_step.hpp"
 #include "host/verify/simulation_end.hpp"
 #include "host/verify/verify.hpp"
@@ -216,13 +217,15 @@ LastVerdict ArmDesk<Arm, Steering>::verify_and_release(const typename Arm::Setpo
   verify::Verdict worst = execution.passed() ? static_cast<const verify::Verdict&>(simulation) : execution;
   worst.margins = simulation.margins;
   worst.slowly = simulation.slowly;
+  bool goes_on = released;
   if (released) {
     released_.push_back(*telecommand);
   } else {
-    arbiter_.refused(worst.text);
+    goes_on = arbiter_.refused(worst.text, verify::may_swing_less(worst.code));
   }
   return {candidate.sequence(),
           released,
+          goes_on,
           worst,
           joints_deg(prediction_.ticks[prediction_.command_ticks - 1]),
           joints_deg(prediction_.ticks.back()),

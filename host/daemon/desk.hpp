@@ -28,6 +28,7 @@ struct MadeOf {
 struct LastVerdict {
   std::uint64_t sequence = 0;
   bool released = false;
+  bool goes_on = false;             // what was asked for, though a command of it was refused
   verify::Verdict worst{};          // the refusing end, or the tighter margin
   std::vector<double> twin_js_deg;  // predicted at the end of the candidate's interval
   std::vector<double> stop_js_deg;  // predicted where the arm would stand if nothing came after it

@@ -243,6 +243,7 @@ void Service::release_next() {
   notes_.verdict_us = arm_time_us();
   if (verdict->released) return;
   ++notes_.refusals;
+  if (!verdict->goes_on) ++notes_.refused_motions;
   note(verdict_event(verdict->sequence, verdict->worst));
   const verify::RefusalRow& row = verify::row_of(verdict->worst.code);
   const bool stops = row.action == verify::RefusalAction::kStop && !verdict->leads_back;  // the way out tries again
@@ -255,6 +256,7 @@ void Service::tell_of_paths() {
     note(path_event(news));
     if (news.what != event::PathEvent::kRefused) continue;
     ++notes_.refusals;
+    ++notes_.refused_motions;
     notes_.verdict.released = false;
     notes_.verdict.worst.code = verify::Refusal::kPath;
     notes_.verdict.worst.text = news.text;

@@ -153,6 +153,7 @@ Json state_message(const config::BusesConfig& buses, const Desk& desk, const Own
              {"mission_control", notes.mission_control},
              {"overruns", report.overruns.total()},
              {"refusals", notes.refusals},
+             {"refused_motions", notes.refused_motions},
              {"verdict", verdict_json(notes, buses.tick_s())},
              {"drives", drives_json(desk, notes.serials)},
              {"buses", buses_json(buses, desk)},

@@ -24,7 +24,7 @@ struct Notes {
   Json mission_control = nullptr;
   LastVerdict verdict{};
   std::int64_t verdict_us = 0;  // arm time at which it was given
-  std::uint64_t refusals = 0;
+  std::uint64_t refusals = 0, refused_motions = 0;
   std::vector<control::BootProblem> boot_problems;  // faults of drives that did not boot
   EmergencyStop stop;
   TipTool tool;

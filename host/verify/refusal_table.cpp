@@ -135,6 +135,10 @@ std::span<const RefusalRow> refusal_table() { return std::span(kRows).subspan(1)
 
 const RefusalRow& row_of(Refusal code) { return kRows[index_of(code)]; }
 
+bool may_swing_less(Refusal code) {
+  return code == kSwingTension || code == kTipSpeed || code == kNodeSpeed || code == kJointRate;
+}
+
 const char* refusal_action_name(RefusalAction action) { return action == kStop ? "stop" : "hold"; }
 
 std::string markdown_of(std::span<const RefusalRow> rows) {

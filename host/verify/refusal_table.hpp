@@ -31,6 +31,9 @@ std::span<const RefusalRow> refusal_table();
 // The row of a code; of kNone one without a name.
 const RefusalRow& row_of(Refusal code);
 
+// Refused for how the arm would swing: from rest, and more slowly, the same may pass.
+bool may_swing_less(Refusal code);
+
 const char* refusal_action_name(RefusalAction action);
 
 // The table as it stands in docs/refusals.md.

@@ -113,7 +113,7 @@ function Runner:begin_step(index, goes_on)
     start_tick = state.tick, end_tick = state.tick, duration_s = 0, slowed_s = 0,
   }
   self.report.steps[#self.report.steps + 1] = self.record
-  self.refusals_before = state.refusals
+  self.refused_before = state.refused_motions
   if step.on_fail == "retract" and not self.first_retract_tick then self.first_retract_tick = state.tick end
   self.arm.begin_tick, self.arm.was_engaged, self.arm.must_hold = state.tick, false, step.hold
   self.has_entered, self.is_confirmed, self.waited_s, self.slowed_s = false, step.confirm == nil, 0, 0
@@ -188,7 +188,7 @@ end
 -- A motion that the script asked for has ended before its goal. (While an operator steers, a refusal is part of steering.)
 local function refused_motion(runner)
   local state = runner.arm.state
-  if runner:step().device ~= "none" or state.refusals == runner.refusals_before then return false end
+  if runner:step().device ~= "none" or state.refused_motions == runner.refused_before then return false end
   runner:fall_short("refused", "lianad refused the motion: " .. state.verdict.text)
   return true
 end

@@ -33,7 +33,7 @@ function people.methods:go_on()
     return self:enter_phase("boot")
   end
   self.waited_s = self.waited_s + self:phase_s()
-  self.refusals_before = self.arm.state.refusals
+  self.refused_before = self.arm.state.refused_motions
   self:announce_step()
   self:enter_phase("enter")
 end

@@ -2,6 +2,7 @@
 
 #include "fixture.hpp"
 #include "host/verify/model_watch.hpp"
+#include "host/verify/refusal_table.hpp"
 #include "host/verify/verify.hpp"
 
 namespace liana::closed_loop {
@@ -61,7 +62,7 @@ void VerifiedArm::verify_next(const cable::Telecommand& in_force) {
   }
   const verify::Verdict& worst = execution.passed() ? static_cast<const verify::Verdict&>(simulation_) : execution;
   refused_.push_back({time_s(), worst.code, worst.text});
-  arbiter_.refused(worst.text);
+  arbiter_.refused(worst.text, verify::may_swing_less(worst.code));
 }
 
 }  // namespace liana::closed_loop

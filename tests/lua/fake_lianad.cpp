@@ -230,6 +230,7 @@ Json FakeLianad::state() const {
           {"held_at_target", busy_intervals_ == 0},
           {"faults", faults},
           {"refusals", refused_motion ? 1 : 0},
+          {"refused_motions", refused_motion ? 1 : 0},
           {"verdict", {{"text", "joint rate 1.2 of the limit"}}},
           {"planar_segments", planar_segments()},
           {"shape", {{"missing_m", 0.02}, {"settled", busy_intervals_ == 0}, {"searching", false}}},

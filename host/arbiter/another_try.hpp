@@ -1,0 +1,39 @@
+// What becomes of a motion that verification refused because of how the arm would swing: from rest, and slower, the
+// same may pass.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace liana::arbiter {
+
+class AnotherTry {
+ public:
+  // Refused: whether it is tried again; then the arm comes to rest first.
+  bool refused() {
+    if (tries_ == kMostTries) return false;
+    ++tries_;
+    rests_ = waited_ = 0;
+    waits_ = true;
+    return true;
+  }
+  // Once per command interval: whether nothing is asked for yet. Bounded: an arm that swings on is asked all the same.
+  bool waits(bool at_rest) {
+    rests_ = at_rest ? rests_ + 1 : 0;
+    waits_ = waits_ && rests_ < kRestIntervals && ++waited_ < kMostWaitIntervals;
+    return waits_;
+  }
+  // Of the speed that was asked for first: half as much at each try.
+  double speed_share() const { return 1.0 / static_cast<double>(1 << tries_); }
+
+ private:
+  static constexpr int kMostTries = 4;
+  static constexpr std::int32_t kRestIntervals = 15;  // what is at rest by its command still swings
+  static constexpr std::int32_t kMostWaitIntervals = 1000;
+
+  int tries_ = 0;
+  std::int32_t rests_ = 0, waited_ = 0;
+  bool waits_ = false;
+};
+
+}  // namespace liana::arbiter
