@@ -22,9 +22,13 @@ First at_itself(const simulate::Nearest& nearest, const LinkName& link_name) {
 
 // An arm that is too near already may go away; the way back out may need it to go along beside a body first.
 bool leads_away(const simulate::Distances& distances, double travel_m, const TooNear& too_near) {
-  const double start_m = distances.scene_at_start_m, kept_m = too_near.farthest_m().value_or(start_m) - kGivenAway_m;
-  const double end_m = start_m < kept_m ? start_m + kAwayShare * travel_m : kept_m;
-  return distances.scene_at_end_m >= end_m && distances.scene.distance_m >= start_m - kGivenAway_m;
+  const double start_m = distances.scene_at_start_m;
+  double least_end_m = start_m;
+  if (const std::optional<double> farthest_m = too_near.farthest_m()) {
+    const double kept_m = *farthest_m - kGivenAway_m;
+    least_end_m = start_m < kept_m ? start_m + kAwayShare * travel_m : kept_m;
+  }
+  return distances.scene_at_end_m >= least_end_m && distances.scene.distance_m >= start_m - kGivenAway_m;
 }
 
 // An arm that touches a body goes into no other one, and out of all that it touches.

@@ -74,7 +74,7 @@ class Swaying {
                  {geometry_, wrap_rad, tension_N, rate_rad_s, state_.mu, friction_sd(state_), 0.0, 0.0, false}, axis,
                  balance_);
     if (!is_round) return;
-    end_round(told_, limits_, ThetaVector{}, balance_);
+    end_round(told_, limits_, rate_rad_s, balance_);
     watch_contact(told_, arm, balance_, {moving, false}, contact_);
     for (std::uint32_t place = 0; place < kPlaces * zhu2022::kCables / 3; ++place)
       try_place(told_, arm, place, contact_);

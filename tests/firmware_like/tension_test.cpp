@@ -295,5 +295,31 @@ TEST(Tension, EveryCableThatNearsTheFloorLiftsItsOwnSegment) {
   }
 }
 
+TEST(Tension, ACableUnderTheFloorAloneIsWoundInUntilItIsThere) {
+  const RobotTable robot = zhu2022::table();
+  const double floor_N = robot.tension.floor_motor_N;
+  for (const double looser_N : {5.0, 20.0, 55.0}) {
+    CableVector measured_N, taut_N{};
+    for (double time_s = 0.0; time_s < 10.0; time_s += robot.tick_s) {
+      measured_N.fill(floor_N);
+      measured_N[4] = floor_N - looser_N + taut_N[4];
+      wind_in(robot, measured_N, taut_N);
+    }
+    EXPECT_GT(measured_N[4], floor_N - 2.0) << looser_N;
+    EXPECT_LE(measured_N[4], floor_N) << looser_N;
+    for (std::size_t c = 0; c < zhu2022::kCables; ++c) EXPECT_EQ(taut_N[c] > 0.0, c == 4) << c;
+  }
+}
+
+TEST(Tension, WhatACableIsWoundInIsBoundedAndGoesWhenItIsTaut) {
+  const RobotTable robot = zhu2022::table();
+  CableVector measured_N{}, taut_N{};
+  for (double time_s = 0.0; time_s < 10.0; time_s += robot.tick_s) wind_in(robot, measured_N, taut_N);
+  EXPECT_EQ(taut_N[0], kTautLimit_N);
+  measured_N.fill(robot.tension.plan_N);
+  for (double time_s = 0.0; time_s < kTautLeak_s; time_s += robot.tick_s) wind_in(robot, measured_N, taut_N);
+  EXPECT_NEAR(taut_N[0], kTautLimit_N * std::exp(-1.0), 0.05);
+}
+
 }  // namespace
 }  // namespace liana::cable

@@ -293,6 +293,53 @@ TEST_F(Arbitration, ARefusalEndsThePlannedMove) {
   EXPECT_FALSE(next());
 }
 
+TEST_F(Arbitration, AMoveThatWouldSwingTooFarIsTriedAgainFromRestFourTimesAndMoreSlowly) {
+  ThetaVector goal = now_.theta_command_rad;
+  goal[0] += 0.05;
+  arbiter_.move_joints(now_, goal, 0.03);
+  double before_rad = 1.0;
+  for (int tries = 0; tries < 5; ++tries) {
+    std::optional<Setpoint> asked;
+    int waited = 0;
+    for (; !(asked = next()); ++waited) ASSERT_LT(waited, 100);
+    EXPECT_EQ(waited > 0, tries > 0);
+    for (int i = 0; i < 20; ++i) asked = next();
+    const double moved_rad = asked->joint_rad[0] - now_.theta_command_rad[0];
+    EXPECT_GT(moved_rad, 0.0);
+    EXPECT_LT(moved_rad, before_rad);
+    before_rad = moved_rad;
+    EXPECT_EQ(arbiter_.refused("it would swing", true), tries < 4);
+  }
+  EXPECT_FALSE(arbiter_.is_busy());
+}
+
+TEST_F(Arbitration, HeldAnglesThatAreRefusedForTheirSwingAreAskedForAgainOnceTheArmRests) {
+  ThetaVector held{};
+  arbiter_.hold_theta(now_, 1u << 8, held);
+  now_.held_at_target = 0;
+  ASSERT_TRUE(next());
+  EXPECT_TRUE(arbiter_.refused("it would swing", true));
+  now_.at_rest = 0;
+  for (int i = 0; i < 50; ++i) EXPECT_FALSE(next()) << i;
+  now_.at_rest = 1;
+  for (int i = 0; i < 14; ++i) EXPECT_FALSE(next()) << i;
+  EXPECT_TRUE(next());
+  EXPECT_FALSE(arbiter_.refused("it would touch"));
+  EXPECT_FALSE(next());
+}
+
+TEST_F(Arbitration, AJointMoveAskedForInMotionBeginsWhenTheArmHasStopped) {
+  now_.at_rest = 0;
+  ThetaVector goal = now_.theta_command_rad;
+  goal[0] += 0.05;
+  arbiter_.move_joints(now_, goal, 0.03);
+  EXPECT_FALSE(next());
+  now_.theta_command_rad[0] += 0.001;
+  EXPECT_FALSE(next());
+  now_.at_rest = 1;
+  EXPECT_NEAR(next()->joint_rad[0], now_.theta_command_rad[0], 1e-6) << "from where it stands now";
+}
+
 TEST_F(Arbitration, AHandThatPushesOnAfterARefusalWaitsAndKeepsItsPlaceBesideTheTip) {
   use_hand();
   steered(0.2);
@@ -530,6 +577,28 @@ TEST_F(WayOut, GoesAllTheWayAfterARefusal) {
   follow();
   EXPECT_EQ(now_.theta_command_rad[0], start_);
   EXPECT_TRUE(arbiter_.has_retracted());
+}
+
+// A stop goes on along the path: what it passes is behind the arm, and no cusp of the path.
+TEST_F(WayOut, AskedForAgainGoesOnFromWhereTheStopEnds) {
+  go_in();
+  arbiter_.retract(now_, 0);
+  wait_for_rest();
+  for (int i = 0; i < 10; ++i) now_.theta_command_rad = next()->joint_rad;
+  const double at_rad = now_.theta_command_rad[0];
+  arbiter_.retract(now_, 0);
+  now_.at_rest = 0;
+  for (int i = 0; i < 3; ++i) {
+    now_.theta_command_rad[0] -= 0.3 * kStep_rad;
+    EXPECT_FALSE(next());
+  }
+  now_.at_rest = 1;
+  wait_for_rest();
+  for (std::optional<Setpoint> asked = next(); asked; asked = next()) {
+    EXPECT_LT(asked->joint_rad[0], at_rad - 0.8 * kStep_rad) << "it does not go back to where the stop began";
+    now_.theta_command_rad = asked->joint_rad;
+  }
+  EXPECT_EQ(now_.theta_command_rad[0], start_);
 }
 
 TEST_F(WayOut, SaysWhatItIsDoingAndHowMuchIsLeft) {

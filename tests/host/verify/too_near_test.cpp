@@ -19,15 +19,21 @@ class AnArmBesideABody : public testing::Test {
   // Of a motion between these distances, nearest at `least_m`, past bodies beside it.
   Refusal goes(double start_m, double least_m, double end_m, std::vector<simulate::BodyBeside> bodies = {}) {
     simulate::Motion motion;
+    if (travel_m_ > 0.0) motion.moments.resize(2);
+    if (travel_m_ > 0.0) motion.moments.back().node_in_base_m[0] = {travel_m_, 0.0, 0.0};
     motion.distances.bodies = std::move(bodies);
     motion.solved = true;
     motion.distances.scene = {least_m, 3, 0, 0.1};
     motion.distances.scene_at_start_m = start_m;
     motion.distances.scene_at_end_m = end_m;
     motion.distances.self.distance_m = 1.0;
-    return judge_simulated(rules_, {}, true, motion, too_near_).code;
+    simulate::JointSequence told;
+    told.rows_rad.resize(1);
+    told.interval_s = 0.02;
+    return judge_simulated(rules_, told, true, motion, too_near_).code;
   }
 
+  double travel_m_ = 0.0;  // of the first node
   MotionRules rules_;
   TooNear too_near_;
 };
@@ -51,6 +57,16 @@ TEST_F(AnArmBesideABody, ComesNoNearerByOneMotionAfterTheOther) {
   EXPECT_EQ(goes(0.0051, 0.0046, 0.0046), Refusal::kSceneContact) << "it has been farther off meanwhile";
   EXPECT_EQ(goes(0.0030, 0.0030, 0.0030), Refusal::kNone) << "something else has moved it: no nearer from there";
   EXPECT_EQ(goes(0.0030, 0.0029, 0.0029), Refusal::kSceneContact);
+}
+
+TEST_F(AnArmBesideABody, ThatHasCreptNearerAllTheSameOnlyGoesAway) {
+  rules_.table.segment_count = 1;
+  rules_.table.segment[0].theta_limit_rad = 1.0;
+  travel_m_ = 0.010;
+  EXPECT_EQ(goes(0.0060, 0.0055, 0.0055), Refusal::kNone);
+  EXPECT_EQ(goes(0.0048, 0.0048, 0.0049), Refusal::kSceneContact) << "along beside it, and off by the model's error";
+  EXPECT_EQ(goes(0.0048, 0.0048, 0.0059), Refusal::kNone);
+  EXPECT_EQ(goes(0.0055, 0.0051, 0.0051), Refusal::kNone) << "as far off as it has been, but for 1 mm";
 }
 
 TEST_F(AnArmBesideABody, ThatHasLeftItIsAsOneThatNeverWasThere) {
