@@ -229,7 +229,8 @@ std::uint32_t CableArm::propose(const Orders& orders, const DriveCommands& sent,
   return limits | limited;
 }
 
-// Only an arm at rest is dithered, and one whose tensions are in doubt no more. What friction held is freed by it.
+// Only an arm at rest is dithered, and one whose tensions are in doubt no more. What friction held is freed by it. What
+// single cables are wound in by comes on top.
 void CableArm::dither(bool is_sound) noexcept {
   const bool may = is_sound && !motion_.braking && at_rest(table_, motion_);
   const double change = advance_dither(may ? motion_.to.dither_share : 0.0, table_.tick_s, dither_);

@@ -2,8 +2,8 @@
 // same may pass.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
+#include <utility>
 
 namespace liana::arbiter {
 
@@ -14,7 +14,7 @@ class AnotherTry {
     if (tries_ == kMostTries) return false;
     ++tries_;
     rests_ = waited_ = 0;
-    waits_ = true;
+    waits_ = begins_ = true;
     return true;
   }
   // Once per command interval: whether nothing is asked for yet. Bounded: an arm that swings on is asked all the same.
@@ -23,6 +23,8 @@ class AnotherTry {
     waits_ = waits_ && rests_ < kRestIntervals && ++waited_ < kMostWaitIntervals;
     return waits_;
   }
+  // After a wait: whether the motion is to be planned anew, which is said once.
+  bool begins_again() { return std::exchange(begins_, false); }
   // Of the speed that was asked for first: half as much at each try.
   double speed_share() const { return 1.0 / static_cast<double>(1 << tries_); }
 
@@ -33,7 +35,7 @@ class AnotherTry {
 
   int tries_ = 0;
   std::int32_t rests_ = 0, waited_ = 0;
-  bool waits_ = false;
+  bool waits_ = false, begins_ = false;
 };
 
 }  // namespace liana::arbiter

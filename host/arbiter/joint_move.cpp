@@ -73,7 +73,8 @@ template <class Arm>
 Goal<Arm> JointMove<Arm>::next(const liana::Outputs<Arm>& now) {
   if (again_.waits(now.at_rest != 0)) return {};
   if (!has_begun_ && now.at_rest == 0) return {};
-  if (!std::exchange(has_begun_, true)) plan(ArmKind<Arm>::command_rad(now));
+  const Joints<Arm>& stands_rad = ArmKind<Arm>::command_rad(now);
+  if (!std::exchange(has_begun_, true) && (again_.begins_again() || stands_rad != from_rad_)) plan(stands_rad);
   time_s_ += interval_s_;
   is_over_ = time_s_ >= law_.duration_s() && now.at_rest != 0;
   return at(time_s_);

@@ -1,8 +1,6 @@
 // A way of moving: the tip along a straight line, turning about one axis, on one time law.
 #pragma once
 
-#include <utility>
-
 #include "host/arbiter/another_try.hpp"
 #include "host/arbiter/arm_kind.hpp"
 #include "host/motion/time_law.hpp"
@@ -43,14 +41,14 @@ class LineMove {
 
   Goal<Arm> next(const liana::Outputs<Arm>& now) {
     if (again_.waits(now.at_rest != 0)) return {};
-    if (std::exchange(is_refused_, false)) {
+    if (again_.begins_again()) {
       line_ = TipLine(bounds_, now.tip_command, end(), speed_m_s_ * again_.speed_share(), swings_);
       time_s_ = 0.0;
     }
     return line_.at(time_s_ += interval_s_);
   }
   bool is_over() const { return time_s_ >= line_.duration_s(); }
-  bool refused() { return is_refused_ = again_.refused(); }
+  bool refused() { return again_.refused(); }
 
  private:
   TipBounds bounds_;
@@ -59,7 +57,6 @@ class LineMove {
   TipLine line_;
   double interval_s_;
   double time_s_ = 0.0;
-  bool is_refused_ = false;
   AnotherTry again_;
 };
 

@@ -81,6 +81,13 @@ std::array<double, 2> torque_beyond(const RobotTable& table, const TensionSolver
   return {pitch, yaw};
 }
 
+// What is pulled beyond the plan grows with what is missing, and is let go again.
+double one_tick_tighter(const RobotTable& table, double pulled_N, double missing_N, double leak_s,
+                        double limit_N) noexcept {
+  const double rate_N_s = kLiftRate_1_s * missing_N - pulled_N / leak_s;
+  return smaller(pulled_N + rate_N_s * table.tick_s, limit_N);
+}
+
 double spread_of(const AnchoredVector& t, const CableVector& pull_N, Index first, Index n) noexcept {
   double least = t[0] - pull_N[first], most = least;
   for (Index i = 1; i < n; ++i) {
@@ -170,8 +177,7 @@ void keep_taut(const RobotTable& table, const CableVector& tension_N, SegmentVec
     double missing_N = 0.0;
     for (std::int32_t i = 0; i < table.segment[j].cables; ++i, ++c)
       missing_N = larger(missing_N, enough_N - tension_N[c]);
-    const double rate_N_s = kLiftRate_1_s * missing_N - lift_N[j] / kLiftLeak_s;
-    lift_N[j] = smaller(lift_N[j] + rate_N_s * table.tick_s, limit_N);
+    lift_N[j] = one_tick_tighter(table, lift_N[j], missing_N, kLiftLeak_s, limit_N);
   }
 }
 
@@ -179,8 +185,7 @@ void wind_in(const RobotTable& table, const CableVector& tension_N, CableVector&
   const double limit_N = kTautLimit_N * table.tension.scale();
   for (Index c = 0; c < static_cast<Index>(table.cable_count()); ++c) {
     const double missing_N = larger(0.0, table.tension.floor_motor_N - tension_N[c]);
-    const double rate_N_s = kTautRate_1_s * missing_N - taut_N[c] / kTautLeak_s;
-    taut_N[c] = smaller(taut_N[c] + rate_N_s * table.tick_s, limit_N);
+    taut_N[c] = one_tick_tighter(table, taut_N[c], missing_N, kTautLeak_s, limit_N);
   }
 }
 

@@ -64,7 +64,7 @@ TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry,
 // friction, the less lift, and none above kMarginFriction: there more tension brings more friction than it repairs
 // (with mu 0.1 it let cables go slack in whole missions).
 constexpr double kLiftBelow_N = 9.0;   // over the floor: under it the lift rises
-constexpr double kLiftRate_1_s = 3.0;  // share of what is missing, per second
+constexpr double kLiftRate_1_s = 3.0;  // share of what is missing, per second; of single cables, too
 constexpr double kLiftLeak_s = 5.0;    // time constant of letting go
 constexpr double kLiftLimit_N = 20.0;  // without friction
 
@@ -73,7 +73,6 @@ void keep_taut(const RobotTable& table, const CableVector& tension_N, SegmentVec
 
 // An arm that friction holds beside its command has cables that are looser than planned, whatever the segment is pulled
 // to: a single cable under the floor is wound in until it is there, slower than the arm's modes.
-constexpr double kTautRate_1_s = 3.0;
 constexpr double kTautLeak_s = 10.0;
 constexpr double kTautLimit_N = 60.0;
 
