@@ -65,7 +65,7 @@ void CableArm::watch_balance(std::uint64_t tick, const FaultList& faults) noexce
     balance_next_axis(tick);
   } else if (phase == kFrictionTicks / 2) {
     if (friction_.axis != 0 || !balance_.whole) return;
-    end_round(table_, torque_limits_, motion_.limiter.rate_rad_s, balance_);
+    end_round(table_, torque_limits_, balance_);
     watch_contact(table_, motion_.arm, balance_, {is_moving(), is_dithering(dither_)}, contact_);
   } else {
     const std::uint32_t slots = (kFrictionTicks - 2) * narrow<std::uint32_t>(table_.theta_count());
@@ -100,7 +100,7 @@ void CableArm::balance_next_axis(std::uint64_t tick) noexcept {
                              inertia_Nm,
                              table_.torque_zero.bias_N + table_.torque_zero.drift_N_h * hours,
                              contact_.state == ContactState::kDithered};
-  balance_axis(table_, layout_, felt, axis, balance_);
+  balance_axis(table_, layout_, torque_limits_, felt, axis, balance_);
 }
 
 // What the balance of torques says, as faults: 5008 of the first drive of the segment, where that can be named, in

@@ -187,6 +187,7 @@ bool Arbiter<Arm>::begin_interval(std::uint64_t tick, const Now& now) {
   }
   command_rad_ = Kind::command_rad(now);
   start_ramp_.note(now.tip_command.position_m, interval_s(table_));
+  goal_ramp_.note(now.tip_command.position_m, interval_s(table_));
   speed_rise_.pass(interval_s(table_));
   const auto* back = std::get_if<WayBack<Arm>>(&way_);
   const bool stops = now.at_rest == 0 && (back != nullptr || std::holds_alternative<Idle>(way_));
@@ -220,7 +221,7 @@ void Arbiter<Arm>::end_way() {
 
 template <class Arm>
 typename Arm::Setpoint Arbiter<Arm>::steer(const Now& now, const Pose& goal) {
-  way_.template emplace<TipTarget<Arm>>(goal, wishes_);
+  way_.template emplace<TipTarget<Arm>>(goal, wishes_, true);
   return tip_setpoint(now, goal);
 }
 
@@ -243,6 +244,8 @@ typename Arm::Setpoint Arbiter<Arm>::tip_setpoint(const Now& now, const Pose& go
   const double most_m_s = tip_speed_m_s_ * (target != nullptr ? target->speed_share() : 1.0);
   setpoint.tip_speed_m_s =
       speed_rise_.limited(zone_.advice_at(now.tip_command.position_m, zone_.advice_at(goal.position_m, most_m_s)));
+  if (target != nullptr && !target->is_steered())
+    setpoint.tip_speed_m_s = std::min(setpoint.tip_speed_m_s, goal_ramp_.speed_m_s());
   if (zone_.slows_at(now.tip_command.position_m))
     setpoint.tip_speed_m_s = std::min(setpoint.tip_speed_m_s, start_ramp_.speed_m_s());
   return setpoint;

@@ -120,6 +120,7 @@ class Arbiter {
   double tip_speed_m_s_;
   servo::TargetServo servo_{interval_s(table_)};
   StartRamp start_ramp_;
+  GoalRamp goal_ramp_{Kind::goal_ramp(table_)};
   SpeedRise speed_rise_;
   typename Kind::Wishes wishes_{};
   WayOut<Arm> way_out_{table_};

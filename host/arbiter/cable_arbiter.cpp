@@ -148,7 +148,7 @@ void CableArbiter::cap_tip_speed(double speed_m_s) {
 }
 
 void CableArbiter::ask_speed() {
-  const double most_m_s = was_engaged_ ? kHandSpeed * robot_speed_m_s_ : robot_speed_m_s_;
+  const double most_m_s = kHandSpeed * robot_speed_m_s_;
   moves_.limit_tip_speed(ease_.share * std::min({asked_speed_m_s_, cap_m_s_, most_m_s}));
 }
 

@@ -5,12 +5,16 @@
 #include "firmware_like/cable/shape/keep_clear.hpp"
 #include "firmware_like/cable_controller.hpp"
 #include "host/arbiter/arm_kind.hpp"
+#include "host/arbiter/start_ramp.hpp"
 
 namespace liana::arbiter {
 
 // Share of the theta acceleration limit that planned moves use. All thetas together swing the whole arm: 1 deg/s2 would
 // take 100 N off a cable.
 constexpr double kThetaAccelShare = 0.02;
+// Shares of the tip's limits, after a goal far ahead.
+constexpr double kGoalAccelShare = 0.45;
+constexpr double kGoalSpeedShare = 0.8;
 
 // Whether any entry is used.
 bool has_nodes(const cable::NodeTargets& nodes);
@@ -47,6 +51,10 @@ struct ArmKind<cable::CableArm> {
     const cable::MotionLimits& l = table.limits;
     return {{l.tip_speed_m_s, l.tip_accel_m_s2, l.tip_jerk_m_s3},
             {l.tip_rate_rad_s, l.tip_angular_accel_rad_s2, l.tip_angular_jerk_rad_s3}};
+  }
+  // Of a tip that goes after a goal far ahead of it.
+  static GoalRamp goal_ramp(const cable::RobotTable& table) {
+    return {kGoalAccelShare * table.limits.tip_accel_m_s2, kGoalSpeedShare * table.limits.tip_speed_m_s};
   }
   static Pose tip_at(const cable::RobotTable& table, const Joints& theta_rad) {
     return cable::forward_kinematics(table, theta_rad).tip_in_base;

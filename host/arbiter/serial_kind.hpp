@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "firmware_like/serial_controller.hpp"
 #include "host/arbiter/arm_kind.hpp"
+#include "host/arbiter/start_ramp.hpp"
 
 namespace liana::arbiter {
 
@@ -39,6 +41,11 @@ struct ArmKind<serial::SerialArm> {
   static TipBounds tip_bounds(const serial::RobotTable& table) {
     const serial::TipLimits& l = table.tip;
     return {{l.speed_m_s, l.accel_m_s2, l.jerk_m_s3}, {l.rate_rad_s, l.angular_accel_rad_s2, l.angular_jerk_rad_s3}};
+  }
+  // It does not swing.
+  static GoalRamp goal_ramp(const serial::RobotTable&) {
+    constexpr double kAny = std::numeric_limits<double>::infinity();
+    return {kAny, kAny};
   }
   static Pose tip_at(const serial::RobotTable& table, const Joints& joint_rad) {
     return serial::forward_kinematics(table, joint_rad).tip_in_base;

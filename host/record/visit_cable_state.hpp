@@ -65,8 +65,8 @@ void visit(A& a, T& s) {
   a("pull_Nm", s.pull_Nm);
   a("own", s.own);
   a("shared", s.shared);
-  a("least_rad_s", s.least_rad_s);
-  a("most_rad_s", s.most_rad_s);
+  a("rate_rad_s", s.rate_rad_s);
+  a("peak", s.peak);
   a("stir", s.stir);
 }
 

@@ -1,5 +1,6 @@
 #include "host/verify/judge_distances.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -22,13 +23,11 @@ First at_itself(const simulate::Nearest& nearest, const LinkName& link_name) {
 
 // An arm that is too near already may go away; the way back out may need it to go along beside a body first.
 bool leads_away(const simulate::Distances& distances, double travel_m, const TooNear& too_near) {
-  const double start_m = distances.scene_at_start_m;
-  double least_end_m = start_m;
-  if (const std::optional<double> farthest_m = too_near.farthest_m()) {
-    const double kept_m = *farthest_m - kGivenAway_m;
-    least_end_m = start_m < kept_m ? start_m + kAwayShare * travel_m : kept_m;
-  }
-  return distances.scene_at_end_m >= least_end_m && distances.scene.distance_m >= start_m - kGivenAway_m;
+  const double start_m = distances.scene_at_start_m, least_m = distances.scene.distance_m;
+  const double end_m = distances.scene_at_end_m;
+  if (!too_near.stands()) return end_m >= start_m && least_m >= start_m - kGivenAway_m;
+  if (start_m >= too_near.least_m()) return least_m >= too_near.least_m();
+  return end_m >= start_m + kAwayShare * travel_m && least_m >= start_m - kCreptDip_m;
 }
 
 // An arm that touches a body goes into no other one, and out of all that it touches.
@@ -46,6 +45,15 @@ bool leads_apart(const simulate::Distances& distances) {
 }
 
 }  // namespace
+
+void TooNear::stand(double distance_m) {
+  const double kept_m = distance_m - kGivenAway_m;
+  farthest_m_ = stands_ ? std::max(distance_m, farthest_m_) : distance_m;
+  least_m_ = stands_ ? std::max(least_m_, kept_m) : kept_m;
+  if (was_refused_) least_m_ = std::max(std::min(least_m_, distance_m - kCreptDip_m), farthest_m_ - kMostCrept_m);
+  stands_ = true;
+  was_refused_ = false;
+}
 
 std::string in_millimetres(double distance_m) {
   char text[32];
@@ -74,6 +82,7 @@ void judge_distances(const config::SceneConfig& scene, const simulate::Distances
   const bool stands_too_near = start_m - levels.prediction_m < levels.refuse_m;
   stands_too_near ? too_near.stand(start_m) : too_near.forget();
   const auto refuse_contact = [&](double simulated_m, double stands_m, const First& where) {
+    too_near.refused();
     refuse(verdict, Refusal::kSceneContact,
            "the arm could touch " + where.body + ": " + in_millimetres(simulated_m - levels.prediction_m) +
                " of the simulated " + in_millimetres(simulated_m) + " are certain, " + in_millimetres(levels.refuse_m) +

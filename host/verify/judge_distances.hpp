@@ -1,9 +1,7 @@
 // The second end's first question, for every kind of arm: does the simulated motion keep off the scene and off itself.
 #pragma once
 
-#include <algorithm>
 #include <functional>
-#include <optional>
 #include <string>
 
 #include "host/simulate/motion.hpp"
@@ -17,19 +15,31 @@ constexpr double kGivenAway_m = 1e-3;
 // Of what the arm moves, an arm that has crept nearer has to go away from the scene.
 constexpr double kAwayShare = 0.1;
 
-// How far off the scene an arm stands that is nearer than commands may leave it. Motions may lead it away, and else to
-// no nearer than 1 mm less than the farthest it has stood off since. What is no nearer as simulated may be nearer by
-// the simulation's error, again and again: an arm that has come nearer than that only goes away.
+// How much nearer it may come before it is away, and than it stands after a refusal. An offset from the command settles
+// in the simulation and stays in truth: 0.3 mm at the end of a motion look like away.
+constexpr double kCreptDip_m = 1e-4;
+
+// By how much less than the farthest it has stood off an arm may go along after all refusals.
+constexpr double kMostCrept_m = 3e-3;
+
+// How near to the scene an arm may be led that is nearer than commands may leave it: 1 mm less than the farthest it has
+// stood off since. Motions may lead it away, and along beside a body no nearer than that. What is no nearer as
+// simulated may be nearer by the simulation's error, again and again: an arm that has come nearer than that only goes
+// away, until a motion is refused. From where it then stands it may go along once more, so that a way back is there.
 class TooNear {
  public:
   // The next motion begins so far off.
-  void stand(double distance_m) { farthest_m_ = std::max(distance_m, farthest_m_.value_or(distance_m)); }
+  void stand(double distance_m);
   // It is far enough off, or something else than commands has moved it.
-  void forget() { farthest_m_.reset(); }
-  const std::optional<double>& farthest_m() const { return farthest_m_; }
+  void forget() { *this = {}; }
+  void refused() { was_refused_ = true; }
+  bool stands() const { return stands_; }
+  // Nothing of a motion may be nearer than that.
+  double least_m() const { return least_m_; }
 
  private:
-  std::optional<double> farthest_m_;
+  double farthest_m_ = 0.0, least_m_ = 0.0;
+  bool stands_ = false, was_refused_ = false;
 };
 
 // What people call link 0, 1, ...

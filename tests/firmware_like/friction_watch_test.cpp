@@ -70,11 +70,11 @@ class Swaying {
     const size_t axis = state_.axis;
     const bool is_round = watch_friction(told_, layout_, declared_mu_, now, state_);
     follow_slides(layout_, geometry_, ThetaVector{}, state_.mu + friction_sd(state_), balance_);
-    balance_axis(told_, layout_,
+    balance_axis(told_, layout_, limits_,
                  {geometry_, wrap_rad, tension_N, rate_rad_s, state_.mu, friction_sd(state_), 0.0, 0.0, false}, axis,
                  balance_);
     if (!is_round) return;
-    end_round(told_, limits_, rate_rad_s, balance_);
+    end_round(told_, limits_, balance_);
     watch_contact(told_, arm, balance_, {moving, false}, contact_);
     for (std::uint32_t place = 0; place < kPlaces * zhu2022::kCables / 3; ++place)
       try_place(told_, arm, place, contact_);
@@ -200,6 +200,37 @@ TEST(ContactWatch, ALightPushAtTheTipIsWhatTheTipIsForAndAHeavyOneIsNot) {
   heavy.run(10.0);
   heavy.run(5.0, true, 5, Vec3{0.0, 6.0, 0.0});
   EXPECT_TRUE(is_in_contact(heavy.contact()));
+}
+
+// The joints stop within `stop_axes` looks at an axis of the ten of a round.
+double stir_of_a_stop(size_t stop_axes) {
+  const RobotTable table = zhu2022::table();
+  const CableLayout layout = cable_layout(table);
+  const TorqueLimits limits = make_torque_limits(table);
+  const ArmTrig trig = arm_trig(table, zhu2022::radians(zhu2022::kPrepare_deg));
+  const CableGeometry geometry = cable_geometry(table, layout, trig);
+  const SegmentVector wrap_rad = cable_wraps(table, trig);
+  CableVector tension_N;
+  tension_N.fill(40.0);
+  TorqueBalance balance;
+  reset_balance(geometry, SlipState{}, balance);
+  ThetaVector rate_rad_s;
+  for (int round = 0; round < 2; ++round) {
+    for (size_t axis = 0; axis < zhu2022::kThetas; ++axis) {
+      const double stopped =
+          round == 0 ? 0.0 : std::min(1.0, static_cast<double>(axis) / static_cast<double>(stop_axes));
+      rate_rad_s.fill(0.01 * (1.0 - stopped));
+      balance_axis(table, layout, limits, {geometry, wrap_rad, tension_N, rate_rad_s, 0.05, 0.01, 0.0, 0.0, false},
+                   axis, balance);
+    }
+    if (round == 0) balance.stir = balance.peak = 0.0;
+  }
+  end_round(table, limits, balance);
+  return balance.stir;
+}
+
+TEST(ContactWatch, AStopInATenthOfARoundStirsTheArmMoreThanALongOne) {
+  EXPECT_NEAR(stir_of_a_stop(1) / stir_of_a_stop(8), 8.0, 1e-6);
 }
 
 }  // namespace

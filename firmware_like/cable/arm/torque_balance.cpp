@@ -36,12 +36,14 @@ void weigh_friction(const CableLayout& layout, const BalanceReadings& now, std::
   }
 }
 
-// Rates that rise and fall within a round are no less of a stir than those that stay.
-void note_rates(const RobotTable& table, const ThetaVector& rate_rad_s, TorqueBalance& state) noexcept {
-  for (Index k = 0; k < 2 * segments(table); ++k) {
-    state.least_rad_s[k] = smaller(state.least_rad_s[k], rate_rad_s[k]);
-    state.most_rad_s[k] = larger(state.most_rad_s[k], rate_rad_s[k]);
-  }
+// The hardest acceleration of a round counts: a stop that is over within it swings the arm as much as a long one.
+void note_rates(const RobotTable& table, const TorqueLimits& limits, const ThetaVector& rate_rad_s,
+                TorqueBalance& state) noexcept {
+  double change = 0.0;
+  for (Index k = 0; k < 2 * segments(table); ++k)
+    change += limits.inertia[k / 2] * std::fabs(rate_rad_s[k] - state.rate_rad_s[k]);
+  state.rate_rad_s = rate_rad_s;
+  state.peak = larger(state.peak, change / (kFrictionTicks * table.tick_s));
 }
 
 double slid_until(const BalanceReadings& now, const SegmentVector& sigma, Index own) noexcept {
@@ -88,10 +90,10 @@ void follow_slides(const CableLayout& layout, const CableGeometry& geometry, con
   advance_slip(layout, part_m, kFeltPresliding_m * larger(kLeast_mu, most_mu), state.slip);
 }
 
-void balance_axis(const RobotTable& table, const CableLayout& layout, const BalanceReadings& now, Index axis,
-                  TorqueBalance& state) noexcept {
+void balance_axis(const RobotTable& table, const CableLayout& layout, const TorqueLimits& limits,
+                  const BalanceReadings& now, Index axis, TorqueBalance& state) noexcept {
   const Index own = axis / 2;
-  note_rates(table, now.rate_rad_s, state);
+  note_rates(table, limits, now.rate_rad_s, state);
   if (axis == 0) weigh_friction(layout, now, turning_segments(table, now.rate_rad_s), state);
   double torque_Nm = now.inertia_Nm, per_mu_Nm = 0.0;
   ThetaVector variance_Nm2{};
@@ -119,14 +121,9 @@ void balance_axis(const RobotTable& table, const CableLayout& layout, const Bala
 }
 
 // How hard the arm is accelerated, or was a moment ago, counts at every angle.
-void end_round(const RobotTable& table, const TorqueLimits& limits, const ThetaVector& rate_rad_s,
-               TorqueBalance& state) noexcept {
-  note_rates(table, rate_rad_s, state);
-  double now = 0.0;
-  for (Index k = 0; k < 2 * segments(table); ++k)
-    now += limits.inertia[k / 2] * (state.most_rad_s[k] - state.least_rad_s[k]) / round_s(table);
-  state.least_rad_s = state.most_rad_s = rate_rad_s;
-  state.stir = larger(now, state.stir * (1.0 - round_s(table) / kTorqueCalm_s));
+void end_round(const RobotTable& table, const TorqueLimits& limits, TorqueBalance& state) noexcept {
+  state.stir = larger(state.peak, state.stir * (1.0 - round_s(table) / kTorqueCalm_s));
+  state.peak = 0.0;
   for (Index k = 0; k < 2 * segments(table); ++k) {
     state.variance_Nm2[k][k] += square(kTorqueFloor_Nm) + square(limits.swing_Nm[k / 2]) +
                                 square(kTorqueInertia * limits.inertia[k / 2] * state.stir);

@@ -46,8 +46,9 @@ struct TorqueBalance {
   std::array<CableVector, kMaxTheta> pull_Nm{};    // of every cable about each angle
   std::array<SegmentVector, kMaxCables> own{};     // variance of friction's exponent in the middle of each segment
   std::array<SegmentVector, kMaxCables> shared{};  // of it, what later segments share
-  ThetaVector least_rad_s{}, most_rad_s{};         // rates commanded in this round, and when the last one ended
-  double stir = 0.0;                               // acceleration of all segments, each times its `inertia`; fades
+  ThetaVector rate_rad_s{};                        // commanded when the last axis was balanced
+  double peak = 0.0;                               // acceleration of all segments in this round, each times `inertia`
+  double stir = 0.0;                               // the same of earlier rounds; fades
 };
 
 // What one tick knows of the arm.
@@ -73,11 +74,10 @@ void follow_slides(const CableLayout& layout, const CableGeometry& geometry, con
 
 // One axis anew; axes come in order, from 0. Cost: one exponential per cable, four operations per cable and earlier
 // axis.
-void balance_axis(const RobotTable& table, const CableLayout& layout, const BalanceReadings& now, std::size_t axis,
-                  TorqueBalance& state) noexcept;
+void balance_axis(const RobotTable& table, const CableLayout& layout, const TorqueLimits& limits,
+                  const BalanceReadings& now, std::size_t axis, TorqueBalance& state) noexcept;
 
 // After the last axis: what motion itself hides is added to the variances.
-void end_round(const RobotTable& table, const TorqueLimits& limits, const ThetaVector& rate_rad_s,
-               TorqueBalance& state) noexcept;
+void end_round(const RobotTable& table, const TorqueLimits& limits, TorqueBalance& state) noexcept;
 
 }  // namespace liana::cable

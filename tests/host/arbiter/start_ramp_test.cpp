@@ -54,5 +54,37 @@ TEST(SpeedZone, AsksForLessThanItAllowsBecauseTheTrueTipSwings) {
   EXPECT_DOUBLE_EQ(zone.advice_at({1.60, 0.0, 0.0}, 0.1), 0.1);
 }
 
+// The tip follows what the ramp allows, at its own acceleration.
+double time_to(GoalRamp& ramp, double speed_m_s, Vec3& tip_m) {
+  constexpr double kAccel_m_s2 = 0.22;
+  double time_s = 0.0, v_m_s = 0.0;
+  while (v_m_s < speed_m_s && time_s < 10.0) {
+    v_m_s = std::min(ramp.speed_m_s(), v_m_s + kAccel_m_s2 * kInterval_s);
+    tip_m[0] += v_m_s * kInterval_s;
+    ramp.note(tip_m, kInterval_s);
+    time_s += kInterval_s;
+  }
+  return time_s;
+}
+
+TEST(GoalRamp, LetsTheTipSpeedUpAsItIsSetAndNoFurtherThanItsMost) {
+  GoalRamp ramp(0.1, 0.08);
+  Vec3 tip_m{2.0, 0.0, 0.0};
+  ramp.note(tip_m, kInterval_s);
+  ramp.note(tip_m, kInterval_s);
+  EXPECT_NEAR(time_to(ramp, 0.08, tip_m), 0.6, 0.05) << "it begins a fifth of a second ahead";
+  EXPECT_DOUBLE_EQ(ramp.speed_m_s(), 0.08);
+}
+
+TEST(GoalRamp, BeginsAnewWhereTheTipHasSlowedDown) {
+  GoalRamp ramp(0.1, 0.08);
+  Vec3 tip_m{2.0, 0.0, 0.0};
+  ramp.note(tip_m, kInterval_s);
+  ramp.note(tip_m, kInterval_s);
+  time_to(ramp, 0.08, tip_m);
+  ramp.note(tip_m, kInterval_s);
+  EXPECT_NEAR(ramp.speed_m_s(), 0.02, 1e-9) << "a fifth of a second of its acceleration";
+}
+
 }  // namespace
 }  // namespace liana::arbiter

@@ -16,6 +16,13 @@ class AnArmBesideABody : public testing::Test {
     rules_.scene.spheres.push_back({"ball", {}, 0.1});
   }
 
+  // How far the next motions move the first node.
+  void moves(double travel_m) {
+    rules_.table.segment_count = 1;
+    rules_.table.segment[0].theta_limit_rad = 1.0;
+    travel_m_ = travel_m;
+  }
+
   // Of a motion between these distances, nearest at `least_m`, past bodies beside it.
   Refusal goes(double start_m, double least_m, double end_m, std::vector<simulate::BodyBeside> bodies = {}) {
     simulate::Motion motion;
@@ -55,18 +62,32 @@ TEST_F(AnArmBesideABody, ComesNoNearerByOneMotionAfterTheOther) {
   EXPECT_EQ(goes(0.0041, 0.0037, 0.0037), Refusal::kSceneContact) << "1 mm less than it stood off once";
   EXPECT_EQ(goes(0.0060, 0.0051, 0.0051), Refusal::kNone);
   EXPECT_EQ(goes(0.0051, 0.0046, 0.0046), Refusal::kSceneContact) << "it has been farther off meanwhile";
-  EXPECT_EQ(goes(0.0030, 0.0030, 0.0030), Refusal::kNone) << "something else has moved it: no nearer from there";
-  EXPECT_EQ(goes(0.0030, 0.0029, 0.0029), Refusal::kSceneContact);
 }
 
 TEST_F(AnArmBesideABody, ThatHasCreptNearerAllTheSameOnlyGoesAway) {
-  rules_.table.segment_count = 1;
-  rules_.table.segment[0].theta_limit_rad = 1.0;
-  travel_m_ = 0.010;
+  moves(0.010);
   EXPECT_EQ(goes(0.0060, 0.0055, 0.0055), Refusal::kNone);
-  EXPECT_EQ(goes(0.0048, 0.0048, 0.0049), Refusal::kSceneContact) << "along beside it, and off by the model's error";
-  EXPECT_EQ(goes(0.0048, 0.0048, 0.0059), Refusal::kNone);
+  EXPECT_EQ(goes(0.0048, 0.0048, 0.0059), Refusal::kNone) << "away by more than the tenth of what it moves";
+  EXPECT_EQ(goes(0.0048, 0.0048, 0.0057), Refusal::kSceneContact) << "off by the model's error";
   EXPECT_EQ(goes(0.0055, 0.0051, 0.0051), Refusal::kNone) << "as far off as it has been, but for 1 mm";
+}
+
+TEST_F(AnArmBesideABody, GoesAlongAgainFromWhereARefusalHasLeftIt) {
+  moves(0.010);
+  EXPECT_EQ(goes(0.0060, 0.0055, 0.0055), Refusal::kNone);
+  EXPECT_EQ(goes(0.0048, 0.0040, 0.0059), Refusal::kSceneContact);
+  EXPECT_EQ(goes(0.0045, 0.0044, 0.0044), Refusal::kNone) << "a way back along the body";
+  EXPECT_EQ(goes(0.0044, 0.0042, 0.0042), Refusal::kSceneContact) << "and no nearer by it";
+}
+
+TEST_F(AnArmBesideABody, IsNotLedNearerByAnyNumberOfRefusals) {
+  moves(0.010);
+  double stands_m = 0.0060;
+  for (int refused = 0; refused < 1000; ++refused) {
+    EXPECT_EQ(goes(stands_m, 0.0, stands_m), Refusal::kSceneContact);
+    if (goes(stands_m, stands_m - 0.9 * kCreptDip_m, stands_m) == Refusal::kNone) stands_m -= 0.9 * kCreptDip_m;
+  }
+  EXPECT_NEAR(stands_m, 0.0060 - kMostCrept_m, kCreptDip_m);
 }
 
 TEST_F(AnArmBesideABody, ThatHasLeftItIsAsOneThatNeverWasThere) {
