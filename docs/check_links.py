@@ -8,7 +8,7 @@ TOP_FOLDERS = ("firmware_like/", "host/", "hil/", "lua/", "tests/", "docs/")
 
 
 def pages():
-    return [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").rglob("*.md"))]
+    return [ROOT / "README.md", ROOT / "CHANGELOG.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 
 
 def broken_in(page):

@@ -4,6 +4,8 @@ from liana.devices import ArmState, Device
 from liana.recordings import BadRecording, Event, Recording, Truth, read_events
 from liana.system import ProgramRefused, System
 
+__version__ = "0.4.0"  # as CMakeLists.txt has it; tests/host/cli/test_version.py compares
+
 __all__ = [
     "ArmState",
     "BadRecording",

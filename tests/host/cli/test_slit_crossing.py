@@ -11,9 +11,10 @@ import tempfile
 import time
 import unittest
 
-from programs import liana, liana_json, start_liana
+from programs import ROOT, liana, liana_json, start_liana
 
 DEG = 3.141592653589793 / 180
+README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
 def children_of(pid):
@@ -55,6 +56,13 @@ class WholeRun(unittest.TestCase):
         self.assertLessEqual(self.report["duration_s"], 216.4)
         self.assertEqual(len(self.report["steps"]), 6)
         self.assertEqual(self.report["faults"], [])
+
+    def test_every_line_of_the_readmes_sample_is_printed_in_this_order(self):
+        sample = re.search(r"^<!-- The sample below .*-->\n```text\n(.*?)^```", README, re.M | re.S)[1].splitlines()
+        printed = iter((self.error + self.out).splitlines())
+        self.assertGreater(len(sample), 5)
+        for line in sample:
+            self.assertTrue(line in printed, f"README.md: not printed, or not in this order: {line}")
 
     def test_the_tip_ends_at_the_rod(self):
         self.assertLessEqual(self.report["tip_error_m"], 1.5e-3)
