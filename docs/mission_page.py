@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the reference part of docs/missions.md from lua/liana: the fields of a step, the conditions, the actions.
+"""Writes the tables of docs/reference/mission-language.md from lua/liana: the fields of a step, the conditions, the
+actions.
 
 `--check` writes nothing and fails where page and library differ, or where something of the library is without words.
 """
@@ -9,7 +10,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 LIBRARY = ROOT / "lua" / "liana"
-PAGE = ROOT / "docs" / "missions.md"
+PAGE = ROOT / "docs" / "reference" / "mission-language.md"
 BEGIN, END = "<!-- made by docs/mission_page.py -->", "<!-- end of what is made -->"
 
 
@@ -49,11 +50,11 @@ def table(head, rows):
 
 def reference():
     parts = [
-        "### Fields of a step",
+        "## Fields of a step",
         table(("field", "meaning"), field_rows()),
-        "### Conditions",
+        "## Conditions",
         table(("call", "met when"), functions_of("conditions")),
-        "### Actions",
+        "## Actions",
         table(("call", "what it does"), functions_of("actions")),
     ]
     return "\n\n".join(parts)
@@ -66,7 +67,9 @@ def main():
     if "--check" not in sys.argv[1:]:
         PAGE.write_text(made)
     elif made != text:
-        sys.exit("docs/missions.md: differs from lua/liana: write it anew with python3 docs/mission_page.py")
+        sys.exit(
+            "docs/reference/mission-language.md: differs from lua/liana: write it anew with python3 docs/mission_page.py"
+        )
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-// What a type has to offer to be an arm that the Controller moves. Adding one: docs/architecture.md.
+// What a type has to offer to be an arm that the Controller moves. Adding one: docs/explanation/architecture.md.
 #pragma once
 
 #include <concepts>

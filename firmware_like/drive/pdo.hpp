@@ -1,5 +1,5 @@
-// The process data of one drive as bytes (docs/drives.md), little-endian: RPDO1 = 6040, 607A, or of a torque drive
-// 6040, 6071, 60B1; TPDO1 = 6041, 6064, 6077; TPDO2, of a torque drive only, 606C.
+// The process data of one drive as bytes (docs/reference/drives.md), little-endian: RPDO1 = 6040, 607A, or of a torque
+// drive 6040, 6071, 60B1; TPDO1 = 6041, 6064, 6077; TPDO2, of a torque drive only, 606C.
 #pragma once
 
 #include <array>

@@ -4,15 +4,16 @@
 #pragma once
 
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || __FINITE_MATH_ONLY__
-#error "Liana's core: -ffast-math and its parts change bits and lose NaN; build without (docs/determinism.md)"
+#error \
+    "Liana's core: -ffast-math and its parts change bits and lose NaN; build without (docs/explanation/determinism.md)"
 #endif
 
 #if __FLT_EVAL_METHOD__ == 2 || __FLT_EVAL_METHOD__ < 0
-#error "Liana's core: x87 arithmetic rounds twice; build it with -msse2 -mfpmath=sse (docs/determinism.md)"
+#error "Liana's core: x87 arithmetic rounds twice; build it with -msse2 -mfpmath=sse (docs/explanation/determinism.md)"
 #endif
 
 // g++ fuses in spite of -ffp-contract=off, and has fused operations from AVX-512 even with -mno-fma; clang++ has none
 // there.
 #if defined(__FMA__) || defined(__FMA4__) || (defined(__AVX512F__) && !defined(__clang__))
-#error "Liana's core: no fused operations; add -mno-fma -mno-fma4 -mno-avx512f (docs/determinism.md)"
+#error "Liana's core: no fused operations; add -mno-fma -mno-fma4 -mno-avx512f (docs/explanation/determinism.md)"
 #endif

@@ -1,4 +1,4 @@
-// Own elementary functions, so that every target computes the same bits (docs/determinism.md).
+// Own elementary functions, so that every target computes the same bits (docs/explanation/determinism.md).
 // Only + - * / and sqrt are used. Errors are against the exact value, tested over the whole range stated.
 #pragma once
 

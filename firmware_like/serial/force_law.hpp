@@ -1,4 +1,5 @@
-// The outer laws of force control, one step of a tick each (docs/force-control.md). Both make a tip velocity:
+// The outer laws of force control, one step of a tick each (docs/explanation/force-control.md). Both make a tip
+// velocity:
 //
 //   force:      M_d dv/dt = K_P C_F (F - F_e) - K_D v       (Liu et al., eqs 16-19, without the position term)
 //   impedance:  M_d dv/dt = K_P (x_d - x) - F_e - K_D v

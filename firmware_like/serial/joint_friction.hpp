@@ -1,6 +1,6 @@
 // Friction of the joints, found while they slide: what a torque drive gets on top, so that friction neither delays a
 // motion's begin nor winds up the drive's integral, which would come off after the motion's end
-// (docs/force-control.md).
+// (docs/explanation/force-control.md).
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // A push along an axis of the tip by force control, and giving way: what both ask of the joints in every tick
-// (docs/force-control.md). Forces are what the arm gives; the sensor says what it gets.
+// (docs/explanation/force-control.md). Forces are what the arm gives; the sensor says what it gets.
 #pragma once
 
 #include <cstdint>

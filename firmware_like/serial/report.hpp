@@ -11,7 +11,7 @@
 
 namespace liana::serial {
 
-// How a push goes, and what sensors say (docs/force-control.md).
+// How a push goes, and what sensors say (docs/explanation/force-control.md).
 struct PushReport {
   std::uint32_t number = 0;  // of the push that was begun last; 0: none yet
   PushPhase phase = PushPhase::kNone;

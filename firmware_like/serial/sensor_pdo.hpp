@@ -1,4 +1,4 @@
-// The process data of wrist sensor and adapter as bytes (docs/force-control.md), little-endian.
+// The process data of wrist sensor and adapter as bytes (docs/explanation/force-control.md), little-endian.
 #pragma once
 
 #include <array>

@@ -11,7 +11,7 @@
 
 namespace liana::serial {
 
-// A push along an axis of the tip, and what ends it (docs/force-control.md).
+// A push along an axis of the tip, and what ends it (docs/explanation/force-control.md).
 struct Push {
   std::uint32_t number = 0;  // > 0: another number begins another push, the same goes on with the one under way
   PushLaw law = PushLaw::kForce;

@@ -1,4 +1,5 @@
-// What an arm adds to its table when its drives follow torques instead of positions (docs/force-control.md).
+// What an arm adds to its table when its drives follow torques instead of positions
+// (docs/explanation/force-control.md).
 #pragma once
 
 #include <array>

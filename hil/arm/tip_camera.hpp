@@ -56,7 +56,7 @@ class TipCamera {
   std::deque<CameraView> pending_;
 };
 
-// The message of docs/api.md.
+// The message of docs/reference/api.md.
 std::string camera_message(const CameraView& view);
 
 }  // namespace liana::bench

@@ -59,7 +59,7 @@ class TipTool {
 
 // Reads a message of the topic `tool`; nothing for any other message.
 std::optional<ToolCommand> tool_command(const std::string& message);
-// The request `tool_report` of docs/api.md.
+// The request `tool_report` of docs/reference/api.md.
 std::string tool_message(const ToolReport& report);
 
 }  // namespace liana::bench

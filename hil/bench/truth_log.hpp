@@ -1,4 +1,4 @@
-// truth.bin: what the physics really did, one row per slot (docs/formats.md).
+// truth.bin: what the physics really did, one row per slot (docs/reference/formats.md).
 #pragma once
 
 #include <cstdio>

@@ -11,7 +11,7 @@ namespace liana::bench {
 
 class ApiLink {
  public:
-  // What is told of itself: role, and the topic it wants to hear, empty for none (docs/api.md).
+  // What is told of itself: role, and the topic it wants to hear, empty for none (docs/reference/api.md).
   struct Hello {
     std::string role;
     std::string topic;

@@ -1,4 +1,4 @@
-// The embedded bus's packets, written from docs/bus-protocol.md.
+// The embedded bus's packets, written from docs/reference/bus-protocol.md.
 #pragma once
 
 #include <cstdint>

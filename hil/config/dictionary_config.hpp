@@ -1,4 +1,5 @@
-// What the object dictionary of a simulated drive is, where it is another than the bench's own (docs/drives.md).
+// What the object dictionary of a simulated drive is, where it is another than the bench's own
+// (docs/reference/drives.md).
 #pragma once
 
 #include <cstdint>

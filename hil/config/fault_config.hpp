@@ -1,4 +1,4 @@
-// The fault list of the bench: which drive, what, from when, how long (docs/hil.md).
+// The fault list of the bench: which drive, what, from when, how long (docs/how-to/run-hil.md).
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // The table of all kinds of faults: what each is called, what it happens to, whether it can end, what it can be told
-// (docs/hil.md).
+// (docs/how-to/run-hil.md).
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// A payload and the adapter that it goes into, as a scene table has them (docs/formats.md).
+// A payload and the adapter that it goes into, as a scene table has them (docs/reference/formats.md).
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// The robot table as the bench reads it from JSON (docs/formats.md). SI units, radians.
+// The robot table as the bench reads it from JSON (docs/reference/formats.md). SI units, radians.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Scene and bus table as the bench reads them (docs/formats.md).
+// Scene and bus table as the bench reads them (docs/reference/formats.md).
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// A robot with a serial arm as the bench reads it from JSON (docs/formats.md). SI units, radians.
+// A robot with a serial arm as the bench reads it from JSON (docs/reference/formats.md). SI units, radians.
 #pragma once
 
 #include <array>

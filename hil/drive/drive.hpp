@@ -1,4 +1,4 @@
-// One simulated CiA 402 drive: a CANopen node with a motor and a brake (docs/drives.md).
+// One simulated CiA 402 drive: a CANopen node with a motor and a brake (docs/reference/drives.md).
 #pragma once
 
 #include <cstdint>

@@ -60,7 +60,7 @@ constexpr Object kCommon[] = {
 
 constexpr std::int64_t kBothModes = 0x80 | 0x200;  // 6502: csp and cst
 
-// What only a drive with a joint torque sensor has. Gains: docs/drives.md.
+// What only a drive with a joint torque sensor has. Gains: docs/reference/drives.md.
 constexpr Object kTorque[] = {
     {0x3001, 0, kU8, kReadOnly, false, 7, 0, 255},
     {0x3001, 1, kU32, kReadWrite, false, 3000, 0, 1000000},    // damping [N.m.s/rad]

@@ -1,4 +1,4 @@
-// The table of objects a simulated drive has (docs/drives.md).
+// The table of objects a simulated drive has (docs/reference/drives.md).
 #pragma once
 
 #include <cstdint>

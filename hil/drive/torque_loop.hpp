@@ -14,7 +14,7 @@ struct TorqueGains {
 
 struct TorqueTarget {
   double feed_forward_Nm = 0.0;  // 6071 and 60B2
-  double rate_rad_s = 0.0;       // 60B1, read as the rate that the damping is against (docs/drives.md)
+  double rate_rad_s = 0.0;       // 60B1, read as the rate that the damping is against (docs/reference/drives.md)
 };
 
 // The joint torque sensor, and the rate of the motor at the joint.

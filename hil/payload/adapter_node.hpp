@@ -1,5 +1,5 @@
 // The adapter's electronics, node 0x30: says what its sensors and drives do, and takes lock and release
-// (docs/payload.md).
+// (docs/explanation/payload.md).
 #pragma once
 
 #include <cstdint>

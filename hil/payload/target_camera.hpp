@@ -55,7 +55,7 @@ class TargetCamera {
   std::deque<TargetView> pending_;
 };
 
-// The message of docs/api.md: the request `camera` with `target` and `target_name` ("grapple" or "adapter").
+// The message of docs/reference/api.md: the request `camera` with `target` and `target_name` ("grapple" or "adapter").
 std::string target_message(const TargetView& view);
 
 }  // namespace liana::bench

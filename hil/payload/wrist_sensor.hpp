@@ -1,5 +1,5 @@
 // The force/torque sensor at the wrist: what its strain gauges make of a load, and node 0x20 on the bus
-// (docs/payload.md).
+// (docs/explanation/payload.md).
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Which scenario or test shows each fault number: the second table of docs/faults.md. `--measured FILE` adds the ticks
-of a `./dev hil --json FILE`.
+"""Which scenario or test shows each fault number: the second table of docs/reference/faults.md. `--measured FILE` adds
+the ticks of a `./dev hil --json FILE`.
 """
 import argparse
 import collections

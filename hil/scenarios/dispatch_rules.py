@@ -1,5 +1,5 @@
 """There is no path around verification: whatever telecommand reached the core was passed by both ends and released
-before. Reads commands.txt (docs/formats.md) beside the recording.
+before. Reads commands.txt (docs/reference/formats.md) beside the recording.
 """
 kEnds = {"execution", "simulation"}
 kSpeaks = kEnds | {"setpoint", "release", "refusal"}

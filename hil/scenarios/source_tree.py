@@ -1,4 +1,6 @@
-"""Where this tree is. Importing it makes the tree's Python client importable (docs/python.md): programs do it first."""
+"""Where this tree is. Importing it makes the tree's Python client importable (docs/getting-started/python.md): programs
+do it first.
+"""
 import pathlib
 import sys
 

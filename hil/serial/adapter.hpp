@@ -1,5 +1,5 @@
 // The adapter that a payload is pushed into: three pins in three funnels, a capture spring, a stop, depth sensors, a
-// latch that closes when they say "captured", and a drive that locks what is latched (docs/payload.md).
+// latch that closes when they say "captured", and a drive that locks what is latched (docs/explanation/payload.md).
 #pragma once
 
 #include <array>

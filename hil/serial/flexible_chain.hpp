@@ -1,6 +1,7 @@
 // The bench's dynamics of a serial arm that is pushed against: rotors before elastic gears, friction, a payload at the
-// tip, and the locked joints of the arm that carries it, if any, as springs (docs/payload.md). In orbit: no gravity.
-// States and loads of tip and base are in the frame of the root: the base of the arm that carries, or this arm's own.
+// tip, and the locked joints of the arm that carries it, if any, as springs (docs/explanation/payload.md). In orbit: no
+// gravity. States and loads of tip and base are in the frame of the root: the base of the arm that carries, or this
+// arm's own.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// One pin of the adapter in its funnel and hole: forces written out, not an engine's contacts (docs/payload.md says
-// why).
+// One pin of the adapter in its funnel and hole: forces written out, not an engine's contacts
+// (docs/explanation/payload.md says why).
 #pragma once
 
 #include <optional>

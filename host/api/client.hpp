@@ -1,4 +1,4 @@
-// The client end of the API socket (docs/api.md): JSON packets out and in.
+// The client end of the API socket (docs/reference/api.md): JSON packets out and in.
 #pragma once
 
 #include <optional>

@@ -34,9 +34,9 @@ struct Unseen {
   bool is_ours = false;  // of this user: a system of its own may be there
 };
 
-// Looks for systems of every user, wherever one can be (docs/command-line.md): `found` gets each API socket once, as
-// soon as it is seen, those of this user first. What cannot be looked at is returned, and hinders nothing else. Throws
-// nothing but what `found` throws.
+// Looks for systems of every user, wherever one can be (docs/reference/command-line.md): `found` gets each API socket
+// once, as soon as it is seen, those of this user first. What cannot be looked at is returned, and hinders nothing
+// else. Throws nothing but what `found` throws.
 std::vector<Unseen> look_everywhere(const std::function<void(const std::string& api_socket)>& found);
 
 // The places that look_everywhere() knows, for people.

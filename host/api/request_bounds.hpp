@@ -48,8 +48,8 @@ struct RequestBounds {
   double value_of(const Bound& bound) const;
 };
 
-// From a robot's canonical JSON of kind "robot" or "serial" (docs/formats.md), which is in the units of the API. Throws
-// JsonError when a figure is missing.
+// From a robot's canonical JSON of kind "robot" or "serial" (docs/reference/formats.md), which is in the units of the
+// API. Throws JsonError when a figure is missing.
 RequestBounds request_bounds(const Json& robot);
 
 }  // namespace liana::api

@@ -218,7 +218,8 @@ const RequestRow& row_of(const Json& request) {
   if (!op.is_string() || op.text().empty() || op.text().size() > 32)
     wrong_type("op", op, "a text of 1 to 32 bytes, such as \"hold\"");
   const RequestRow* row = find_request(op.text());
-  if (row == nullptr) throw RequestError("bad_request", "unknown op " + brief(op) + ": docs/api.md lists them all");
+  if (row == nullptr)
+    throw RequestError("bad_request", "unknown op " + brief(op) + ": docs/reference/api.md lists them all");
   return *row;
 }
 

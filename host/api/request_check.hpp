@@ -1,4 +1,4 @@
-// Requests against the table: everything that it refuses by itself, in the words of docs/api.md.
+// Requests against the table: everything that it refuses by itself, in the words of docs/reference/api.md.
 #pragma once
 
 #include <cstddef>

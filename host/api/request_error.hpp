@@ -6,7 +6,7 @@
 
 namespace liana::api {
 
-// Codes of docs/api.md: bad_request, not_owner, not_enabled, fault, busy, out_of_range, refused, no_device.
+// Codes of docs/reference/api.md: bad_request, not_owner, not_enabled, fault, busy, out_of_range, refused, no_device.
 class RequestError : public std::runtime_error {
  public:
   RequestError(std::string code, const std::string& message) : std::runtime_error(message), code_(std::move(code)) {}

@@ -1,4 +1,4 @@
-// What is written of the table of requests: a section of docs/api.md and the stubs of the commands of `arm`.
+// What is written of the table of requests: a section of docs/reference/api.md and the stubs of the commands of `arm`.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ std::string lua_type(const RequestField& field);
 // Lua with annotations of LuaLS: the commands that missions can give.
 std::string command_stubs();
 
-constexpr MadeSection kRequestSection{"docs/api.md", "<!-- requests, made by ./dev docs -->\n",
+constexpr MadeSection kRequestSection{"docs/reference/api.md", "<!-- requests, made by ./dev docs -->\n",
                                       "<!-- end of requests -->\n", request_section};
 constexpr MadeSection kCommandStubs{"lua/liana/arm_stubs.lua", "-- ---- commanding, made by ./dev docs ----\n",
                                     "\nreturn arm\n", command_stubs};

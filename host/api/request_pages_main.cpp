@@ -1,4 +1,4 @@
-// Writes what is made of the table of requests into docs/api.md and lua/liana/arm_stubs.lua.
+// Writes what is made of the table of requests into docs/reference/api.md and lua/liana/arm_stubs.lua.
 #include <cstdio>
 #include <exception>
 #include <fstream>

@@ -1,5 +1,5 @@
 // The requests of the API in one table: what lianad checks, who may ask, what missions can send, the stubs of `arm` and
-// docs/api.md follow from it.
+// docs/reference/api.md follow from it.
 #pragma once
 
 #include <cstddef>
@@ -100,7 +100,7 @@ struct RequestRow {
   bool never_refused = false;  // its fields are taken as they come
 };
 
-// All of them, in the order of docs/api.md.
+// All of them, in the order of docs/reference/api.md.
 std::span<const RequestRow> request_table();
 
 // The row of an operation, or nullptr.

@@ -118,6 +118,6 @@ class ApiServer {
   std::uint64_t dropped_ = 0, dropped_ticks_ = 0;
 };
 
-// Role of its name in docs/api.md; throws RequestError for others.
+// Role of its name in docs/reference/api.md; throws RequestError for others.
 Role role_of(const std::string& name);
 }  // namespace liana::api

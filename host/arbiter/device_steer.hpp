@@ -52,7 +52,7 @@ class DeviceSteer {
   bool engaged() const { return engaged_; }
   // Where hand and tip stood when the operator engaged last.
   const ClutchAnchor& anchor() const { return clutch_.anchor(); }
-  // Why the operator was disengaged last, empty when by letting go (docs/devices.md lists them).
+  // Why the operator was disengaged last, empty when by letting go (docs/reference/device-protocol.md lists them).
   const char* reason() const { return reason_; }
   // Device times of the newest and of the oldest tip sample that the last goal was made of; < 0 before the first goal
   // of a use.

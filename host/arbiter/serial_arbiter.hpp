@@ -1,5 +1,5 @@
 // What a serial arm can be asked for besides plain motion: a push by force control, and giving way
-// (docs/force-control.md). Either is asked for again every interval until something else is.
+// (docs/explanation/force-control.md). Either is asked for again every interval until something else is.
 #pragma once
 
 #include <optional>

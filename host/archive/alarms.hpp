@@ -17,7 +17,7 @@ class Alarms {
   static constexpr std::size_t kMost = 8;
 
   void add(const std::string& text, std::uint64_t count);
-  // The oldest as a request (`archive_alarm`, docs/api.md); nothing when none waits.
+  // The oldest as a request (`archive_alarm`, docs/reference/api.md); nothing when none waits.
   std::optional<Json> take();
 
  private:

@@ -1,5 +1,5 @@
-// liana-archive: the flight recorder of a run. Writes what lianad says into an archive (docs/archive.md), every tick
-// into its ring and, with --record, into MCAP files. lianad itself writes none of them.
+// liana-archive: the flight recorder of a run. Writes what lianad says into an archive (docs/reference/archive.md),
+// every tick into its ring and, with --record, into MCAP files. lianad itself writes none of them.
 #include <csignal>
 #include <cstdio>
 #include <ctime>

@@ -15,7 +15,7 @@ namespace liana::archive {
 namespace {
 
 constexpr double kMessage_s = 0.04;  // 25 Hz, of all but events
-constexpr const char* kStateSchema = R"({"title":"state","description":"numbers of a state, docs/api.md",
+constexpr const char* kStateSchema = R"({"title":"state","description":"numbers of a state, docs/reference/api.md",
 "type":"object","required":["tick","time_s"],"properties":{"tick":{"type":"integer"},"time_s":{"type":"number"},
 "state":{"type":"string"},"measured_js_deg":{"type":"array","items":{"type":"number"}},
 "setpoint_js_deg":{"type":"array","items":{"type":"number"}},"tension_N":{"type":"array","items":{"type":"number"}}}})";

@@ -26,7 +26,8 @@ class Recorder {
       std::uint64_t next_event = 0, OnAlarm on_alarm = [](const std::string&, std::uint64_t) {});
 
   // One message of lianad: `state`, `event` or `events_lost`; others are ignored. Throws JsonError for one that is not
-  // as docs/api.md says, DatabaseError when the archive cannot be written for another reason than a full disk.
+  // as docs/reference/api.md says, DatabaseError when the archive cannot be written for another reason than a full
+  // disk.
   void take(const Json& message);
   // Something else of the run that is not there (host/archive/ring.hpp): said on standard error, and kept.
   void note_gap(const Gap& gap);

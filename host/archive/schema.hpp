@@ -1,4 +1,4 @@
-// The tables of both kinds of files; docs/archive.md explains them to people who open them with other tools.
+// The tables of both kinds of files; docs/reference/archive.md explains them to people who open them with other tools.
 #pragma once
 
 namespace liana::archive {

@@ -11,8 +11,8 @@
 namespace liana::archive {
 
 // The table `tm_1s` of one file: a row for each second, `first_tick`, `time_s`, `count` of records, then NAME_min,
-// NAME_mean and NAME_max of every value of the fields of docs/formats.md; NAME is the field's path with _ for the dot,
-// and _1, _2, ... where it has several. NULL: no number in this second.
+// NAME_mean and NAME_max of every value of the fields of docs/reference/formats.md; NAME is the field's path with _ for
+// the dot, and _1, _2, ... where it has several. NULL: no number in this second.
 class SecondFigures {
  public:
   // Makes the table when it is missing. Throws DatabaseError.

@@ -12,7 +12,7 @@
 
 namespace liana::archive {
 
-// What lianad says of one tick, as bytes of `liana-fields-2` (docs/formats.md).
+// What lianad says of one tick, as bytes of `liana-fields-2` (docs/reference/formats.md).
 struct RingTick {
   std::uint64_t tick = 0;
   std::string inputs;

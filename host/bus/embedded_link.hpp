@@ -1,4 +1,4 @@
-// The controller's end of the liana-bus socket (docs/bus-protocol.md).
+// The controller's end of the liana-bus socket (docs/reference/bus-protocol.md).
 #pragma once
 
 #include <string>

@@ -5,7 +5,7 @@
 namespace liana::bus {
 namespace {
 
-constexpr int kTransmitQueue = 64;  // frames per bus, docs/bus-protocol.md
+constexpr int kTransmitQueue = 64;  // frames per bus, docs/reference/bus-protocol.md
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// The packets of docs/bus-protocol.md as structs. Little-endian, no padding.
+// The packets of docs/reference/bus-protocol.md as structs. Little-endian, no padding.
 #pragma once
 
 #include <array>

@@ -56,7 +56,7 @@ bool BusHub::read_yield(std::size_t index) {
       end(participant.name() + " left");
       return false;
     case Participant::Received::kMalformed:
-      participant.refuse("malformed packet; expected is YIELD as in docs/bus-protocol.md");
+      participant.refuse("malformed packet; expected is YIELD as in docs/reference/bus-protocol.md");
       end(participant.name() + " sent a malformed packet");
   }
   return false;

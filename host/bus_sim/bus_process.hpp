@@ -7,8 +7,8 @@
 
 namespace liana::bus_sim {
 
-// Wires and period from the bus table (docs/formats.md); nothing else in it matters here. Throws std::runtime_error
-// with file and field.
+// Wires and period from the bus table (docs/reference/formats.md); nothing else in it matters here. Throws
+// std::runtime_error with file and field.
 void load_wires(const std::string& path, BusHubOptions& options);
 
 // Writes per bus frames, bits, load (0..1), refused and dropped as JSON. Throws std::runtime_error when the file cannot

@@ -173,7 +173,8 @@ FaultScript load_fault_script(const std::string& path, int bus_count) {
 
 FaultScript parse_fault_script(const std::string& text, const std::string& path, int bus_count) {
   const Json script = parse_file(text, path);
-  if (!script.is_array()) throw std::runtime_error(path + ": is not a JSON array of faults (docs/bus-protocol.md)");
+  if (!script.is_array())
+    throw std::runtime_error(path + ": is not a JSON array of faults (docs/reference/bus-protocol.md)");
   std::vector<BusFault> faults;
   for (std::size_t i = 0; i < script.size(); ++i)
     faults.push_back(read_fault({script[i], path + ": [" + std::to_string(i) + "]."}, bus_count));

@@ -1,4 +1,4 @@
-// Scripted faults of the embedded bus (docs/bus-protocol.md).
+// Scripted faults of the embedded bus (docs/reference/bus-protocol.md).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// liana-bus: the embedded CAN bus (docs/bus-protocol.md).
+// liana-bus: the embedded CAN bus (docs/reference/bus-protocol.md).
 #include <csignal>
 #include <cstdio>
 #include <exception>

@@ -1,5 +1,5 @@
 // From what the drives report at known poses to zeros, drums and directions, and to what is wired wrong
-// (docs/calibration.md).
+// (docs/how-to/calibrate.md).
 #pragma once
 
 #include <array>

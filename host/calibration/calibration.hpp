@@ -1,5 +1,5 @@
 // The calibration of one arm: what `liana calibrate` measured of every drive and cable, and when it may be used
-// (docs/calibration.md).
+// (docs/how-to/calibrate.md).
 #pragma once
 
 #include <cstdint>

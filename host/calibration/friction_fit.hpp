@@ -1,5 +1,6 @@
 // Friction of the cables from what their drives report while the arm moves slowly: the balance of torques that the core
-// watches, too (firmware_like/cable/arm/friction_watch.hpp), fitted to a whole motion at once (docs/friction.md).
+// watches, too (firmware_like/cable/arm/friction_watch.hpp), fitted to a whole motion at once
+// (docs/explanation/friction.md).
 #pragma once
 
 #include <Eigen/Core>

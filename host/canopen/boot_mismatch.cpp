@@ -35,7 +35,7 @@ constexpr Words kRobotWords{
     "is it the drive of the robot table?"};
 constexpr Words kDeskWords{"this way needs", "this drive is not of the type that --type names: name its own",
                            "set it with the maker's tool, or ask for less (--speed, --by)",
-                           "set it with the maker's tool, or correct the drive type (docs/drives.md)",
+                           "set it with the maker's tool, or correct the drive type (docs/reference/drives.md)",
                            "is it of the type that --type names?"};
 
 std::string advice(const BootMismatch& m, const Words& words) {
@@ -82,7 +82,7 @@ std::string text_of(const BootMismatch& m, const Words& words) {
       return object_text(m) + "no answer: the drive fell silent; check its power and the cable";
     case BootFailure::kAborted:
       return object_text(m) + refusal(m) + ": " + words.which_drive +
-             " If it is, say in its drive type what it has (docs/drives.md)";
+             " If it is, say in its drive type what it has (docs/reference/drives.md)";
     case BootFailure::kValue:
       return object_text(m) + difference(m, words) + ": " + advice(m, words);
     case BootFailure::kRestarts:

@@ -1,4 +1,4 @@
-// The objects one drive is asked and told at boot, in order (docs/drives.md).
+// The objects one drive is asked and told at boot, in order (docs/reference/drives.md).
 #pragma once
 
 #include <cstdint>

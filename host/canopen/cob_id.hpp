@@ -1,4 +1,5 @@
-// Identifiers of the predefined connection set (CiA 301) and what the drives and the master use of it (docs/drives.md).
+// Identifiers of the predefined connection set (CiA 301) and what the drives and the master use of it
+// (docs/reference/drives.md).
 #pragma once
 
 #include <cstdint>

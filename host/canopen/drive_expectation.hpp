@@ -1,4 +1,4 @@
-// What a drive must be and what it is told at boot (docs/drives.md).
+// What a drive must be and what it is told at boot (docs/reference/drives.md).
 #pragma once
 
 #include <cstdint>

@@ -20,7 +20,7 @@ struct DryRun {
   double wall_time_s = 0.0;       // of the whole dry run, from tables to report
 };
 
-// The answer of `liana check` (docs/command-line.md).
+// The answer of `liana check` (docs/reference/command-line.md).
 Json check_report(const DryRun& run);
 
 // The same for people. is_serial: the robot has a serial arm.

@@ -58,7 +58,8 @@ struct BudgetOptions {
   std::string svg_file;  // empty: no picture
   bool json = false;
 };
-// How far beside its goal a chain of arms puts what it carries, by formula and by chance (docs/budget.md).
+// How far beside its goal a chain of arms puts what it carries, by formula and by chance
+// (docs/explanation/error-budget.md).
 int budget_command(const BudgetOptions& options);
 
 struct SweepOptions {
@@ -68,7 +69,7 @@ struct SweepOptions {
   bool json = false;
 };
 // All configurations of a 7-joint arm with the tip still, and how far each gives way; exit code 1 when they form no
-// closed motion (docs/self-motion.md).
+// closed motion (docs/explanation/self-motion.md).
 int sweep_command(const SweepOptions& options);
 
 struct VerifyOptions {
@@ -122,7 +123,8 @@ struct TeleopOptions {
   SystemWish wish;
   std::string gamepad;  // its device; empty: keys alone
 };
-// Drives the arm from this terminal, of a running system or a simulated one, until x or Ctrl-C (docs/teleop.md).
+// Drives the arm from this terminal, of a running system or a simulated one, until x or Ctrl-C
+// (docs/how-to/teleoperate.md).
 int teleop_command(const TeleopOptions& options);
 
 struct LinkOptions {
@@ -133,7 +135,7 @@ struct LinkOptions {
   double loss = 0.0;          // share of samples and states, 0 .. 1
   std::uint64_t seed = 1;
 };
-// Carries the packets of devices to lianad and back, late, until Ctrl-C (docs/operator.md).
+// Carries the packets of devices to lianad and back, late, until Ctrl-C (docs/explanation/operator-model.md).
 int link_command(const LinkOptions& options);
 
 struct ViewOptions {
@@ -208,12 +210,13 @@ struct ForceOptions {
   std::uint64_t seed = 1;
   bool json = false;
 };
-// How well the force at the tip is estimated: pushes of the bench beside what the arm tells (docs/force.md).
+// How well the force at the tip is estimated: pushes of the bench beside what the arm tells
+// (docs/explanation/contact-force.md).
 int force_command(const ForceOptions& options);
 
 struct FaultsOptions {
   std::string robot = "zhu2022";
-  bool markdown = false;  // the table of docs/faults.md, or of docs/refusals.md
+  bool markdown = false;  // the table of docs/reference/faults.md, or of docs/reference/refusals.md
   bool refusals = false;  // error codes M_e of verification in place of faults
   bool json = false;
 };

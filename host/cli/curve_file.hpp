@@ -8,8 +8,8 @@
 
 namespace liana::cli {
 
-// The points of a curve's file (docs/formats.md): 2 to 1000, base frame, m, neighbours at least 1 mm apart. Throws
-// BadInput, which names the point, counted from 1.
+// The points of a curve's file (docs/reference/formats.md): 2 to 1000, base frame, m, neighbours at least 1 mm apart.
+// Throws BadInput, which names the point, counted from 1.
 std::vector<Vec3> read_curve(const std::string& path);
 
 // The same from the text of such a file, which messages call `name`. Throws std::runtime_error.

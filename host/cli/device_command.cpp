@@ -1,4 +1,4 @@
-// liana device list|watch: the input devices of a running system (docs/devices.md).
+// liana device list|watch: the input devices of a running system (docs/reference/device-protocol.md).
 #include <chrono>
 #include <cstdio>
 #include <stdexcept>

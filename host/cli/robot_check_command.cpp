@@ -162,7 +162,7 @@ void look_at_travel(const cable::RobotTable& table, Json& notes) {
     if (most_m >= calibration::kLeastChange_m) continue;
     notes.push_back(
         text("segment %zu moves its cables by %.1f mm at most: liana calibrate needs %g mm: set drives.zero_counts "
-             "and .direction by hand (docs/calibration.md)",
+             "and .direction by hand (docs/how-to/calibrate.md)",
              j + 1, 1e3 * most_m, 1e3 * calibration::kLeastChange_m));
   }
 }

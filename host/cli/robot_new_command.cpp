@@ -101,7 +101,8 @@ std::string head(const std::string& name, const Answers& a) {
   return "-- " + name +
          ": written by `liana robot new`. What it asked for is marked; everything else is assumed from it, and yours "
          "to\n" +
-         "-- correct (docs/your-own-arm.md, docs/formats.md). `liana robot check` says whether it fits.\n\n" +
+         "-- correct (docs/how-to/bring-your-own-arm.md, docs/reference/formats.md). `liana robot check` says whether "
+         "it fits.\n\n" +
          filled("local kSegments, kCables = %d, %d -- asked: segments, and cables that end in each\n", a.segments,
                 a.cables) +
          filled("local segment = { modules = %d, module_length_m = %g, theta_limit_deg = %g } -- asked\n\n", a.modules,
@@ -120,7 +121,7 @@ std::string head(const std::string& name, const Answers& a) {
          "local zero, bent, back, wave = {}, {}, {}, {} -- poses: pitch, yaw of segment 1, 2, ...\n"
          "-- `wave` goes to one side, twice to the other, and back: from there the tip moves along lines in every "
          "direction\n"
-         "-- (docs/your-own-arm.md).\n"
+         "-- (docs/how-to/bring-your-own-arm.md).\n"
          "for k = 1, 2 * kSegments do\n"
          "  local m = (k + 1) // 2\n" +
          filled("  zero[k], bent[k], back[k] = 0, %g * (k %% 2 == 0 and -1 or 1), %g * (k %% 3 == 0 and -1 or 1)\n",

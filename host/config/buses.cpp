@@ -13,12 +13,12 @@ namespace {
 constexpr double kMicrosecondsPerSecond = 1e6;
 constexpr std::size_t kMaxBuses = 8;
 constexpr double kSdoPairsPerSecond = 20.0;  // as host/bus/bus_load.hpp has it
-constexpr std::int64_t kMasterNode = 127;    // docs/drives.md
+constexpr std::int64_t kMasterNode = 127;    // docs/reference/drives.md
 
 BusConfig read_bus(const Field& field, std::map<std::int32_t, std::string>& owner) {
   field.only({"name", "bitrate", "nodes", "wrist_sensor", "adapter"});
   BusConfig bus;
-  bus.name = field.at("name").name(11);  // 12 bytes with the final zero, docs/bus-protocol.md
+  bus.name = field.at("name").name(11);  // 12 bytes with the final zero, docs/reference/bus-protocol.md
   bus.bitrate = static_cast<std::int32_t>(field.at("bitrate").integer(10000, 1000000));
   const Field nodes = field.at("nodes");
   const std::size_t count = nodes.size(1, cable::kMaxCables, "list the node ids of the drives on this bus");

@@ -1,4 +1,4 @@
-// Robot, scene and buses: canonical JSON (docs/formats.md) to checked C++ structs.
+// Robot, scene and buses: canonical JSON (docs/reference/formats.md) to checked C++ structs.
 // Every function that reads throws std::runtime_error "file: field: value: allowed ...: what to do" on the first fault
 // it finds.
 #pragma once
@@ -20,7 +20,7 @@ struct BusConfig {
   std::string name;                 // interface name for socketcan
   std::int32_t bitrate = 0;         // bit/s
   std::vector<std::int32_t> nodes;  // CANopen node ids, 1..126
-  std::int32_t wrist_sensor = 0;    // node of a serial arm's force sensor (docs/force-control.md); 0: none
+  std::int32_t wrist_sensor = 0;    // node of a serial arm's force sensor (docs/explanation/force-control.md); 0: none
   std::int32_t adapter = 0;         // node of the adapter; 0: none
 };
 
@@ -185,8 +185,8 @@ struct SceneContact {
   double friction = 0.0;
 };
 
-// What the scene asks of claimed clearances (docs/clearance.md, docs/verification.md), and how far it may stand beside
-// its drawing.
+// What the scene asks of claimed clearances (docs/explanation/clearance.md, docs/explanation/verification.md), and how
+// far it may stand beside its drawing.
 struct SceneMargins {
   double prediction_m = 0.009;  // how much nearer the true arm may be than a predicted one: taken off every distance
   double slow_m = 0.003;        // at or below this claim the tip is slowed down
@@ -195,7 +195,7 @@ struct SceneMargins {
   double turn_deg = 0.0;        // and turned by so much about the slit frame's origin
 };
 
-// What a virtual fixture does about the tip (docs/fixtures.md).
+// What a virtual fixture does about the tip (docs/explanation/virtual-fixtures.md).
 enum class FixtureKind : std::uint8_t {
   kPlane,  // guides a hand: what it asks for is brought into the plane y = 0 of the frame; felt as that plane
   kWalls,  // forbids: the tip stays between two planes y = +-room; felt as these

@@ -59,7 +59,7 @@ void refuse_what_is_needed(const Field& field, Presence presence) {
   const ObjectId object = parse_object(field, field.json().text());
   if (makes_csp(object))
     field.refuse("any object but 6040, 6041, 6060, 6064, 607A and 6502, which make csp",
-                 "take it off the list: a drive without it cannot be driven (docs/drives.md)");
+                 "take it off the list: a drive without it cannot be driven (docs/reference/drives.md)");
   if (presence == Presence::kAbsent && (object == ObjectId{0x1400, 1} || object == ObjectId{0x1800, 1}))
     field.refuse("any object but 1400:1 and 1800:1", "without process data a drive cannot be driven");
 }
@@ -137,7 +137,8 @@ StartUpWrite read_write(const Field& field) {
   if (!object.json().is_string()) object.refuse("an object as text, e.g. \"3001:2\"", "put it in quotes");
   out.object = parse_object(object, object.json().text());
   if (generic_rules().contains(out.object))
-    object.refuse("objects that the boot does not write itself", "use the fields that docs/drives.md has for it");
+    object.refuse("objects that the boot does not write itself",
+                  "use the fields that docs/reference/drives.md has for it");
   if (out.object.index == 0x6040)
     object.refuse("any object but 6040", "it switches torque, and only the controller does that");
   out.name = read_text(field.at("name"), 60);
@@ -267,7 +268,7 @@ namespace {
 
 // The page that has the fields of drive types, in place of the one that has those of other tables, or behind the rest.
 std::string with_guide(std::string text) {
-  const std::string page = "docs/drives.md", other = "docs/formats.md";
+  const std::string page = "docs/reference/drives.md", other = "docs/reference/formats.md";
   if (const std::size_t at = text.find(other); at != text.npos) return text.replace(at, other.size(), page);
   return text.find(page) != text.npos ? text : text + "; see " + page;
 }

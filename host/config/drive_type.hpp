@@ -1,6 +1,6 @@
 // A drive type: what a maker's object dictionary has, in which units it speaks, and what it is told at boot
-// (docs/drives.md). A type is a table of lua/drives; the values here are those of `cia402_csp`, which every drive is
-// that no bus table names.
+// (docs/reference/drives.md). A type is a table of lua/drives; the values here are those of `cia402_csp`, which every
+// drive is that no bus table names.
 #pragma once
 
 #include <cstdint>
@@ -79,7 +79,8 @@ struct DriveType {
   std::optional<std::uint32_t> vendor;                  // 1018:1; not given: the robot's
   std::optional<std::uint32_t> product;                 // 1018:2
   std::optional<std::uint32_t> revision;                // 1018:3
-  bool is_cst = false;  // cyclic synchronous torque (6060 = 10) with its own process data (docs/drives.md); else csp
+  bool is_cst =
+      false;  // cyclic synchronous torque (6060 = 10) with its own process data (docs/reference/drives.md); else csp
   std::map<ObjectId, ObjectRule> objects;  // on top of generic_rules()
   DriveUnits units;
   std::uint32_t polarity = 0;                // 607E, bits 7 and 6
@@ -108,8 +109,8 @@ const std::map<ObjectId, Presence>& generic_rules();
 ObjectId parse_object(const Field& field, const std::string& text);
 std::string object_name(ObjectId object);
 
-// Reads and checks a table of kind "drive" (docs/drives.md has the fields); throws std::runtime_error "file: field:
-// value: allowed ...: what to do".
+// Reads and checks a table of kind "drive" (docs/reference/drives.md has the fields); throws std::runtime_error "file:
+// field: value: allowed ...: what to do".
 DriveType parse_drive_type(const Json& table, const std::string& file);
 
 }  // namespace liana::config

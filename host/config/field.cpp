@@ -41,7 +41,7 @@ Field Field::at(const std::string& key) const {
   const std::string path = path_.empty() ? key : path_ + "." + key;
   if (found == nullptr)
     throw std::runtime_error(file_ + ": " + path +
-                             ": missing: allowed a value as docs/formats.md gives it: add the field");
+                             ": missing: allowed a value as docs/reference/formats.md gives it: add the field");
   return Field(*found, file_, path);
 }
 
@@ -59,7 +59,7 @@ std::size_t Field::size(std::size_t low, std::size_t high, const std::string& wh
 }
 
 void Field::only(const std::set<std::string>& known) const {
-  if (!value_->is_object()) refuse("a table with named fields", "see docs/formats.md");
+  if (!value_->is_object()) refuse("a table with named fields", "see docs/reference/formats.md");
   for (const auto& [key, item] : value_->items()) {
     if (known.count(key) == 0)
       Field(item, file_, path_.empty() ? key : path_ + "." + key)

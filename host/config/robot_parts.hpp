@@ -31,8 +31,8 @@ std::vector<std::uint32_t> read_serials(const Field& drives, std::size_t count);
 // How old a calibration may be; a year where the table does not say.
 std::int32_t read_calibration_days(const Field& drives);
 
-// Drive i has node id i + 1 (docs/drives.md): throws unless every drive is on a bus and no bus has a node without a
-// drive.
+// Drive i has node id i + 1 (docs/reference/drives.md): throws unless every drive is on a bus and no bus has a node
+// without a drive.
 void check_nodes(const std::string& robot, std::int32_t drives, const std::string& file, const BusesConfig& buses);
 
 // Motion limits.

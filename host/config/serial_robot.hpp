@@ -1,5 +1,5 @@
-// Robots with a serial arm (kind "serial"): canonical JSON (docs/formats.md) to a checked struct, as config.hpp does it
-// for cable arms.
+// Robots with a serial arm (kind "serial"): canonical JSON (docs/reference/formats.md) to a checked struct, as
+// config.hpp does it for cable arms.
 #pragma once
 
 #include <cstdint>
@@ -62,7 +62,7 @@ bool is_carried(const SerialRobotConfig& robot, const SceneConfig& scene);
 // turn faster than they may. Empty where it can, or need not.
 std::string why_not_carried(const SerialRobotConfig& robot, const SceneConfig& scene);
 
-// True when its drives follow torques (docs/force-control.md).
+// True when its drives follow torques (docs/explanation/force-control.md).
 inline bool gives_torque(const SerialRobotConfig& robot) { return robot.table.torque.gives_torque != 0; }
 
 // Whether the file describes a serial robot; throws when it cannot be read or is no JSON.

@@ -1,5 +1,5 @@
 // Torque drives of a serial robot: `drives.mode`, `drives.position_gain_per_s` and `force_control` of its table
-// (docs/force-control.md).
+// (docs/explanation/force-control.md).
 #pragma once
 
 #include <array>

@@ -83,8 +83,9 @@ class Desk {
   // Requests about motion that this arm knows; ask() throws RequestError.
   virtual bool knows(const std::string& op) const = 0;
   virtual Json ask(const MotionRequest& request) = 0;
-  // Devices of operators (docs/devices.md), which only some arms have. hear_devices() reads what their drivers have
-  // sent, at any time, with arm time; devices_fd() is readable when it has something to do, -1: never.
+  // Devices of operators (docs/reference/device-protocol.md), which only some arms have. hear_devices() reads what
+  // their drivers have sent, at any time, with arm time; devices_fd() is readable when it has something to do, -1:
+  // never.
   virtual int devices_fd() const { return -1; }
   virtual void hear_devices(std::int64_t) {}
   // Once per interval: their samples go to the steering; each of them is told the arm's state.
@@ -111,7 +112,7 @@ class Desk {
   // What this kind of arm has to say, once each.
   virtual std::vector<event::Event> take_events() { return {}; }
 
-  // The arm's part of the state message (docs/api.md) and of its entry about one drive.
+  // The arm's part of the state message (docs/reference/api.md) and of its entry about one drive.
   virtual void add_state(Json& state) const = 0;
   virtual std::size_t drive_count() const = 0;
   virtual void add_drive_state(std::size_t drive, Json& state) const = 0;

@@ -1,4 +1,5 @@
-// What lianad tells every device each command interval: filled here, and nowhere else (docs/devices.md).
+// What lianad tells every device each command interval: filled here, and nowhere else
+// (docs/reference/device-protocol.md).
 #pragma once
 
 #include <cstdint>

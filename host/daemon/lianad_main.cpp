@@ -195,13 +195,13 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   Options options;
   liana::command_line::CommandLine line("lianad: control core, buses, verification and API of an arm");
-  line.option("--robot", options.robot, "robot JSON (docs/formats.md)").required();
+  line.option("--robot", options.robot, "robot JSON (docs/reference/formats.md)").required();
   line.option("--scene", options.scene, "scene JSON").required();
   line.option("--buses", options.buses, "buses JSON").required();
   line.option("--api", options.api, "path of the API socket to listen at").required();
-  line.option(
-      "--devices", options.devices,
-      "path of the socket to listen at for input devices (docs/devices.md); .devices behind that of --api without");
+  line.option("--devices", options.devices,
+              "path of the socket to listen at for input devices (docs/reference/device-protocol.md); .devices behind "
+              "that of --api without");
   line.option("--group", options.group, "group whose members may use API and devices, beside its own user and root");
   line.option("--time", options.time, "fast, paced or real").with_default_shown();
   line.option("--physics", options.physics, "friction the core is told: nominal, ideal or worn").with_default_shown();

@@ -1,4 +1,4 @@
-// Force control in the state message (docs/force-control.md).
+// Force control in the state message (docs/explanation/force-control.md).
 #pragma once
 
 #include "firmware_like/serial_controller.hpp"

@@ -1,4 +1,5 @@
-// Events (docs/formats.md) from what the service sees. Subjects are named as people name them: "drive 3", "bus can0".
+// Events (docs/reference/formats.md) from what the service sees. Subjects are named as people name them: "drive 3",
+// "bus can0".
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What each request of docs/api.md does.
+// What each request of docs/reference/api.md does.
 #include <cmath>
 
 #include "host/api/request_check.hpp"

@@ -13,7 +13,7 @@ servo::ServoRequest servo_request(const api::Arguments& fields);
 // With which periods the base swings, of `move_jp`, `move_cp` and `servo_target`.
 motion::Swings swings_of(const api::Arguments& fields);
 
-// `servo` of the state (docs/api.md).
+// `servo` of the state (docs/reference/api.md).
 Json servo_json(const servo::ServoReport& report);
 
 }  // namespace liana::daemon

@@ -1,4 +1,4 @@
-// The state message (docs/api.md) from what the arm reports and what the service knows.
+// The state message (docs/reference/api.md) from what the arm reports and what the service knows.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The answer to a `timing` request (docs/api.md).
+// The answer to a `timing` request (docs/reference/api.md).
 #pragma once
 
 #include "host/control/latency_histogram.hpp"

@@ -18,7 +18,7 @@ class TipTool {
   // virtual time repeat.
   static constexpr double kNotice_s = 0.2;
 
-  // Takes a command for a connected tool; what the tool is told (topic `tool` of docs/api.md). Throws
+  // Takes a command for a connected tool; what the tool is told (topic `tool` of docs/reference/api.md). Throws
   // api::RequestError: no_device without a tool, busy while one is under way.
   Json ask(const std::string& command, double time_s, bool is_connected);
   // What the tool says, to count from `due_tick` on. Throws api::RequestError for another command than the last.

@@ -1,5 +1,5 @@
-// The driver's end of the socket of devices (docs/devices.md): one device, its samples up, the arm's state down. Reads
-// no clock: every time is handed in, by the device's own clock.
+// The driver's end of the socket of devices (docs/reference/device-protocol.md): one device, its samples up, the arm's
+// state down. Reads no clock: every time is handed in, by the device's own clock.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-/* The device protocol of lianad, for drivers in any language (docs/devices.md). C99, nothing but <stdint.h>.
+/* The device protocol of lianad, for drivers in any language (docs/reference/device-protocol.md). C99, nothing but
+   <stdint.h>.
  *
  * A driver is a process: it connects to the socket of devices (AF_UNIX, SOCK_SEQPACKET; `lianad --devices PATH`, by
  * default the path of the API socket with ".devices" behind it), sends liana_hello, and from then on a liana_sample per

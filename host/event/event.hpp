@@ -13,7 +13,7 @@ namespace liana::event {
 // What an event is about. `number`, `subject` and the names in `values` mean what stands beside the kind.
 enum class EventKind : std::uint8_t {
   kBoot,         // number: BootEvent
-  kBootProblem,  // number of the fault (docs/faults.md), subject the drive, value `drive`
+  kBootProblem,  // number of the fault (docs/reference/faults.md), subject the drive, value `drive`
   kHoming,       // number: HomingEvent
   kFault,        // number of the fault, 0: faults that found no place; subject drive, bus or nothing; `detail`, `tick`
   kEmergency,    // number: emergency error code of CiA 301; subject the drive, value `drive`
@@ -30,7 +30,7 @@ enum class EventKind : std::uint8_t {
   kPath,         // number: PathEvent; subject the path's hash; `share` of its time, `duration_s`
   kWayBack,      // number: WayEvent; `points` of the path, `distance_m` of the arm from it
   kFriction,     // number: 5009 where it is not as declared, 0: as declared again; `mu`, `sd`, `declared_mu`
-  kStop,         // number: stop category (docs/priorities.md); subject who asked for it
+  kStop,         // number: stop category (docs/explanation/fault-priorities.md); subject who asked for it
   kShutdown,     // subject who asked for it, or nothing
   kLeftOut,      // subject: a kind of which too many came within one interval; `count` of those without a number
 };
@@ -67,7 +67,7 @@ enum class WayEvent : std::uint8_t {
   kKept = 4,     // the arm is enabled beside the path, which is kept
   kLost = 5,     // the arm is enabled too far from the path, which is given up
 };
-// In the order of the codes in docs/api.md.
+// In the order of the codes in docs/reference/api.md.
 enum class RefusalEvent : std::uint8_t {
   kOther = 0,
   kBadRequest = 1,

@@ -8,7 +8,8 @@
 namespace liana::event {
 
 const char* const kEventSchema = R"({"$schema":"https://json-schema.org/draft/2020-12/schema","title":"event",
-"description":"why something happened, once; docs/formats.md, Events","type":"object","additionalProperties":false,
+"description":"why something happened, once; docs/reference/formats.md, Events",
+"type":"object","additionalProperties":false,
 "required":["op","sequence","tick","kind","number","subject","values","text"],"properties":{
 "op":{"type":"string","enum":["event"]},
 "sequence":{"type":"integer","minimum":1,"description":"without gaps"},
@@ -32,7 +33,7 @@ Json event_json(const Event& event) {
 Event event_from_json(const Json& json) {
   const std::string name = json.at("kind").text();
   const auto kind = event_kind_from(name);
-  if (!kind) throw JsonError("event: kind '" + name + "' is none of the list in docs/formats.md");
+  if (!kind) throw JsonError("event: kind '" + name + "' is none of the list in docs/reference/formats.md");
   Event event;
   event.kind = *kind;
   event.number = json.at("number").get<std::int64_t>();

@@ -1,5 +1,5 @@
-// The requests of force control (docs/force-control.md) against the tables of robot and buses. lianad looks at them
-// when they come, a mission's are looked at before it starts as far as they are known: in the same words.
+// The requests of force control (docs/explanation/force-control.md) against the tables of robot and buses. lianad looks
+// at them when they come, a mission's are looked at before it starts as far as they are known: in the same words.
 #pragma once
 
 #include <string_view>

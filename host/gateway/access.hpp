@@ -17,7 +17,8 @@ enum class Access : std::uint8_t {
 // watch, operate, administer.
 const char* access_name(Access access);
 
-// Whether it may send the request `op` of docs/api.md. (Others than this may refuse it, too: lianad has the last word.)
+// Whether it may send the request `op` of docs/reference/api.md. (Others than this may refuse it, too: lianad has the
+// last word.)
 bool may_ask(Access access, std::string_view op);
 
 struct Token {

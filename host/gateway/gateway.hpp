@@ -1,5 +1,5 @@
-// The clients of one gateway, and what they share. Knows nothing of the web: docs/console-protocol.md from the second
-// message on.
+// The clients of one gateway, and what they share. Knows nothing of the web: docs/reference/console-protocol.md from
+// the second message on.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// liana-gateway: the console's way to lianad, for browsers and other programs (docs/console-protocol.md).
+// liana-gateway: the console's way to lianad, for browsers and other programs (docs/reference/console-protocol.md).
 #include <sys/resource.h>
 
 #include <chrono>
@@ -31,7 +31,8 @@ void require_safe(const Options& options, const ListenAddress& listen) {
     throw std::runtime_error("--cert and --key: one without the other; give both");
   if (listen.is_loopback()) return;
   const std::string where = "--listen " + options.listen + ": others than this machine can reach it: ";
-  if (options.token_file.empty()) throw std::runtime_error(where + "give --token-file (docs/console-protocol.md)");
+  if (options.token_file.empty())
+    throw std::runtime_error(where + "give --token-file (docs/reference/console-protocol.md)");
   if (options.certificate.empty()) throw std::runtime_error(where + "give --cert and --key for TLS");
 }
 

@@ -1,4 +1,5 @@
-// The VR handles of one client as a device at lianad (docs/devices.md): the page says what they do as JSON.
+// The VR handles of one client as a device at lianad (docs/reference/device-protocol.md): the page says what they do as
+// JSON.
 #pragma once
 
 #include <functional>
@@ -25,7 +26,8 @@ class Handles {
   void connect();
   // The handles are put away.
   void leave();
-  // Samples of a message `device` (docs/console-protocol.md); throws RequestError (bad_request, out_of_range, away).
+  // Samples of a message `device` (docs/reference/console-protocol.md); throws RequestError (bad_request, out_of_range,
+  // away).
   void take(const Json& message);
 
  private:

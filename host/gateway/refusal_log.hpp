@@ -10,7 +10,7 @@
 
 namespace liana::gateway {
 
-// Lines `liana-gateway: refused WHAT from ADDRESS: DETAIL`; docs/console-protocol.md lists WHAT.
+// Lines `liana-gateway: refused WHAT from ADDRESS: DETAIL`; docs/reference/console-protocol.md lists WHAT.
 class RefusalLog {
  public:
   static constexpr std::uint32_t kAtOnce = 3;         // of one kind from one address; then they are counted

@@ -20,7 +20,7 @@ class Requester {
   // Gets an answer to the client: {"op":"answer","id":...,"ok":...}.
   using Answer = std::function<void(const Json& answer)>;
 
-  // `role` is one of docs/api.md. `poller` must outlive this.
+  // `role` is one of docs/reference/api.md. `poller` must outlive this.
   Requester(Poller& poller, const std::string& api, std::string name, std::string role, Answer answer);
 
   // Makes the connection unless it is there; false when lianad cannot be reached.

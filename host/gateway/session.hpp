@@ -1,5 +1,5 @@
-// One client of the console (docs/console-protocol.md): what it says, what it is to be told, and what it may. Knows
-// nothing of the web.
+// One client of the console (docs/reference/console-protocol.md): what it says, what it is to be told, and what it may.
+// Knows nothing of the web.
 #pragma once
 
 #include <array>

@@ -14,8 +14,9 @@ namespace {
 
 constexpr double kMillisecond_s = 0.001;
 constexpr double kLongestGap_s = 0.1;  // after a pause the hands go on, they do not catch up
-constexpr double kUnsure_m = 0.015;    // the measured tip beside the commanded one, in free motion (docs/operator.md)
-constexpr double kFirm_N_m = 500.0;    // a grip for fine work
+constexpr double kUnsure_m =
+    0.015;  // the measured tip beside the commanded one, in free motion (docs/explanation/operator-model.md)
+constexpr double kFirm_N_m = 500.0;  // a grip for fine work
 // In the slit, slower than the person whose hand nothing moves, and slow earlier: what tremor and felt forces add, and
 // guidance that begins at the mouth, swings the tip faster than the table allows (0.0331 m/s at 0.0252, 0.0318 at
 // 0.0235).
@@ -56,7 +57,8 @@ operator_side::SlitDrawing drawing_of(const config::SceneConfig& scene) {
 Pose pose_in(const Json& state, const char* key) {
   const Json list = state.value(key, Json());
   if (!list.is_array() || list.size() != 7)
-    throw std::runtime_error(std::string("state message: ") + key + ": allowed [x,y,z,qw,qx,qy,qz]; see docs/api.md");
+    throw std::runtime_error(std::string("state message: ") + key +
+                             ": allowed [x,y,z,qw,qx,qy,qz]; see docs/reference/api.md");
   Pose pose;
   for (std::size_t i = 0; i < 3; ++i) pose.position_m[i] = list[i].get<double>();
   for (std::size_t i = 0; i < 4; ++i) pose.quaternion[i] = list[i + 3].get<double>();

@@ -172,7 +172,8 @@ int main(int argc, char** argv) {
               "recorded: VR handles from a file, a simulated person at the hand controller; human: the person at both")
       .one_of({"recorded", "human"});
   line.option("--feedback", options.feedback,
-              "of the human: a law (docs/force-feedback.md), or off; as the mission's steps say where not given")
+              "of the human: a law (docs/explanation/force-feedback.md), or off; as the mission's steps say where not "
+              "given")
       .one_of({"aligned", "claim", "abstract", "off"});
   line.option("--passivity", options.passivity, "of the human: energy tank and damping").one_of({"on", "off"});
   line.option("--fixtures", options.fixtures, "of the human: the walls that lianad tells are felt")

@@ -1,5 +1,5 @@
 // One device's way to lianad over a link that delays, shuffles and loses: both ends speak the protocol of devices
-// (docs/devices.md) and need not know of it. Reads no clock.
+// (docs/reference/device-protocol.md) and need not know of it. Reads no clock.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // What only liana-operator can tell of a run: how far the tip is behind the hand, and what the hand felt. A file that
-// the report of `liana run` takes in (docs/operator.md).
+// the report of `liana run` takes in (docs/explanation/operator-model.md).
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// What the hand feels of the arm: three laws by name (docs/force-feedback.md). All compare positions of the arm's tip,
-// in the arm's base frame, and turn the difference into a force on the hand.
+// What the hand feels of the arm: three laws by name (docs/explanation/force-feedback.md). All compare positions of the
+// arm's tip, in the arm's base frame, and turn the difference into a force on the hand.
 #pragma once
 
 #include <array>

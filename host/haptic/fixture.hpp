@@ -24,7 +24,7 @@ bool is_valid(const Plane& plane) noexcept;
 Vec3 plane_force(const Plane& plane, double plane_m_s, const Motion& hand) noexcept;
 
 // A plane that is told every 20 ms and moves evenly in between: held, one moving at 30 mm/s would be felt as steps of
-// 0.9 N (docs/force-feedback.md).
+// 0.9 N (docs/explanation/force-feedback.md).
 class MovingPlane {
  public:
   // A new plane, reached one interval from now; the first one, and one after none, gets its stiffness in that time.

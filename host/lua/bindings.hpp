@@ -11,8 +11,8 @@
 
 namespace liana::script {
 
-// All commands, in the order of docs/api.md. Each is a function of one table that sends {"op": name, ...} and returns
-// the request id.
+// All commands, in the order of docs/reference/api.md. Each is a function of one table that sends {"op": name, ...} and
+// returns the request id.
 std::vector<const api::RequestRow*> commands();
 
 // Where commands go.

@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kMissionTables = "mission_tables";
 constexpr const char* kDefaultRobot = "zhu2022";
-constexpr const char* kLuaDirAbout = "a folder of tables and missions that is searched first (docs/installing.md)";
+constexpr const char* kLuaDirAbout = "a folder of tables and missions that is searched first (docs/how-to/install.md)";
 
 // Runs `body`; bad input becomes one message on standard error and exit code 2.
 int with_message(const std::function<int()>& body) {

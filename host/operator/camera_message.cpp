@@ -14,7 +14,7 @@ std::optional<Pose> pose_of(const Json& message, const char* key) {
   if (found == nullptr || found->is_null()) return std::nullopt;
   if (!found->is_array() || found->size() != 7) {
     throw std::runtime_error(std::string("camera message: ") + key +
-                             ": allowed null or [x,y,z,qw,qx,qy,qz]; see docs/api.md");
+                             ": allowed null or [x,y,z,qw,qx,qy,qz]; see docs/reference/api.md");
   }
   Pose pose;
   for (std::size_t i = 0; i < 3; ++i) pose.position_m[i] = (*found)[i].get<double>();

@@ -1,4 +1,4 @@
-// Camera pictures as API messages (docs/api.md).
+// Camera pictures as API messages (docs/reference/api.md).
 #pragma once
 
 #include "host/json/json_fwd.hpp"

@@ -7,7 +7,7 @@
 
 namespace liana::operator_side {
 
-// How hand motion maps to the tip: P_r = a P_m from the clutch pose (docs/api.md).
+// How hand motion maps to the tip: P_r = a P_m from the clutch pose (docs/reference/api.md).
 struct HandMapping {
   double scale = 1.0;           // tip metres per hand metre, > 0
   double rotation_scale = 1.0;  // tip turn per hand turn, > 0

@@ -75,7 +75,7 @@ struct Line {
   void need(std::size_t columns) const {
     if (words.size() != columns) {
       fail(std::to_string(words.size()) + " columns: allowed exactly " + std::to_string(columns) +
-           "; see docs/formats.md");
+           "; see docs/reference/formats.md");
     }
   }
 };

@@ -1,4 +1,4 @@
-// Recorded hand motion: the reader of `.hand` files (docs/formats.md).
+// Recorded hand motion: the reader of `.hand` files (docs/reference/formats.md).
 #pragma once
 
 #include <iosfwd>

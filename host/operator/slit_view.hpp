@@ -7,7 +7,7 @@
 
 namespace liana::operator_side {
 
-// One picture of the tip camera (docs/api.md): frames as seen from the tip; nothing when out of sight.
+// One picture of the tip camera (docs/reference/api.md): frames as seen from the tip; nothing when out of sight.
 struct TipSighting {
   std::optional<Pose> slit;
   std::optional<Pose> rod;

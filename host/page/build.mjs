@@ -21,13 +21,15 @@ function table_rows(file) {
 
 // What faults and refusals mean and what to do: written by the code's own tables into docs/.
 function fault_tables() {
-  const faults = table_rows('faults.md').map(([number, name, , , , retreat, text, remedy]) => ({
+  const faults = table_rows('reference/faults.md').map(([number, name, , , , retreat, text, remedy]) => ({
     number: Number(number), name, retreat: retreat === 'yes', text, remedy,
   }));
-  const refusals = table_rows('refusals.md').map(([number, name, text, , action, remedy]) => ({
+  const refusals = table_rows('reference/refusals.md').map(([number, name, text, , action, remedy]) => ({
     number: Number(number), name, text, action, remedy,
   }));
-  if (faults.length < 20 || refusals.length < 20) throw new Error('docs/faults.md or docs/refusals.md has another form now');
+  if (faults.length < 20 || refusals.length < 20) {
+    throw new Error('docs/reference/faults.md or docs/reference/refusals.md has another form now');
+  }
   return { faults, refusals };
 }
 

@@ -42,7 +42,7 @@ std::string shipped_lua_folder() {
   std::error_code unreadable;
   if (fs::is_directory(folder, unreadable)) return folder.string();
   throw std::runtime_error("Liana's Lua files are not at " + folder.string() + " nor at " +
-                           (installed_folder() / "lua").string() + ": install it again (docs/installing.md)");
+                           (installed_folder() / "lua").string() + ": install it again (docs/how-to/install.md)");
 }
 
 std::vector<std::string> lua_folders() {

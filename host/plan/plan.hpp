@@ -1,4 +1,5 @@
-// The offline planner: from joint angles to joint angles or a tip pose, past the scene (docs/planning.md).
+// The offline planner: from joint angles to joint angles or a tip pose, past the scene
+// (docs/explanation/path-planning.md).
 //
 // The problem (plan_problem.hpp) is solved by Ipopt with exact derivatives from a start path (start_path.hpp); the
 // result is checked by code that shares nothing with either (plan_check.hpp). All limits are counts of iterations,

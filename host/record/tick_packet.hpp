@@ -1,4 +1,4 @@
-// Binary packets of the API topic `tick` (docs/api.md): what lianad sends to the archive.
+// Binary packets of the API topic `tick` (docs/reference/api.md): what lianad sends to the archive.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What became of a command as one JSON object (docs/command-line.md, `liana commands --json`).
+// What became of a command as one JSON object (docs/reference/command-line.md, `liana commands --json`).
 #pragma once
 
 #include "host/json/json_fwd.hpp"

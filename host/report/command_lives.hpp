@@ -1,4 +1,4 @@
-// What became of each command of a run, from its file of stages (docs/formats.md).
+// What became of each command of a run, from its file of stages (docs/reference/formats.md).
 #pragma once
 
 #include <cstdint>

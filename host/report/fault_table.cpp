@@ -14,7 +14,7 @@
 namespace liana::report {
 namespace {
 
-constexpr double kHeartbeatPeriod_s = 0.1;  // of every drive (docs/drives.md)
+constexpr double kHeartbeatPeriod_s = 0.1;  // of every drive (docs/reference/drives.md)
 
 struct Detection {
   const char* detector;

@@ -1,5 +1,5 @@
-// Every fault number with how it is detected, for `liana faults` and docs/faults.md. Numbers, names, reactions and
-// remedies are the core's own; times come from its constants and from the robot table.
+// Every fault number with how it is detected, for `liana faults` and docs/reference/faults.md. Numbers, names,
+// reactions and remedies are the core's own; times come from its constants and from the robot table.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct FaultTimes {
 // All numbers but none, ascending, for a robot. For a serial arm those of cables have no time.
 std::vector<FaultRow> fault_rows(const FaultTimes& times);
 
-// The table as it stands in docs/faults.md.
+// The table as it stands in docs/reference/faults.md.
 std::string markdown_of(const std::vector<FaultRow>& rows);
 
 }  // namespace liana::report

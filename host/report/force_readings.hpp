@@ -1,4 +1,5 @@
-// What the self-test of the force estimate has read, and the table that is made of it (docs/force.md).
+// What the self-test of the force estimate has read, and the table that is made of it
+// (docs/explanation/contact-force.md).
 #pragma once
 
 #include <array>

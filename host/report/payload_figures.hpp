@@ -1,4 +1,4 @@
-// How a payload's installation went, by the bench's truth (docs/command-line.md, "A payload's installation").
+// How a payload's installation went, by the bench's truth (docs/reference/command-line.md, "A payload's installation").
 #pragma once
 
 #include <optional>
@@ -10,7 +10,8 @@
 
 namespace liana::report {
 
-// Where contact counts as gone: less than this for kUnloaded_s on end. The source's 5 N (docs/force-control.md).
+// Where contact counts as gone: less than this for kUnloaded_s on end. The source's 5 N
+// (docs/explanation/force-control.md).
 constexpr double kUnloaded_N = 5.0;
 constexpr double kUnloaded_s = 1.0;
 // What the servo has to come within (requirement B28).

@@ -1,5 +1,5 @@
 // What a push loads the arm with, by the bench's truth: six axes at its end and at its base, and what it overcame
-// (requirement B25; docs/command-line.md, "A payload's installation").
+// (requirement B25; docs/reference/command-line.md, "A payload's installation").
 #pragma once
 
 #include "host/json/json_fwd.hpp"

@@ -61,7 +61,7 @@ struct ReportSources {
 // The steps as the mission reported them, with start_tick and end_tick; or else as it announced them.
 Json steps_with_ticks(const ReportSources& sources);
 
-// The report with the keys of docs/command-line.md.
+// The report with the keys of docs/reference/command-line.md.
 Json make_report(const ReportSources& sources);
 
 // A few lines for people.

@@ -1,5 +1,5 @@
 // What lianad told of visual servo, force control and adapter, kept where it changes: the controller's side of a
-// payload's installation (docs/api.md: `servo`, `push`, `adapter` of the state).
+// payload's installation (docs/reference/api.md: `servo`, `push`, `adapter` of the state).
 #pragma once
 
 #include <cstdint>

@@ -10,7 +10,7 @@ namespace liana::report {
 constexpr double kContactApart_s = 1.0;
 
 // {"event","time_s"} in the order of time, from `begin_tick` on. `steps` as steps_with_ticks gives them; `faults`: of
-// the bench's summary. Events: docs/command-line.md, "A payload's installation".
+// the bench's summary. Events: docs/reference/command-line.md, "A payload's installation".
 Json timeline_of(const PayloadSources& sources, const Json& steps, const Json& faults, std::uint64_t begin_tick);
 
 }  // namespace liana::report

@@ -1,4 +1,4 @@
-// The bench's truth.bin (docs/formats.md): what the physics did, slot by slot.
+// The bench's truth.bin (docs/reference/formats.md): what the physics did, slot by slot.
 #pragma once
 
 #include <cstdint>

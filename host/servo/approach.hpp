@@ -9,7 +9,7 @@
 
 namespace liana::servo {
 
-// Figures of the payload's approach, found by simulation (docs/visual-servo.md).
+// Figures of the payload's approach, found by simulation (docs/explanation/visual-servo.md).
 struct ApproachLimits {
   double gain_1_s = 0.45;            // of all three
   double speed_m_s = 0.028;          // along the way in

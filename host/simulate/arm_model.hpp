@@ -8,7 +8,7 @@ namespace liana::simulate {
 using namespace cable;  // what is a serial arm's says so in this room (serial_model.hpp)
 
 // Assumed: the core moves its motors after what the arm swings by, so that every mode decays like c / 2
-// (docs/verification.md).
+// (docs/explanation/verification.md).
 constexpr double kSwingDamping_1_s = 1.0;
 // Links are solid cylinders: mass and length of the table, centre of mass half way.
 struct ArmModel {

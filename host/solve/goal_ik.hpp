@@ -4,7 +4,7 @@
 // An attempt iterates servo_ik, whose damping is proportional to the squared error (performance study: that and
 // restarts are what helps). Attempt 0 starts at `from`; each later one at the best of kGoalSeeds pseudo-random poses of
 // a fixed sequence: same input, same result. When something is wanted of the shape, it is improved from
-// kGoalShapeStarts solutions and the best is taken. Figures: docs/shape.md.
+// kGoalShapeStarts solutions and the best is taken. Figures: docs/explanation/shape.md.
 #pragma once
 
 #include <array>

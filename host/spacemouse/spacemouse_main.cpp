@@ -1,4 +1,4 @@
-// liana-spacemouse: a SpaceMouse as an input device of lianad (docs/devices.md).
+// liana-spacemouse: a SpaceMouse as an input device of lianad (docs/reference/device-protocol.md).
 #include <poll.h>
 
 #include <array>

@@ -30,7 +30,7 @@ struct ForcePlan {
 // last one is on the body, or has 5 N, in turn.
 ForcePlan force_plan(const config::RobotConfig& robot, std::size_t number, std::size_t pushes, std::uint64_t seed);
 
-// The bench's fault list (docs/hil.md) with the pushes of a plan.
+// The bench's fault list (docs/how-to/run-hil.md) with the pushes of a plan.
 std::string push_list(const ForcePlan& plan, double tick_s);
 
 // Runs it and adds to `all`; a fault ends it early. Throws as LockstepSession does.

@@ -10,7 +10,7 @@
 
 namespace liana::system {
 
-// What liana-gateway is told (docs/console-protocol.md).
+// What liana-gateway is told (docs/reference/console-protocol.md).
 struct GatewayOptions {
   std::string listen;                        // ADDR:PORT; empty: 127.0.0.1:8765, where that is taken a free port
   std::string token_file, certificate, key;  // empty: none

@@ -34,7 +34,7 @@ std::string fault_file(const Json& mission, const std::string& name) {
   }
   if (allowed.empty())
     throw BadInput("--fault: '" + name + "': this mission has no faults of its own (" + folder.string() +
-                   "): give a list with --faults FILE (docs/hil.md), or leave it out");
+                   "): give a list with --faults FILE (docs/how-to/run-hil.md), or leave it out");
   throw BadInput("--fault: '" + name + "': no such fault of this mission; allowed: " + allowed);
 }
 

@@ -1,5 +1,5 @@
-// The faults that a mission is shipped with: fault lists of the bench (docs/hil.md) as MISSION/faults/NAME.json beside
-// the script, each an exercise of one of the mission's fault procedures.
+// The faults that a mission is shipped with: fault lists of the bench (docs/how-to/run-hil.md) as
+// MISSION/faults/NAME.json beside the script, each an exercise of one of the mission's fault procedures.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // What lianad's states tell of the samples of operators' devices over a run: how far apart they were, and how old when
-// a command made of them was released, and when it came into force (docs/operator.md). The clock of liana-operator's
-// devices is the arm's.
+// a command made of them was released, and when it came into force (docs/explanation/operator-model.md). The clock of
+// liana-operator's devices is the arm's.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace liana::system {
 
 class SampleWatch {
  public:
-  // A state (docs/api.md), in the order in which they come.
+  // A state (docs/reference/api.md), in the order in which they come.
   void look(const Json& state);
 
   // Samples in the slowest second of any device's use [Hz]; nothing when none was used for a second.

@@ -379,7 +379,7 @@ SystemLayout make_layout(const RunOptions& given) {
   plan.scene = checked([&] { return config::parse_scene(scene.json, scene.name); });
   if (!plan.scene.camera || !plan.scene.contact)
     throw BadInput("--scene: '" + options.scene + "': has no " + (plan.scene.camera ? "contact" : "camera") +
-                   ", which the bench needs; add it (docs/formats.md)");
+                   ", which the bench needs; add it (docs/reference/formats.md)");
   checked([&] { api::require_fit_in_welcome(robot.json, scene.json, buses.json); });
   const bool has_mission = !options.mission.empty();
   if (has_mission && !plan.is_serial) plan.mission = mission_checked_with(robot.json, buses.json, options.mission);

@@ -1,4 +1,4 @@
-// The numbers of a state that change all the time: where they stand in it (docs/api.md), and their units.
+// The numbers of a state that change all the time: where they stand in it (docs/reference/api.md), and their units.
 #pragma once
 
 #include <array>

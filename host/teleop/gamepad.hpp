@@ -12,7 +12,7 @@
 
 namespace liana::teleop {
 
-// What sticks and buttons say, in the layout of the kernel's xpad driver; docs/teleop.md has it as a table.
+// What sticks and buttons say, in the layout of the kernel's xpad driver; docs/how-to/teleoperate.md has it as a table.
 class Sticks {
  public:
   static constexpr double kDeadZone = 0.15;  // of a stick's way: worn sticks do not come back to their middle

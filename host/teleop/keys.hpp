@@ -1,4 +1,4 @@
-// What keys of a terminal mean: the same places as in the console's page (docs/teleop.md).
+// What keys of a terminal mean: the same places as in the console's page (docs/how-to/teleoperate.md).
 #pragma once
 
 #include <optional>

@@ -18,7 +18,8 @@ struct Shown {
   std::string said;  // what became of what was asked last
 };
 
-// `state` as in docs/api.md, or an empty object before the first. Lines are cut at `columns`, and end in no newline.
+// `state` as in docs/reference/api.md, or an empty object before the first. Lines are cut at `columns`, and end in no
+// newline.
 std::vector<std::string> view_of(const Json& state, const Shown& shown, std::size_t columns);
 
 }  // namespace liana::teleop

@@ -7,7 +7,7 @@
 
 namespace liana::timing {
 
-// As numbered in the WELCOME packet (docs/bus-protocol.md).
+// As numbered in the WELCOME packet (docs/reference/bus-protocol.md).
 enum class TimeMode : std::uint8_t { kFast = 0, kPaced = 1, kReal = 2 };
 
 // "fast", "paced" or "real".

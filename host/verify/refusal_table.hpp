@@ -36,7 +36,7 @@ bool may_swing_less(Refusal code);
 
 const char* refusal_action_name(RefusalAction action);
 
-// The table as it stands in docs/refusals.md.
+// The table as it stands in docs/reference/refusals.md.
 std::string markdown_of(std::span<const RefusalRow> rows);
 
 }  // namespace liana::verify

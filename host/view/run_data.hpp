@@ -1,4 +1,4 @@
-// What the page of a run shows, and the page itself (docs/console.md).
+// What the page of a run shows, and the page itself (docs/getting-started/tour-of-the-console.md).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// From the folder of a run to its page, with the page that was built (docs/console.md).
+// From the folder of a run to its page, with the page that was built (docs/getting-started/tour-of-the-console.md).
 #pragma once
 
 #include <string>

@@ -8,6 +8,6 @@ return {
     { name = "can0", bitrate = 1000000, nodes = { 1, 2, 3, 4, 5, 6, 7, 8 } },
     { name = "can1", bitrate = 1000000, nodes = { 9, 10, 11, 12, 13, 14, 15 } },
   },
-  heartbeat_ms = 100, -- producer time of every drive and of the master (docs/drives.md)
+  heartbeat_ms = 100, -- producer time of every drive and of the master (docs/reference/drives.md)
   max_load = 0.75, -- worst case with full bit stuffing; the loader refuses more
 }

@@ -12,6 +12,6 @@ return {
     { type = "liana_cst", nodes = { 1, 2, 3, 4 } },
     { type = "liana_cst_wrist", nodes = { 5, 6, 7 } },
   },
-  heartbeat_ms = 100, -- producer time of every drive and of the master (docs/drives.md)
+  heartbeat_ms = 100, -- producer time of every drive and of the master (docs/reference/drives.md)
   max_load = 0.75, -- worst case with full bit stuffing; the loader refuses more
 }

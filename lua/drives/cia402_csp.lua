@@ -1,6 +1,6 @@
 -- Any drive with CiA 402's cyclic synchronous position. It is what drives are that no bus table names, and every value
 -- is the one that a type has where its own table says nothing; for another drive write a table of another name
--- (docs/drives.md).
+-- (docs/reference/drives.md).
 return {
   format = 1, kind = "drive", name = "cia402_csp",
   source = "CiA 301 4.2.0, CiA 402-2 4.1",

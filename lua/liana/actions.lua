@@ -19,13 +19,14 @@ function actions.move_to(name, rate_deg_s)
     { action = "move_to", pose = name, command = "move_jp", fields = fields, at = position(1) })
 end
 
--- Joint motion to angles; fields of `move_jp` (docs/api.md): { goal_deg = { 0, 5, ... }, rate_deg_s = 1 }.
+-- Joint motion to angles; fields of `move_jp` (docs/reference/api.md): { goal_deg = { 0, 5, ... }, rate_deg_s = 1 }.
 function actions.move_jp(fields)
   need("move_jp", "fields", fields, "table")
   return giving("move_jp", fields, position(1))
 end
 
--- The tip along a straight line to a pose in the base frame; fields of `move_cp` (docs/api.md): { goal = { x, y, z, qw, qx, qy, qz } }.
+-- The tip along a straight line to a pose in the base frame; fields of `move_cp` (docs/reference/api.md): { goal = { x,
+-- y, z, qw, qx, qy, qz } }.
 function actions.move_cp(fields)
   need("move_cp", "fields", fields, "table")
   return giving("move_cp", fields, position(1))
@@ -41,15 +42,15 @@ function actions.shape(nodes, keep_clear, search)
   return giving("shape", { nodes = nodes, keep_clear = keep_clear, search = search }, position(1))
 end
 
--- The tip goes to `offset` beside a target that the tip camera sees and stays there for the dwell; fields of `servo_target` (docs/api.md):
--- { target = "adapter", offset = { x, y, z, qw, qx, qy, qz }, ... }.
+-- The tip goes to `offset` beside a target that the tip camera sees and stays there for the dwell; fields of
+-- `servo_target` (docs/reference/api.md): { target = "adapter", offset = { x, y, z, qw, qx, qy, qz }, ... }.
 function actions.servo_target(fields)
   need("servo_target", "fields", fields, "table")
   return giving("servo_target", fields, position(1))
 end
 
--- Pushes along an axis of the tip by force control, from rest; fields of `push` (docs/api.md): { force_N = 30, ... }. How it
--- goes is `push` of the state. For serial arms only.
+-- Pushes along an axis of the tip by force control, from rest; fields of `push` (docs/reference/api.md): { force_N =
+-- 30, ... }. How it goes is `push` of the state. For serial arms only.
 function actions.push(fields)
   need("push", "fields", fields, "table")
   return giving("push", fields, position(1))
@@ -58,8 +59,8 @@ end
 -- From rest, the joints give way to what pushes them, until something else is asked for. For serial arms only.
 function actions.follow() return giving("follow", {}, position(1)) end
 
--- What the arm carries from now on; fields of `payload` (docs/api.md): { mass_kg = 500, center_m = {x, y, z}, inertia_kgm2 = {...} }.
--- For serial arms only.
+-- What the arm carries from now on; fields of `payload` (docs/reference/api.md): { mass_kg = 500, center_m = {x, y, z},
+-- inertia_kgm2 = {...} }. For serial arms only.
 function actions.payload(fields)
   need("payload", "fields", fields, "table")
   return giving("payload", fields, position(1))

@@ -113,8 +113,8 @@ local function leads_to_plans(mission, i, robot)
   end
 end
 
--- Refuses what this robot (docs/formats.md) cannot do: angles and nodes it does not have, targets beyond its limits, poses
--- it does not know. refusal_of(command, fields) says what lianad would refuse, or nothing. With `attempt`
+-- Refuses what this robot (docs/reference/formats.md) cannot do: angles and nodes it does not have, targets beyond its
+-- limits, poses it does not know. refusal_of(command, fields) says what lianad would refuse, or nothing. With `attempt`
 -- (pcall with a budget of its own) functions of steps are called once to find what they ask for, in a script that runs
 -- nothing afterwards. `asks` of a step is what is found, `goal` the goal among it.
 return function(mission, robot, refusal_of, attempt)

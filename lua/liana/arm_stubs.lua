@@ -1,11 +1,12 @@
 ---@meta
 -- What `arm` offers to `run`, `finish` and conditions, annotated for editors. Never loaded; a test compares it with the registered commands.
--- Every command sends one request to lianad (docs/api.md) and returns its id at once; a refusal fails the step.
+-- Every command sends one request to lianad (docs/reference/api.md) and returns its id at once; a refusal fails the
+-- step.
 
 ---@class Arm
----@field state table the last state message, docs/api.md
----@field robot table the robot, docs/formats.md
----@field scene table the scene, docs/formats.md
+---@field state table the last state message, docs/reference/api.md
+---@field robot table the robot, docs/reference/formats.md
+---@field scene table the scene, docs/reference/formats.md
 ---@field period_s number control period
 ---@field begin_tick integer tick at which the current step began
 ---@field was_engaged boolean the operator has engaged the device in this step

@@ -453,7 +453,7 @@ function Runner:on_state(state)
   return self.phase == "over"
 end
 
--- The answer to a request. `message` is ok or error as docs/api.md says.
+-- The answer to a request. `message` is ok or error as docs/reference/api.md says.
 function Runner:on_answer(message)
   local command = self.pending[message.id]
   self.pending[message.id] = nil

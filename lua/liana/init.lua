@@ -6,7 +6,8 @@
 --     finish = tool "repair",
 --   }
 --
--- Steps run in the order in which they are written, or as their `next` says. docs/missions.md says what each field means.
+-- Steps run in the order in which they are written, or as their `next` says. docs/reference/mission-language.md says what
+-- each field means.
 local actions = require "liana.actions"
 local check = require "liana.check"
 local conditions = require "liana.conditions"

@@ -68,7 +68,7 @@ function kAsked.abort(runner, by)
   if people.kUnderWay[runner.phase] or runner.phase == "recover" or runner.phase == "paused" then runner:fail("aborted", reason, true) end
 end
 
--- What somebody has asked for since the last look (docs/api.md, mission_control).
+-- What somebody has asked for since the last look (docs/reference/api.md, mission_control).
 function people.methods:heed()
   local asked = self.arm.state.mission_control
   local number = asked and asked.number or 0

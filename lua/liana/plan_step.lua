@@ -1,6 +1,6 @@
 -- A plan of `liana plan --out` as a step: the arm goes through the waypoints on one time law, at rest at the ends only,
--- which is the way that the planner has checked (docs/planning.md). It has to stand at the start of the plan: the way from
--- anywhere else is not checked.
+-- which is the way that the planner has checked (docs/explanation/path-planning.md). It has to stand at the start of
+-- the plan: the way from anywhere else is not checked.
 local check = require "liana.check"
 local conditions = require "liana.conditions"
 local refuse = require "liana.refuse"
@@ -46,7 +46,7 @@ local function waypoints_of(plan, where)
   return plan.waypoints_deg, count
 end
 
--- Gives a checked step what its plan (docs/formats.md) says: where to begin, the motion, and when it is over.
+-- Gives a checked step what its plan (docs/reference/formats.md) says: where to begin, the motion, and when it is over.
 local function fill(step, plan, where)
   local waypoints_deg, count = waypoints_of(plan, where)
   local margin_m = math.max(kLeastMargin_m, plan.inputs and plan.inputs.margin_m or 0)

@@ -1,4 +1,5 @@
--- What each field of a step means, in the order in which docs/missions.md lists them (docs/mission_page.py makes the page of it).
+-- What each field of a step means, in the order in which docs/reference/mission-language.md lists them
+-- (docs/mission_page.py makes the page of it).
 return {
   { "device", "who steers: `\"vr\"`, `\"hand\"`, `\"pointer\"`, a device by its name, or `\"none\"`" },
   { "steer", "how hand motion maps: `scale`, `rotation_scale`, `node` (which the left VR hand moves), `speed_m_s`, `frame` (the hand's axes)" },
@@ -12,8 +13,8 @@ return {
   { "plan", "instead of `run` and `exit`: a plan's file beside the mission, gone through from rest to rest" },
   { "exit", "condition to end with success" },
   { "fail_when", "condition to end as failed, by name; looked at before `exit` in every command interval, from 0.1 s after `run`" },
-  { "time_limit_s", "the step fails after this time of the arm; [slowed time](#how-a-step-goes) counts in part" },
+  { "time_limit_s", "the step fails after this time of the arm; [slowed time](../how-to/write-a-mission.md#how-a-step-goes) counts in part" },
   { "on_fail", "`\"hold\"`, `\"stop\"` (brakes, disable), `\"retract\"` (back to where the first step with it began) or `\"pause\"` (for people)" },
-  { "next", "where to go on, see [branches and loops](#branches-and-loops); left out: to the step written next" },
+  { "next", "where to go on, see [branches and loops](../how-to/write-a-mission.md#branches-and-loops); left out: to the step written next" },
   { "confirm", "what people have to confirm before the step begins, such as `\"cover removed\"`" },
 }

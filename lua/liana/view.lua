@@ -3,11 +3,11 @@ local geometry = require "liana.geometry"
 
 local view = {}
 
--- A view for one session; `commands` are the bindings, `welcome` is lianad's first message (docs/api.md).
+-- A view for one session; `commands` are the bindings, `welcome` is lianad's first message (docs/reference/api.md).
 function view.new(commands, welcome)
   local arm = {
     robot = welcome.robot, scene = welcome.scene, period_s = welcome.period_s,
-    state = nil, -- the last state message, docs/api.md
+    state = nil, -- the last state message, docs/reference/api.md
     begin_tick = 0, -- tick at which the current step began
     was_engaged = false, -- the operator has engaged the device in this step
     must_hold = {}, -- what the current step holds: theta number -> degrees

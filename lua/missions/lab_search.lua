@@ -1,8 +1,8 @@
 -- A search with three_segment_lab: along a planned way to a place, three looks around there, and home, gently where the
 -- cables have become taut. `liana run lab_search`.
 --
--- It shows what docs/missions.md tells of: a plan as a step, fail_when, a loop, a branch, a way on after a failure, and a
--- module beside the mission (lab_search/parts.lua).
+-- It shows what docs/how-to/write-a-mission.md tells of: a plan as a step, fail_when, a loop, a branch, a way on after
+-- a failure, and a module beside the mission (lab_search/parts.lua).
 local liana = require "liana"
 local parts = require "lab_search.parts"
 local all = liana.all

@@ -11,9 +11,11 @@ micro.base = {
 }
 micro.start_pose = "install"
 
--- The small arm's drives follow torques and damp by themselves (docs/force-control.md): the large arm is too soft for damping over the bus.
+-- The small arm's drives follow torques and damp by themselves (docs/explanation/force-control.md): the large arm is
+-- too soft for damping over the bus.
 micro.drives.mode = "torque"
-micro.drives.position_gain_per_s = 0.01 -- assumed: joint rate for a joint that is off its target; more swings with 500 kg (docs/force-control.md)
+-- assumed: joint rate for a joint that is off its target; more swings with 500 kg (docs/explanation/force-control.md)
+micro.drives.position_gain_per_s = 0.01
 micro.force_control = { -- assumed, as tuned in a prototype of this arm on its base
   most_force_N = 60, -- on the tip; the source sets 30 N
   most_joint_Nm = 100, -- source: joint torques stay below 150 N m

@@ -1,5 +1,6 @@
 -- An arm as a lab builds it first: 3 segments of 6 universal joints, 9 cables, 1.44 m, 9 drives on one bus (buses/embedded_three_segment_lab.lua).
--- All figures are assumed: those of hobby bearings, 1.5 mm rope and small servo drives. Copy it for an arm of your own (docs/your-own-arm.md).
+-- All figures are assumed: those of hobby bearings, 1.5 mm rope and small servo drives. Copy it for an arm of your own
+-- (docs/how-to/bring-your-own-arm.md).
 
 local segment = { modules = 6, module_length_m = 0.08, theta_limit_deg = 15 }
 

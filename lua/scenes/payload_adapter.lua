@@ -1,6 +1,7 @@
--- What the small arm of macro_micro installs: a payload on the transfer mechanism, and the adapter that it goes into (docs/payload.md).
--- Everything is in the frame of the small arm's base as it is when nothing pushes: the payload with the large arm at `fetch`, the adapter
--- with it at `install`. "source" marks what the paper states; the rest is assumed.
+-- What the small arm of macro_micro installs: a payload on the transfer mechanism, and the adapter that it goes into
+-- (docs/explanation/payload.md). Everything is in the frame of the small arm's base as it is when nothing pushes: the
+-- payload with the large arm at `fetch`, the adapter with it at `install`. "source" marks what the paper states; the
+-- rest is assumed.
 local geometry = require "liana.geometry"
 local robot = require "robots.macro_micro"
 

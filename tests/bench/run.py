@@ -1,4 +1,6 @@
-"""Ours against the peers on the same arm: `./dev bench [--json FILE]`. Writes docs/bench.md and shows its tables."""
+"""Ours against the peers on the same arm: `./dev bench [--json FILE]`. Writes docs/measurements/benchmarks.md and shows
+its tables.
+"""
 import argparse
 import datetime
 import json
@@ -202,7 +204,7 @@ def main():
         seconds=time.monotonic() - start,
     )
     text = page_text(report)
-    (ROOT / "docs/bench.md").write_text(f"{head}\n{text.rstrip()}\n")
+    (ROOT / "docs/measurements/benchmarks.md").write_text(f"{head}\n{text.rstrip()}\n")
     print(text)
     if options.json:
         print(json.dumps(report, indent=1), file=options.json)

@@ -1,4 +1,5 @@
-// The small arm (docs/formats.md, robot micro) as the core's table, and the random joints that its tests share.
+// The small arm (docs/reference/formats.md, robot micro) as the core's table, and the random joints that its tests
+// share.
 #pragma once
 
 #include <algorithm>

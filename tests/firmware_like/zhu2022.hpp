@@ -1,5 +1,5 @@
-// The source's arm (docs/formats.md, robot zhu2022) as the core's table, and the random poses that the core's tests
-// share.
+// The source's arm (docs/reference/formats.md, robot zhu2022) as the core's table, and the random poses that the core's
+// tests share.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-"""One end of the embedded bus (docs/bus-protocol.md), woken and answered packet by packet."""
+"""One end of the embedded bus (docs/reference/bus-protocol.md), woken and answered packet by packet."""
 import collections
 import socket
 import struct

@@ -121,7 +121,7 @@ async function story() {
   return found;
 }
 
-// SYNC at the start of a slot, the command in its middle, as docs/drives.md has it.
+// SYNC at the start of a slot, the command in its middle, as docs/reference/drives.md has it.
 live([device], story, (wake) => {
   if (wake.starts) send(0, 0x080);
   if (!wake.starts && cyclic) device.pdo.write(0x200 + NODE);

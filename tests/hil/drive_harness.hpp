@@ -79,7 +79,8 @@ class DriveHarness : public ::testing::Test {
 
   void boot() { tick(); }
 
-  // RPDO1 and TPDO1 as docs/drives.md wants them, heartbeats both ways, mode csp, then NMT start; or what is given.
+  // RPDO1 and TPDO1 as docs/reference/drives.md wants them, heartbeats both ways, mode csp, then NMT start; or what is
+  // given.
   void configure(std::uint32_t deadline_ms = 12, const std::vector<std::uint32_t>& received = {0x60400010, 0x607A0020},
                  std::uint32_t mode = 8) {
     for (const auto& [receive, mapped] :

@@ -1,4 +1,5 @@
-// A scripted stand-in for lianad: real socket, real packets, an arm that obeys at once. Written from docs/api.md alone.
+// A scripted stand-in for lianad: real socket, real packets, an arm that obeys at once. Written from
+// docs/reference/api.md alone.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
-"""How small a cable's fault is found, and how soon (docs/cables.md): closed loop of core and arm, one cable of every
-segment, two seeds.
+"""How small a cable's fault is found, and how soon (docs/explanation/fault-detection.md): closed loop of core and arm,
+one cable of every segment, two seeds.
 
 Alone: detectors.py [--bin DIR] [--count SEEDS] [--json].
 """

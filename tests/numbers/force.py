@@ -1,5 +1,5 @@
-"""How well the force at the tip is estimated (docs/force.md): 20 configurations of 10 pushes on the bench's own processes,
-nominal and worn, and what friction costs in the closed loop.
+"""How well the force at the tip is estimated (docs/explanation/contact-force.md): 20 configurations of 10 pushes on the
+bench's own processes, nominal and worn, and what friction costs in the closed loop.
 
 Alone: force.py [--bin DIR] [--count PUSHES] [--json].
 """

@@ -1,5 +1,5 @@
 """What a picture of the console costs while a paced mission runs and everything is shown, in Chromium without a graphics
-card (docs/console.md).
+card (docs/getting-started/tour-of-the-console.md).
 
 Alone: frames.py [--bin DIR] [--json].
 """

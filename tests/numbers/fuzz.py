@@ -50,5 +50,5 @@ def measure(_binaries, only=()):
     for result in targets.run_all(chosen, os.cpu_count(), lambda name: targets.run_many(name, EXECUTIONS)):
         print(targets.line(result), file=sys.stderr, flush=True)
         results.append(result)
-    before = Page(folders.ROOT / "docs/numbers.md").sections.get("fuzz", "")
+    before = Page(folders.ROOT / "docs/measurements/figures.md").sections.get("fuzz", "")
     return {result["name"]: result for result in results}, text_of(results, before)

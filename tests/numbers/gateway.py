@@ -1,5 +1,5 @@
 """The console's gateway with many clients at 50 Hz on a moving simulated arm in paced time, and a client that stood still
-(docs/console-protocol.md).
+(docs/reference/console-protocol.md).
 
 Alone: gateway.py [--bin DIR] [--count CLIENTS] [--json].
 """
@@ -208,7 +208,7 @@ def told(values):
     ]
     text = (
         f"`liana console --simulate` with {values['clients']} clients of all records, the arm moving, {kSeconds:g} s"
-        " ([console-protocol.md](console-protocol.md)).\n\n"
+        " ([console-protocol.md](../reference/console-protocol.md)).\n\n"
     )
     return text + table(["", "measured", "target"], rows)
 

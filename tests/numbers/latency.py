@@ -43,7 +43,8 @@ def measure(binaries, count=3):
         raise SystemExit(f"latency: {broken[0]}")
     cells = [{**cell, "holds": not latency_verdict.judge(cell)} for cell in cells]
     text = (
-        "Microseconds, median / 99 % / worst, in a guest of 500 MIPS ([latency.md](latency.md)); the last column but"
+        "Microseconds, median / 99 % / worst, in a guest of 500 MIPS"
+        " ([real-time-latency.md](../explanation/real-time-latency.md)); the last column but"
         " one is the largest difference between runs in any figure.\n\n"
     )
     text += table(

@@ -119,7 +119,7 @@ def measure(binaries):
         reports = [run_once(binaries, directory, *one) for one in RUNS]
     text = (
         f"{succeeded(reports, 'gentle')} runs by gentle hands succeeded, {succeeded(reports, 'lively')} by lively ones"
-        " (docs/operator.md). Clearances, forces, tensions and errors are the physics' truth.\n\n"
+        " (docs/explanation/operator-model.md). Clearances, forces, tensions and errors are the physics' truth.\n\n"
     )
     whys = [
         f"\n- {report['physics']} {report['temper']} {report['seed']}: {report.get('reason', 'no report')}"

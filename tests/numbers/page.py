@@ -1,4 +1,4 @@
-"""docs/numbers.md as sections, one per measurement."""
+"""docs/measurements/figures.md as sections, one per measurement."""
 import datetime
 import os
 import platform
@@ -21,9 +21,7 @@ def commit_of(root):
         ).stdout.strip()
 
     return git("rev-parse", "--short", "HEAD") + (
-        "+"
-        if git("status", "--porcelain", "--untracked-files=no", "--", ":!docs/numbers.md", ":!docs/bench.md")
-        else ""
+        "+" if git("status", "--porcelain", "--untracked-files=no", "--", ":!docs/measurements") else ""
     )
 
 

@@ -20,7 +20,7 @@ RADIUS_M = 0.03  # of a link
 PATH_POSES = 120
 POINTS_PER_LINK = 3
 PREPARE = [-8.5, 0, -12, 0, 8, -2, 13, 0, 12, -2]
-# Not inside the slit of the scene: docs/sources-notes.md.
+# Not inside the slit of the scene: docs/explanation/sources-and-assumptions.md.
 SEGMENT_5_IN_SLIT = [-2.79, -6.63, -1.75, -6.31, 5.03, 11.6, 1.87, 9.68, 0, -4.64]
 PANEL_EDGE = [-6.14, -15, -3.29, -8.72, 7.2, 15, 5.55, 15, 1, -2.8]
 PRESS_ROD = [-2.641, -2.064, -1.81, -4.64, 4.777, 5.87, 0, 4.764, 0, -0.543]

@@ -1,5 +1,5 @@
 // Tip and shape together: the tick's shape motion against the best of 50 offline solves. `--count` random tip poses.
-// Method: docs/shape.md.
+// Method: docs/explanation/shape.md.
 #include <algorithm>
 #include <cstdio>
 #include <vector>

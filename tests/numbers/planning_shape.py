@@ -1,6 +1,6 @@
 """500 random tip poses with random node targets: the tick's shape against the best of 50 offline solves.
 
-Alone: planning_shape.py [--bin DIR] [--count N] [--json]. What is measured: docs/shape.md.
+Alone: planning_shape.py [--bin DIR] [--count N] [--json]. What is measured: docs/explanation/shape.md.
 """
 
 from asking import counted

@@ -1,5 +1,5 @@
-"""Measures at full size and writes docs/numbers.md: `./dev numbers [NAME]`. A section is replaced by the newest
-measurement of its name; of the section fuzz single rows can be.
+"""Measures at full size and writes docs/measurements/figures.md: `./dev numbers [NAME]`. A section is replaced by the
+newest measurement of its name; of the section fuzz single rows can be.
 """
 import argparse
 import importlib
@@ -23,7 +23,7 @@ def arguments():
 
 def main():
     options = arguments()
-    page = Page(ROOT / "docs/numbers.md")
+    page = Page(ROOT / "docs/measurements/figures.md")
     measured = {}
     for name in options.names:
         print(f"== numbers: {name}", file=sys.stderr, flush=True)

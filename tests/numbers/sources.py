@@ -92,7 +92,7 @@ def measure(binaries, count=3):
     rows = [row(kind, [report for report in reports if report["kind"] == kind]) for kind in KINDS]
     text = (
         f"Seeds {FIRST_SEED} to {FIRST_SEED + count - 1} in each row; least / median / most of those that crossed. What"
-        " the rows mean: [sources-notes.md](sources-notes.md).\n\n"
+        " the rows mean: [sources-and-assumptions.md](../explanation/sources-and-assumptions.md).\n\n"
     )
     return reports, text + table(["kind", "crossed", *FIELDS, "why the others did not"], rows)
 

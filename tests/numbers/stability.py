@@ -1,5 +1,6 @@
 """Force feedback under delay: hand x wall x delay for every law, without and with the layer that keeps it passive
-(stability_map.hpp), beside the prototype of docs/force-feedback.md; draws docs/pictures/force_stability.svg.
+(stability_map.hpp), beside the prototype of docs/explanation/force-feedback.md; draws
+docs/pictures/force_stability.svg.
 
 Alone: stability.py [--bin DIR] [--count CELLS] [--json]; fewer than 192 cells draw nothing.
 """

@@ -1,4 +1,5 @@
-"""The hunt for the most expensive tick at full size (docs/determinism.md): led by time, judged by counts of callgrind.
+"""The hunt for the most expensive tick at full size (docs/explanation/determinism.md): led by time, judged by counts of
+callgrind.
 
 Alone: worst.py [--bin DIR] [--count CASES] [--json].
 """

@@ -1,6 +1,7 @@
 // Runs the tests of the page: type check, plain modules, and end to end in Chromium against the real system.
 //   node tests/page/run.mjs [unit|console|run_page|frames|vr ...] [--judge-times]; all without a name. Needs `npm ci` in
-//   host/page. --judge-times: frames must hold their figures, not only their ratio (docs/console.md).
+//   host/page. --judge-times: frames must hold their figures, not only their ratio
+// (docs/getting-started/tour-of-the-console.md).
 import { spawnSync } from 'node:child_process';
 import { existsSync, readdirSync } from 'node:fs';
 import { dirname, join } from 'node:path';

@@ -22,7 +22,7 @@ constexpr std::uint64_t kFirstSeed = 101;
 constexpr std::uint64_t kSeeds = rounds(std::uint64_t{24});
 constexpr int kImpedanceSeeds = 8;
 
-// One row a seed, as docs/force-control.md sums them up.
+// One row a seed, as docs/explanation/force-control.md sums them up.
 void print(std::uint64_t seed, const char* law, const PushRun& run) {
   std::printf("seed %2d, %s: captured %5.2f s, peak %4.1f N, joint %4.1f N m, base %4.1f mm, after 1 s %3.1f N\n",
               static_cast<int>(seed), law, run.captured_s, run.peak_N, run.peak_Nm, 1e3 * run.base_m, run.after_1s_N);
@@ -49,7 +49,7 @@ TEST(Force, OfRandomPayloadsBasesAndAdaptersAllAreCapturedWithoutMoreForceThanAl
 // req:B24
 TEST(Force, APushThatBeginsFarBesideTheAxisIsCapturedFromTenMillimetresAndBreaksNoLimitFromAnywhere) {
   for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + 4; ++seed) {
-    const bool far = seed >= kFirstSeed + 2;  // as far as the funnels take: it may jam (docs/payload.md)
+    const bool far = seed >= kFirstSeed + 2;  // as far as the funnels take: it may jam (docs/explanation/payload.md)
     ForceRig rig(misaligned_case(seed, {far ? 0.028 : 0.010, 0.008}));
     const PushRun run = run_push(rig, PushLaw::kForce, 40.0);
     EXPECT_TRUE(far || run.captured_s > 0.0) << seed;

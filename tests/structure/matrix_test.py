@@ -1,4 +1,5 @@
-"""That docs/requirements.md is a matrix of verifications: every statement once, with tests that are there."""
+"""That docs/development/requirements.md is a matrix of verifications: every statement once, with tests that are there.
+"""
 
 import pathlib
 import re
@@ -7,7 +8,7 @@ import unittest
 import requirements
 
 ROW = re.compile(r"^\| (\w+) \| ([TSD]) \| (.*?) \| (.*?) ?\|$")
-LINK = re.compile(r"\[[^\]]+\]\(\.\./([^)]+)\)")
+LINK = re.compile(r"\[[^\]]+\]\((?:\.\./){2}([^)]+)\)")
 
 
 class Matrix(unittest.TestCase):

@@ -1,8 +1,8 @@
 """What the sources ask for and the tests that show it: reads requirements.txt and the tags, as in req:A43, of all tests.
 
 A tag stands in the comment directly above a test or a class of tests, in the comment at the head of a file, for the file as
-a whole, or in what a scenario is `about`. Writes docs/requirements.md; --check compares with it, --missing lists what is
-testable and has no test.
+a whole, or in what a scenario is `about`. Writes docs/development/requirements.md; --check compares with it, --missing
+lists what is testable and has no test.
 """
 
 import argparse
@@ -12,7 +12,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-LIST, PAGE = "tests/structure/requirements.txt", "docs/requirements.md"
+LIST, PAGE = "tests/structure/requirements.txt", "docs/development/requirements.md"
 FOLDERS = ("tests", "lua", "hil")
 SUFFIXES = {".cpp", ".hpp", ".py", ".lua", ".ts", ".mjs", ".json"}
 NO_TESTS = {"node_modules", "requirements.py", "requirements_test.py"}
@@ -108,7 +108,7 @@ def tests_of(row, tags):
         if tag.id == row.id:
             files[tag.file].append(tag.test.replace("|", "\\|"))
     return "; ".join(
-        f"[{pathlib.PurePosixPath(file).name}](../{file}) {', '.join(name for name in names if name)}".rstrip()
+        f"[{pathlib.PurePosixPath(file).name}](../../{file}) {', '.join(name for name in names if name)}".rstrip()
         for file, names in files.items()
     )
 

@@ -99,7 +99,7 @@ class Page(unittest.TestCase):
         self.assertEqual([row.id for row in requirements.missing(rows, found)], ["A3", "B1"])
         page = requirements.page(rows, found)
         self.assertIn("1 of 2 testable statements have a test.\n\nWithout a test:\n- A3: more\n", page)
-        self.assertIn("| A2 | T | what is asked for | [a_test.cpp](../tests/a_test.cpp) Arm.Bends |\n", page)
+        self.assertIn("| A2 | T | what is asked for | [a_test.cpp](../../tests/a_test.cpp) Arm.Bends |\n", page)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,6 @@
-"""What people of the same user can do to a running system, tried: each attack ends as docs/security.md says."""
+"""What people of the same user can do to a running system, tried: each attack ends as docs/explanation/security.md
+says.
+"""
 import contextlib
 import os
 import pathlib

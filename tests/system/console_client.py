@@ -1,5 +1,5 @@
-"""A client of the console's gateway in the standard library alone (docs/console-protocol.md): a WebSocket (RFC 6455),
-and what Liana says over it.
+"""A client of the console's gateway in the standard library alone (docs/reference/console-protocol.md): a WebSocket
+(RFC 6455), and what Liana says over it.
 """
 import base64
 import hashlib

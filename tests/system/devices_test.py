@@ -1,5 +1,5 @@
-"""Input devices at a running system (docs/devices.md): drivers in other languages, drivers that die, that flood, that
-lie, and what `liana device` tells of them (req:A30).
+"""Input devices at a running system (docs/reference/device-protocol.md): drivers in other languages, drivers that die,
+that flood, that lie, and what `liana device` tells of them (req:A30).
 """
 import itertools
 import json

@@ -1,4 +1,4 @@
-"""The console's gateway against lianad and the simulated arm (docs/console-protocol.md)."""
+"""The console's gateway against lianad and the simulated arm (docs/reference/console-protocol.md)."""
 import contextlib
 import json
 import os

@@ -163,7 +163,7 @@ class EveryRequest(SystemTest):
         self.client.go_on(0.2)
 
     def test_the_page_of_requests_has_no_other_than_those_tried_here(self):
-        page = (SOURCE / "docs" / "api.md").read_text().split("<!-- requests", 1)[1].split("###", 1)[0]
+        page = (SOURCE / "docs" / "reference" / "api.md").read_text().split("<!-- requests", 1)[1].split("###", 1)[0]
         self.assertEqual(set(re.findall(r"^\| `(\w+)` \|", page, re.M)), set(REQUESTS))
 
     def test_while_the_drives_boot(self):

@@ -48,7 +48,7 @@ class Pages(unittest.TestCase):
         return file.read_text()
 
     def test_every_program_started_by_hand_makes_a_system_that_ends_well(self):
-        out = self.carry_out("by-hand.md")
+        out = self.carry_out("how-to/start-by-hand.md")
         self.assertRegex(out, "api.sock: [A-Z]+, t = .* owner nobody")
         self.assertEqual(json.loads((self.folder / "report.json").read_text())["outcome"], "success", out)
         self.assertIn("shutdown: signal", (self.folder / "events.txt").read_text())
@@ -62,7 +62,7 @@ class Pages(unittest.TestCase):
         self.assertTrue(life["finished"], checked.stdout)
 
     def test_an_arm_of_ones_own_goes_from_six_answers_to_a_calibrated_mission(self):
-        out = self.carry_out("your-own-arm.md")
+        out = self.carry_out("how-to/bring-your-own-arm.md")
         self.assertIn("fits\n", out)
         self.assertIn("converged", out)
         self.assertEqual(out.count("outcome success, arm time"), 4, "a dry run and three runs\n" + out)
@@ -71,7 +71,7 @@ class Pages(unittest.TestCase):
         self.assertTrue((self.folder / "routing.svg").exists() and (self.folder / "reach.svg").exists())
 
     def test_from_the_crate_to_the_first_motion_one_motor_one_segment_the_arm(self):
-        out = self.carry_out("from-crate-to-first-motion.md")
+        out = self.carry_out("how-to/commission-drives.md")
         self.assertRegex(out, r"node 1 on can0 moved \+0\.0(2|1999|2000) turns")
         self.assertIn("emergency 0x7305, additional modules", out)
         self.assertIn("does not say that it is disabled", out)

@@ -380,7 +380,7 @@ class TruthRules(unittest.TestCase):
         self.assertEqual(self.complaints(recorded=stopped, fastest_deg_s=9.0, tension_motor_min_N=3.0), [])
 
 
-kFaultsPage = support.SOURCE / "docs" / "faults.md"
+kFaultsPage = support.SOURCE / "docs" / "reference" / "faults.md"
 kTips = [  # angles and tip of the bench's truth
     (
         [

@@ -323,7 +323,7 @@ class Files(unittest.TestCase):
             self.assertIn(f"{name.replace('.', ', ')})", (SOURCE / file).read_text())
         self.assertIn(
             coverage.table(numbers, {}),
-            (SOURCE / "docs" / "faults.md").read_text(),
+            (SOURCE / "docs" / "reference" / "faults.md").read_text(),
             "put there what python3 hil/scenarios/coverage.py prints",
         )
 

@@ -1,4 +1,4 @@
-"""`liana teleop` in a terminal of its own: keys in, the picture out (docs/teleop.md)."""
+"""`liana teleop` in a terminal of its own: keys in, the picture out (docs/how-to/teleoperate.md)."""
 import contextlib
 import fcntl
 import os

@@ -1,4 +1,5 @@
-/* device_driver SOCKET [SECONDS]: a device of lianad in plain C (docs/devices.md): a hand that goes up and down by
+/* device_driver SOCKET [SECONDS]: a device of lianad in plain C (docs/reference/device-protocol.md): a hand
+ * that goes up and down by
  * itself, as a sine of 5 mm, with the deadman held but for the first tenth of every second. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>

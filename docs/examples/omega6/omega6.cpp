@@ -1,5 +1,6 @@
-// omega6 SOCKET: an omega.6 of Force Dimension as an input device of lianad, on their SDK (docs/devices.md).
-// NEVER RUN ON HARDWARE: written against the SDK's documentation; try it with the arm disabled, a hand at the switch.
+// omega6 SOCKET: an omega.6 of Force Dimension as an input device of lianad, on their SDK
+// (docs/reference/device-protocol.md). NEVER RUN ON HARDWARE: written against the SDK's documentation; try it with the
+// arm disabled, a hand at the switch.
 #include <dhdc.h>
 #include <sys/socket.h>
 #include <sys/un.h>

@@ -1,4 +1,4 @@
-// state_client SOCKET: prints what lianad says of its arm, once (docs/api.md).
+// state_client SOCKET: prints what lianad says of its arm, once (docs/reference/api.md).
 #include <cstdio>
 #include <exception>
 

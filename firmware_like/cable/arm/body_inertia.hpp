@@ -3,7 +3,7 @@
 //
 // Every segment is taken as a straight, even rod between its two nodes: with their velocities a and b its kinetic
 // energy is m / 6 (a a + a b + b b), so that node a feels m / 6 (2 a' + b'). A bent segment's middle lies beside the
-// rod: the torques are a few percent off (docs/force.md).
+// rod: the torques are a few percent off (docs/explanation/contact-force.md).
 #pragma once
 
 #include <array>

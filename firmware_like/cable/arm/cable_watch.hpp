@@ -1,5 +1,6 @@
 // What length and tension of a cable say about each other: a cable that slipped on its drum, an encoder that jumped, a
-// reading that scatters, lengths that contradict each other. Derivation and measured limits: docs/cables.md.
+// reading that scatters, lengths that contradict each other. Derivation and measured limits:
+// docs/explanation/fault-detection.md.
 #pragma once
 
 #include <array>

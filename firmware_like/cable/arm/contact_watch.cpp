@@ -13,7 +13,7 @@ using Columns = std::array<Vec3, kMaxTheta>;  // torque about each angle of a fo
 Index thetas(const RobotTable& table) noexcept { return static_cast<Index>(table.theta_count()); }
 
 // Deviation of a force along an axis: `times` that of the least squares, and `share` of the force itself. Fitted to the
-// bench's truth and taken times 1.2 (docs/force.md).
+// bench's truth and taken times 1.2 (docs/explanation/contact-force.md).
 struct SureLaw {
   double times, share;
 };

@@ -3,7 +3,7 @@
 // The torques that nothing explains (torque_balance.hpp) are measured in their own deviations; least squares makes the
 // force at the tip of them, up to 3 N of which is what the tip is for. What it leaves over is a contact of the body.
 // All places along the arm are then tried, one in a tick, and the one that explains most names the segment. Laws,
-// limits and measured errors: docs/force.md.
+// limits and measured errors: docs/explanation/contact-force.md.
 #pragma once
 
 #include <cstdint>

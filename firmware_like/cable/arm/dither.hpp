@@ -1,5 +1,6 @@
 // A slow dither of the tensions: all cables together pull in turn tighter and looser, in proportion, which turns no
-// joint and frees what friction holds. What is measured after it is the force itself (docs/force.md).
+// joint and frees what friction holds. What is measured after it is the force itself
+// (docs/explanation/contact-force.md).
 #pragma once
 
 #include "firmware_like/cable/arm/robot_table.hpp"

@@ -42,7 +42,7 @@ struct ArmKinematics {
 };
 
 // Pose of every node and the 6x10 Jacobian of the tip. Cost: one closed form per segment, no loop over modules beyond
-// the Chebyshev sums; derived in docs/kinematics.md.
+// the Chebyshev sums; derived in docs/explanation/kinematics.md.
 void update_kinematics(const RobotTable& table, const ArmTrig& trig,
                        ArmKinematics& out) noexcept;  // all that the table uses is written
 ArmKinematics forward_kinematics(const RobotTable& table, const ArmTrig& trig) noexcept;

@@ -1,6 +1,6 @@
 // A cable that is gone: the ones that are left in its segment pull the arm away from where it was, and drums that stand
 // make it no better, because the energy is in the stretched cables. So the whole segment is let go at once, and the
-// tensions of all others are planned without it (docs/cables.md, "What the arm does").
+// tensions of all others are planned without it (docs/explanation/fault-detection.md, "What the arm does").
 #pragma once
 
 #include <cstdint>

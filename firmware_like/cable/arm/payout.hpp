@@ -1,4 +1,4 @@
-// Cable length and drive position of one drum (docs/drives.md, "Counts and lengths").
+// Cable length and drive position of one drum (docs/reference/drives.md, "Counts and lengths").
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 namespace liana::cable {
 
 // Unstretched cable length [m] between drum and anchor at a drive position. `zero_payout_m` is the length at
-// `zero_counts`: cable path at the zero pose plus lead (docs/drives.md, "Counts and lengths").
+// `zero_counts`: cable path at the zero pose plus lead (docs/reference/drives.md, "Counts and lengths").
 constexpr double payout_at_counts(const DriveTable& drive, double zero_payout_m, std::int32_t counts) noexcept {
   const double turned = static_cast<double>(counts) - static_cast<double>(drive.zero_counts);
   return zero_payout_m + static_cast<double>(drive.direction) * turned * drive.metres_per_count;

@@ -44,15 +44,15 @@ struct TensionLimits {
   double scale() const noexcept { return plan_N / 40.0; }
 };
 
-// How well cables have to agree with what is known about them (docs/cables.md). The defaults fit readings of 0.6 N and
-// 0.3 %.
+// How well cables have to agree with what is known about them (docs/explanation/fault-detection.md). The defaults fit
+// readings of 0.6 N and 0.3 %.
 struct CableWatchTable {
   double jump_N = 7.0;  // most that tension may change in a tick without length or planned pose to explain it
   double contradiction_m = 100e-6;  // most that a segment's lengths may come to contradict each other, without friction
 };
 
 // How well drives know where torque is zero: deviations of each drive's reading, as tension. They count in how sure a
-// force is (docs/force.md); the defaults say that nobody has measured them.
+// force is (docs/explanation/contact-force.md); the defaults say that nobody has measured them.
 struct TorqueZeroTable {
   double bias_N = 0.0;
   double drift_N_h = 0.0;  // for every hour since the controller was started
@@ -73,7 +73,7 @@ struct MotionLimits {
   double tip_lag_s = 0.0;  // of the tip filter behind a steady target; 0: speed limit in force / acceleration
 };
 
-// One cable drive; see docs/drives.md for the length convention.
+// One cable drive; see docs/reference/drives.md for the length convention.
 struct DriveTable {
   double metres_per_count = 0.0;      // 2 pi drum_radius / (counts_per_turn gear), > 0
   std::int32_t direction = 1;         // +1: counts grow while cable is paid out

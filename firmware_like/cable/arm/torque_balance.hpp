@@ -3,7 +3,7 @@
 // Friction is taken off as it is felt: the angles that the lengths show, not the commanded ones, say which way every
 // cable has slid, so that a push that moves a resting arm turns friction round here, too. The errors that are left
 // belong to cables, and a cable pulls at every segment that it passes: they are kept as a covariance over all angles.
-// Derivation and measured errors: docs/force.md.
+// Derivation and measured errors: docs/explanation/contact-force.md.
 #pragma once
 
 #include <array>

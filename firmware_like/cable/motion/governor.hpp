@@ -5,8 +5,8 @@
 // leaves of the way from floor to ceiling is the room for it. The governor keeps, for every cable, the tension that a
 // unit of acceleration of each angle takes: G = D M, M the mass matrix and D the plan's own sweep from torques to
 // tensions. The tip filter's accelerations are bounded so that G a stays in the room whichever way the tip goes, and a
-// tick's motion so that it does in fact: an explicit reference governor (docs/arm-control.md, where others are
-// compared).
+// tick's motion so that it does in fact: an explicit reference governor (docs/explanation/arm-control.md, where others
+// are compared).
 #pragma once
 
 #include <cmath>

@@ -4,7 +4,7 @@
 // Damped least squares on the free thetas: dtheta = J^T (J J^T + mu I)^-1 e. Held thetas are removed from the iteration
 // and moved only by their own profile. A free theta that would pass its limit is set onto it and removed, and the rest
 // is solved again. What the tip leaves free is moved by motion/shape.hpp. Outcomes and ways out:
-// docs/follow-a-command.md.
+// docs/explanation/architecture.md.
 //
 // mu = kDamping + c |e| for a target that is followed. The tip's path bends by c = kTipCurvature_m per rad2; where an
 // error e cannot be taken away, as just beyond the stretched arm, a step with less damping than c |e| overshoots, and

@@ -1,5 +1,5 @@
 // Shape: what the arm does with the freedom that the tip leaves (requirements A42 to A45). Method and
-// figures: docs/shape.md.
+// figures: docs/explanation/shape.md.
 //
 // Each tick takes the step that would bring the nodes to their targets at once, or as near as a quadratic model says
 // (shape_model.hpp), in the null space of the tip, over the pace's time. Its fixed point is a minimum of sum lambda_j
@@ -31,7 +31,7 @@ struct ShapePace {
 };
 constexpr ShapePace kShapeBesideTip{1.0, 0.35, 0.1, 0.5, 2.0};  // the shape has to keep up with the tip
 // The shape moves most of the arm's mass and the tension plan knows no inertia: 1 deg/s2 of all thetas takes some 100 N
-// off a cable. With the pace above, long ways of the shape let cables go slack (docs/shape.md).
+// off a cable. With the pace above, long ways of the shape let cables go slack (docs/explanation/shape.md).
 constexpr ShapePace kShapeAlone{0.75, 0.15, 0.025, 0.75, 6.0};
 
 // Sum over the nodes of lambda_j max(0, d_j - threshold_j) [m]: what add_nodes works on.

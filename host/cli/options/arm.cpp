@@ -73,7 +73,8 @@ void add_faults(CLI::App& app, Action& action) {
       app, action, "faults", "every fault number: how it is detected, what it stops, what to do", faults_command);
   sub.add_option("--robot", faults.robot, "robot table whose tick counts")->capture_default_str();
   sub.add_flag("--refusals", faults.refusals, "error codes M_e of verification in place of faults");
-  sub.add_flag("--markdown", faults.markdown, "print the table of docs/faults.md, or of docs/refusals.md");
+  sub.add_flag("--markdown", faults.markdown,
+               "print the table of docs/reference/faults.md, or of docs/reference/refusals.md");
   add_json(sub, faults.json);
 }
 

@@ -13,7 +13,7 @@ void add_api(CLI::App& sub, DeviceOptions& device) {
 }  // namespace
 
 void declare_device(CLI::App& app, Action& action) {
-  CLI::App& group = add_group(app, "device", "input devices of a running system (docs/devices.md)");
+  CLI::App& group = add_group(app, "device", "input devices of a running system (docs/reference/device-protocol.md)");
   auto [list, listed] =
       add<DeviceOptions>(group, action, "list", "what is connected: kind, rate, delays, force", device_list_command);
   add_api(list, listed);

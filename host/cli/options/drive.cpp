@@ -92,7 +92,8 @@ void add_jog(CLI::App& group, Action& action) {
 }  // namespace
 
 void declare_drive(CLI::App& app, Action& action) {
-  CLI::App& group = add_group(app, "drive", "one motor on a desk, before there is a robot table (docs/drives.md)");
+  CLI::App& group =
+      add_group(app, "drive", "one motor on a desk, before there is a robot table (docs/reference/drives.md)");
   group.footer(kDriveFooter);  // of its commands, too
   add_scan(group, action);
   add_on_object(group, action, "read", "an object of a drive", drive_read_command);

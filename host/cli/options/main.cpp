@@ -33,7 +33,7 @@ void declare_global(CLI::App& app) {
   app.set_version_flag("--version", "liana " LIANA_VERSION, "say which version");
   app.add_option_function<std::string>(
       kLuaDir, [](const std::string& folder) { liana::places::search_first(kLuaDir, folder); },
-      "before the command: a folder of tables and missions that is searched first (docs/installing.md)");
+      "before the command: a folder of tables and missions that is searched first (docs/how-to/install.md)");
 }
 
 // What tells of the host and of the commands themselves.

@@ -26,7 +26,7 @@ void add_mission_options(CLI::App& sub, system::RunOptions& run) {
   sub.add_option("--calibration", run.calibration,
                  "what liana calibrate wrote; the robot table's values where not given");
   sub.add_option("--faults", run.faults,
-                 "to try it out: faults of the simulated drives, cables and camera (docs/hil.md)")
+                 "to try it out: faults of the simulated drives, cables and camera (docs/how-to/run-hil.md)")
       ->check(CLI::ExistingFile);
   sub.add_option("--fault", run.fault,
                  "to try it out: a fault that the mission is shipped with, by its name (MISSION/faults/NAME.json "
@@ -55,20 +55,22 @@ void add_mission_options(CLI::App& sub, system::RunOptions& run) {
 void add_people(CLI::App& sub, system::OperatorChoice& people) {
   sub.add_option("--operator", people.who,
                  "recorded: VR handles from a file, a simulated person at the hand controller; human: a simulated "
-                 "person at simulated devices in every step (docs/operator.md); recorded where nothing is said")
+                 "person at simulated devices in every step (docs/explanation/operator-model.md); recorded where "
+                 "nothing is said")
       ->check(CLI::IsMember({"recorded", "human"}));
   sub.add_option("--delay", people.delay,
                  "of the human: FORWARD_S,RETURN_S, e.g. 0.5,0.5; delays of the link between hand and arm, 0 to 2 s");
   sub.add_option("--feedback", people.feedback,
                  "of the human: the law of the force on the hand, or off; as the mission's steps say where not given")
       ->check(CLI::IsMember({"aligned", "claim", "abstract", "off"}));
-  sub.add_option(
-         "--fixtures", people.fixtures,
-         "off: no fixture of the scene guides the hand or is felt, whatever the mission says (docs/fixtures.md)")
+  sub.add_option("--fixtures", people.fixtures,
+                 "off: no fixture of the scene guides the hand or is felt, whatever the mission says "
+                 "(docs/explanation/virtual-fixtures.md)")
       ->check(CLI::IsMember({"on", "off"}));
-  sub.add_option("--temper", people.temper,
-                 "lively: whoever steers has bursts and reversals, drifts, trembles more, loses grips in motion and "
-                 "holds both devices, details by --seed (docs/operator.md); gentle where nothing is said")
+  sub.add_option(
+         "--temper", people.temper,
+         "lively: whoever steers has bursts and reversals, drifts, trembles more, loses grips in motion and "
+         "holds both devices, details by --seed (docs/explanation/operator-model.md); gentle where nothing is said")
       ->check(CLI::IsMember({"gentle", "lively"}));
   sub.add_option("--passivity", people.passivity,
                  "of the human: energy tank and damping at the hand controller; on where nothing is said")

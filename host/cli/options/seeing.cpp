@@ -11,8 +11,9 @@ void add_gateway_options(CLI::App& sub, system::GatewayOptions& gateway) {
       "--listen", gateway.listen,
       "ADDR:PORT; where not given 127.0.0.1:8765, or a free port where that is taken; beyond this machine it "
       "takes --token-file, --cert and --key");
-  sub.add_option("--token-file", gateway.token_file,
-                 "lines NAME ROLE TOKEN, roles watch, operate, administer; mode 0600 (docs/console-protocol.md)");
+  sub.add_option(
+      "--token-file", gateway.token_file,
+      "lines NAME ROLE TOKEN, roles watch, operate, administer; mode 0600 (docs/reference/console-protocol.md)");
   sub.add_option("--cert", gateway.certificate, "certificate for TLS, PEM");
   sub.add_option("--key", gateway.key, "its key, PEM");
 }
@@ -48,7 +49,7 @@ void add_teleop(CLI::App& app, Action& action) {
                          "drive the arm from this terminal: of a running system, or a simulated one", teleop_command);
   add_system(sub, teleop.wish);
   sub.add_option("--gamepad", teleop.gamepad,
-                 "a joystick device like /dev/input/js0, beside the keys (docs/teleop.md)");
+                 "a joystick device like /dev/input/js0, beside the keys (docs/how-to/teleoperate.md)");
 }
 
 void add_link(CLI::App& app, Action& action) {
@@ -125,7 +126,7 @@ void add_log_export(CLI::App& log, Action& action) {
 }
 
 void add_log(CLI::App& app, Action& action) {
-  CLI::App& log = add_group(app, "log", "what the archives of runs hold (docs/archive.md)");
+  CLI::App& log = add_group(app, "log", "what the archives of runs hold (docs/reference/archive.md)");
   auto [list, listed] =
       add<LogOptions>(log, action, "list", "the newest runs: begin, outcome, length, size", log_list_command);
   add_json(list, listed.json);

@@ -1,6 +1,6 @@
 // Start paths pulled tight and pushed off obstacles: Gauss-Newton on the planner's smoothness plus a penalty for
-// clearance below what is wanted. This is what makes Ipopt converge (docs/planning.md): it starts beside the solution,
-// on a path that is free.
+// clearance below what is wanted. This is what makes Ipopt converge (docs/explanation/path-planning.md): it starts
+// beside the solution, on a path that is free.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,6 @@
-"""Python client of Liana (docs/python.md): lianad's API, systems of processes, recordings. Standard library only."""
+"""Python client of Liana (docs/getting-started/python.md): lianad's API, systems of processes, recordings. Standard
+library only.
+"""
 from liana.client import Client, ConnectionClosed, LianaError, NotReached, RequestRefused, TimedOut
 from liana.devices import ArmState, Device
 from liana.recordings import BadRecording, Event, Recording, Truth, read_events

@@ -1,4 +1,4 @@
-"""One connection to lianad's API socket (docs/api.md): requests with their answers, states, events.
+"""One connection to lianad's API socket (docs/reference/api.md): requests with their answers, states, events.
 
 Angles are in degrees where a name ends in `_deg`, lengths in metres, poses `[x, y, z, qw, qx, qy, qz]` of the tip in
 the base frame. Times named `_s` of states are arm time: in virtual time it stands still while a lockstep client thinks.
@@ -18,7 +18,7 @@ Path = Union[str, "os.PathLike[str]"]
 
 PACKET_BYTES = 1 << 18  # more than lianad ever sends in one packet
 PATIENCE_S = 120.0  # wall clock after which a program counts as hung; nothing is measured by it
-MOST_PACKET_BYTES = 131072  # of the API (docs/api.md)
+MOST_PACKET_BYTES = 131072  # of the API (docs/reference/api.md)
 JOINT_OF_TEST_MOVE = 8
 ROUNDING_S = 1e-6  # a sum of times that should be a state's own time may be a little over it
 
@@ -141,7 +141,7 @@ class Client(Connection):
         self.state: Message = {}
         self.answers: dict[int, Message] = {}  # by request, until they are asked for
         self.complaints: list[Message] = []  # what came without a number: errors about packets that had none
-        self.events: list[Message] = []  # docs/formats.md, Events; subscribers of `event` have them
+        self.events: list[Message] = []  # docs/reference/formats.md, Events; subscribers of `event` have them
         self.events_lost = 0  # of which lianad no longer had the text when this client read on
         self.faults_told: set[tuple[int, int, int]] = set()  # (number, index, tick) of every fault in any state
         self.last_id = 0

@@ -1,4 +1,4 @@
-"""A driver of an input device (docs/devices.md): one hand's samples up, the arm's state down.
+"""A driver of an input device (docs/reference/device-protocol.md): one hand's samples up, the arm's state down.
 
 Sizes and offsets are those of liana_device.h; a device with two hands, or one that renders force, is written in C or C++.
 """

@@ -1,4 +1,6 @@
-"""What a run leaves behind (docs/formats.md): recordings (ticks.mcap) tick by tick, the bench's truth, events."""
+"""What a run leaves behind (docs/reference/formats.md): recordings (ticks.mcap) tick by tick, the bench's truth,
+events.
+"""
 from __future__ import annotations
 
 import collections
@@ -56,7 +58,7 @@ FIELD_NAME = re.compile(r"(\w+)((?:\[\d+\])*)$")
 
 
 class Fault(NamedTuple):
-    """A latched fault; numbers are those of docs/faults.md, `tick` is when it was latched."""
+    """A latched fault; numbers are those of docs/reference/faults.md, `tick` is when it was latched."""
 
     number: int
     index: int  # type: ignore[assignment]  # of drive or bus; hides the tuple's own index()
@@ -65,7 +67,9 @@ class Fault(NamedTuple):
 
 
 class Event(NamedTuple):
-    """Why something happened: a line of events.txt. The kinds, and what they number: docs/formats.md, Events."""
+    """Why something happened: a line of events.txt. The kinds, and what they number: docs/reference/formats.md,
+    Events.
+    """
 
     sequence: int  # 1, 2, ... without gaps
     time_s: float  # arm time

@@ -80,9 +80,9 @@ class System:
         events: Optional[clients.Path] = None,
         way_out: Optional[clients.Path] = None,
     ) -> None:
-        """`expect`: roles whom virtual time waits for; `faults`, `bus_script`: docs/hil.md; `lianad`, `bench`: further
-        words for these programs; `events`: the file of events, events.txt in `directory` unless given; `way_out`: the
-        file that keeps the verified way back, way_out.bin there unless given.
+        """`expect`: roles whom virtual time waits for; `faults`, `bus_script`: docs/how-to/run-hil.md; `lianad`,
+        `bench`: further words for these programs; `events`: the file of events, events.txt in `directory` unless given;
+        `way_out`: the file that keeps the verified way back, way_out.bin there unless given.
         """
         self.directory = pathlib.Path(tempfile.mkdtemp(prefix="liana-sys-"))
         self.api, self.bus_socket = self.directory / "api", self.directory / "bus"

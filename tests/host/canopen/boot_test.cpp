@@ -1,5 +1,5 @@
-// Booting the drives as docs/drives.md wants it: order, every mismatch, losses, restarts, and nothing allocated on the
-// way.
+// Booting the drives as docs/reference/drives.md wants it: order, every mismatch, losses, restarts, and nothing
+// allocated on the way.
 #include <gtest/gtest.h>
 
 #include <algorithm>

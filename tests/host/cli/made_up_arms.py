@@ -115,7 +115,9 @@ def turn(axis, angle_deg):
 
 
 def tip_of(table, theta_deg):
-    """The tip, one universal joint after the other (docs/formats.md): the least that an arm is, written once more."""
+    """The tip, one universal joint after the other (docs/reference/formats.md): the least that an arm is, written once
+    more.
+    """
     pose = [[float(i == j) for j in range(4)] for i in range(4)]
     for j, segment in enumerate(table["segments"]):
         pitch, yaw = turn("z", theta_deg[2 * j]), turn("y", theta_deg[2 * j + 1])

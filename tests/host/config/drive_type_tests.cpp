@@ -37,9 +37,9 @@ TEST(DriveTypes, AreRefusedWithFileFieldValueRangeAndAdvice) {
   };
   const std::vector<Spoiled> cases = {
       {"/kind", "drives", "kind", "allowed drive"},
-      {"/source", nullptr, "source", "docs/drives.md"},
+      {"/source", nullptr, "source", "docs/reference/drives.md"},
       {"/source", "", "source", "1 to 400 bytes"},
-      {"/colour", 1, "colour", "docs/drives.md"},
+      {"/colour", 1, "colour", "docs/reference/drives.md"},
       {"/units/position", -1, "units.position", "0 to 4294967295"},
       {"/units/speeds", "m/s", "units.speeds", "increments, rpm"},
       {"/units/rated_torque", "Nm", "units.rated_torque", "mNm, uNm"},

@@ -1,5 +1,5 @@
 // Hand, device, link and an arm that touches a wall, in one loop: what properties and `./dev numbers stability` run.
-// The arm is that of docs/force-feedback.md: the shipped operator filter, then a tip of 0.4 kg on 40 N/m.
+// The arm is that of docs/explanation/force-feedback.md: the shipped operator filter, then a tip of 0.4 kg on 40 N/m.
 #pragma once
 
 #include <array>

@@ -108,7 +108,7 @@ TEST(VrPerson, LeadsTheArmRoundTheObstacleToThePanelEdge) {
 }
 
 // The tip's straight way and the node's: each is blocked in turn. A sphere inside the arm's loop, or one of 0.6 m
-// across beside it, is not got round yet (docs/operator.md).
+// across beside it, is not got round yet (docs/explanation/operator-model.md).
 TEST(VrPerson, FindsAWayRoundASphereOnTheWaysOfTipAndNode) {
   const std::vector<config::SceneSphere> spheres{{"by the tip", {0.40, -0.90, 0.30}, 0.15},
                                                  {"on the tip's way", {0.45, -0.70, 0.60}, 0.18},

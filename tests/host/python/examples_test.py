@@ -1,4 +1,6 @@
-"""The examples of docs/python.md run as they stand there, and a system ends whatever happens in its block."""
+"""The examples of docs/getting-started/python.md run as they stand there, and a system ends whatever happens in its
+block.
+"""
 import contextlib
 import io
 import pathlib
@@ -16,12 +18,12 @@ def examples_of(page):
     return re.findall(r"^```python\n(.*?)^```", (ROOT / page).read_text(), re.M | re.S)
 
 
-EXAMPLES, README = examples_of("docs/python.md"), examples_of("README.md")
+EXAMPLES, README = examples_of("docs/getting-started/python.md"), examples_of("README.md")
 
 
 def said_by(example, **names):
     with contextlib.redirect_stdout(io.StringIO()) as said:
-        exec(compile(example, "docs/python.md", "exec"), names)
+        exec(compile(example, "docs/getting-started/python.md", "exec"), names)
     return said.getvalue()
 
 

@@ -1,4 +1,4 @@
-// docs/faults.md is for operators; its table is what `liana faults --markdown` prints.
+// docs/reference/faults.md is for operators; its table is what `liana faults --markdown` prints.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -16,10 +16,11 @@ FaultTimes shipped() {
 }
 
 TEST(FaultsPage, HoldsTheTableThatTheCodePrints) {
-  std::ifstream file(LIANA_DOCS_DIR "/faults.md");
+  std::ifstream file(LIANA_DOCS_DIR "/reference/faults.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
   const std::string table = markdown_of(fault_rows(shipped()));
-  EXPECT_NE(page.find("\n\n" + table + "\n"), std::string::npos) << "put this into docs/faults.md:\n" << table;
+  EXPECT_NE(page.find("\n\n" + table + "\n"), std::string::npos) << "put this into docs/reference/faults.md:\n"
+                                                                 << table;
 }
 
 TEST(FaultsPage, EveryNumberSaysHowItIsDetectedAndWhatItStops) {

@@ -103,7 +103,7 @@ TEST(SimulationAgainstTruth, EveryLinkIsWithinMillimetresASecondLater) {
   closed_loop::measured("any link, a second later, simulated against truth", worst_mm, "mm");
   closed_loop::measured("any link, a second later, told against truth", worst_told_mm, "mm");
   closed_loop::measured("angle beyond the friction band", worst_deg, "deg");
-  // In any direction, of motions quicker than missions; towards a body it is less (docs/verification.md).
+  // In any direction, of motions quicker than missions; towards a body it is less (docs/explanation/verification.md).
   EXPECT_LT(worst_mm, 12.0);
   EXPECT_LT(worst_mm, 0.7 * worst_told_mm);
   EXPECT_LT(worst_deg, 0.02) << "beyond what friction at either end of its band and the measurement explain";

@@ -42,10 +42,10 @@ TEST(RefusalTable, OnlyAnArmThatWouldTouchItselfIsStopped) {
 }
 
 TEST(RefusalTable, ThePageHoldsWhatTheCodePrints) {
-  std::ifstream file(LIANA_DOCS_DIR "/refusals.md");
+  std::ifstream file(LIANA_DOCS_DIR "/reference/refusals.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
   const std::string table = markdown_of(refusal_table());
-  EXPECT_NE(page.find("\n\n" + table), std::string::npos) << "put this into docs/refusals.md:\n" << table;
+  EXPECT_NE(page.find("\n\n" + table), std::string::npos) << "put this into docs/reference/refusals.md:\n" << table;
 }
 
 }  // namespace

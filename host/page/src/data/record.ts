@@ -1,4 +1,4 @@
-// State records: header and values of fixed size (docs/console-protocol.md), read without allocation.
+// State records: header and values of fixed size (docs/reference/console-protocol.md), read without allocation.
 
 export interface Layout {
   version: number;

@@ -1,4 +1,5 @@
-// The numbers of a recorded run: int16 differences in byte planes, deflated, base64 (docs/console.md).
+// The numbers of a recorded run: int16 differences in byte planes, deflated, base64
+// (docs/getting-started/tour-of-the-console.md).
 
 export interface TelemetryHead {
   rows: number;

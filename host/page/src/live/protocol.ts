@@ -1,4 +1,4 @@
-// What the page and the gateway say to each other (docs/console-protocol.md).
+// What the page and the gateway say to each other (docs/reference/console-protocol.md).
 import type { Layout } from '../data/record';
 import type { Facts, LianaEvent } from '../data/sample';
 import type { Robot, Scene } from '../model/robot';

@@ -85,7 +85,8 @@ function fault_conditions(facts: Facts): Condition[] {
     const row = fault_row(number);
     const where = group.places.length > 0 ? `: ${group.places.length > 1 ? 'drives or buses ' : ''}${group.places.join(', ')}` : '';
     const title = `${number} ${group.name.replaceAll('_', ' ')}${where}`;
-    return { key: `fault ${number}`, priority: 1, title, cause: row?.text ?? group.text ?? '', todo: row?.remedy ?? 'See docs/faults.md.' };
+    const todo = row?.remedy ?? 'See docs/reference/faults.md.';
+    return { key: `fault ${number}`, priority: 1, title, cause: row?.text ?? group.text ?? '', todo };
   });
 }
 

@@ -1,4 +1,4 @@
-// The robot and the scene as lianad and runs have them (docs/formats.md): only what the page reads.
+// The robot and the scene as lianad and runs have them (docs/reference/formats.md): only what the page reads.
 
 export interface CableRobot {
   name: string;

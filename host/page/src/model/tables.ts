@@ -1,4 +1,5 @@
-// What faults and refusals mean and what to do, from the code's own tables (docs/faults.md, docs/refusals.md).
+// What faults and refusals mean and what to do, from the code's own tables (docs/reference/faults.md,
+// docs/reference/refusals.md).
 import tables from 'liana:tables';
 
 export interface FaultRow {

@@ -22,7 +22,8 @@ function where_of(head: RunHead, tick: number): string {
   return step ? `${at}, in step ${step.index}: ${step.name}` : at;
 }
 
-// Drives count from 0, in the order of the cables; on the bus they are nodes, which count from 1 (docs/drives.md).
+// Drives count from 0, in the order of the cables; on the bus they are nodes, which count from 1
+// (docs/reference/drives.md).
 function where_it_is(subject: string, robot: RunHead['robot']): string {
   const drive = /^drive (\d+)$/.exec(subject);
   if (!drive) return subject;

@@ -1,4 +1,5 @@
-// What the two handles say, as samples of docs/api.md: poses in the device frame, which is parallel to the arm's base.
+// What the two handles say, as samples of docs/reference/api.md: poses in the device frame, which is parallel to the
+// arm's base.
 import { multiply, normalised, rotated, type Quaternion } from '../model/vector';
 
 // A handle in one frame of the headset, in the headset's own frame (y up).
