@@ -1,4 +1,4 @@
--- Scripts see what the sandbox gives them (host/lua/sandbox.cpp) and nothing else; tests/lua compares the two lists.
+-- Scripts see what the sandbox gives them (host/apps/mission_runner/sandbox.cpp) and nothing else; tests/lua compares the two lists.
 stds.liana = {
   read_globals = {
     "assert", "error", "getmetatable", "ipairs", "pairs", "pcall", "print", "rawequal", "rawget", "rawlen", "require",

@@ -6,4 +6,4 @@ import sys
 
 SCENARIOS = pathlib.Path(__file__).resolve().parent
 SOURCE = SCENARIOS.parents[1]
-sys.path.insert(0, str(SOURCE / "host" / "python"))
+sys.path.insert(0, str(SOURCE / "host" / "api" / "python"))

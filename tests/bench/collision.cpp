@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "host/clearance/clearance.hpp"
+#include "host/model/clearance/clearance.hpp"
 #include "tests/bench/meter.hpp"
 #include "tests/bench/problems.hpp"
 

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "host/solve/goal_ik.hpp"
+#include "host/model/inverse_kinematics/goal_ik.hpp"
 #include "tests/bench/own_80.hpp"
 #include "tests/bench/problems.hpp"
 #include "tests/bench/textbook_cables.hpp"

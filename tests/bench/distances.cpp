@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <exception>
 
-#include "host/clearance/arm_clearance.hpp"
-#include "host/clearance/self_clearance.hpp"
+#include "host/model/clearance/arm_clearance.hpp"
+#include "host/model/clearance/self_clearance.hpp"
 #include "tests/bench/meter.hpp"
 #include "tests/bench/problems.hpp"
 #include "tests/firmware_like/panel_slit.hpp"

@@ -2,9 +2,9 @@
 // and constraints.
 #include <cstdio>
 
-#include "host/plan/plan.hpp"
+#include "host/planning/planner/plan.hpp"
 #include "tests/bench/meter.hpp"
-#include "tests/host/plan/requests.hpp"
+#include "tests/host/planning/planner/requests.hpp"
 
 namespace liana::bench {
 

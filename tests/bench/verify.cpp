@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "host/simulate/simulation.hpp"
-#include "host/verify/judge_simulated.hpp"
-#include "host/verify/simulation_end.hpp"
+#include "host/control/verification/judge_simulated.hpp"
+#include "host/control/verification/simulation_end.hpp"
+#include "host/model/simulation/simulation.hpp"
 #include "tests/bench/meter.hpp"
 #include "tests/firmware_like/ideal_drives.hpp"
 #include "tests/firmware_like/panel_slit.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/record/serialise.hpp"
+#include "host/storage/recording/serialise.hpp"
 
 namespace liana::bits {
 namespace {

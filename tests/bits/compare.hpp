@@ -15,7 +15,8 @@ struct Comparison {
   std::string first_field;            // e.g. "drive[3].target_counts"; "nothing" when there is no answer
 };
 
-// Both are Outputs of this kind of arm, one tick after the other, in the whole form (host/record/serialise.hpp).
+// Both are Outputs of this kind of arm, one tick after the other, in the whole form
+// (host/storage/recording/serialise.hpp).
 template <class Arm>
 Comparison compare(std::istream& expected, std::istream& answered);
 

@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "host/record/serialise.hpp"
+#include "host/storage/recording/serialise.hpp"
 
 namespace liana::bits {
 namespace {

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "host/json/json.hpp"
+#include "host/base/json/json.hpp"
 #include "tests/bits/compare.hpp"
 #include "tests/bits/make_tape.hpp"
 #include "tests/bits/meter.hpp"

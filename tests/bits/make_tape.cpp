@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "host/record/mcap.hpp"
-#include "host/record/recording.hpp"
-#include "host/record/serialise.hpp"
-#include "host/record/visit_serial.hpp"
+#include "host/storage/recording/mcap.hpp"
+#include "host/storage/recording/recording.hpp"
+#include "host/storage/recording/serialise.hpp"
+#include "host/storage/recording/visit_serial.hpp"
 #include "tests/bench/worst_cases.hpp"
 #include "tests/bits/tape.hpp"
 #include "tests/bits/what_ifs.hpp"

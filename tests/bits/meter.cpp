@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "host/record/codec.hpp"
-#include "host/record/serialise.hpp"
+#include "host/storage/recording/codec.hpp"
+#include "host/storage/recording/serialise.hpp"
 #include "tests/bits/tape.hpp"
 
 namespace liana::bits {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "host/record/codec.hpp"
-#include "host/record/serialise.hpp"
+#include "host/storage/recording/codec.hpp"
+#include "host/storage/recording/serialise.hpp"
 #include "tests/bits/tape.hpp"
 
 namespace liana::bits {

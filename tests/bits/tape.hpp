@@ -1,6 +1,6 @@
 // The files between the programs of `./dev bits`. A tape is what every build of the core is fed with: one byte says
-// what follows, fields are written as in host/record/serialise.hpp. All of a tape is of one kind of arm, which its
-// first byte says.
+// what follows, fields are written as in host/storage/recording/serialise.hpp. All of a tape is of one kind of arm,
+// which its first byte says.
 #pragma once
 
 #include <cstdint>

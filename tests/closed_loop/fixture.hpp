@@ -5,7 +5,7 @@
 
 #include "firmware_like/cable/arm/robot_table.hpp"
 #include "firmware_like/math/pose.hpp"
-#include "host/config/config.hpp"
+#include "host/model/config/config.hpp"
 
 namespace liana::closed_loop {
 

@@ -8,7 +8,7 @@
 
 #include "fixture.hpp"
 #include "hand_to_tip.hpp"
-#include "host/arbiter/cable_arbiter.hpp"
+#include "host/control/arbiter/cable_arbiter.hpp"
 
 namespace liana::closed_loop {
 namespace {

@@ -1,9 +1,9 @@
 #include "verified_arm.hpp"
 
 #include "fixture.hpp"
-#include "host/verify/model_watch.hpp"
-#include "host/verify/refusal_table.hpp"
-#include "host/verify/verify.hpp"
+#include "host/control/verification/model_watch.hpp"
+#include "host/control/verification/refusal_table.hpp"
+#include "host/control/verification/verify.hpp"
 
 namespace liana::closed_loop {
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "arm_under_control.hpp"
-#include "host/arbiter/cable_arbiter.hpp"
-#include "host/verify/release_step.hpp"
-#include "host/verify/simulation_end.hpp"
-#include "host/verify/twin.hpp"
+#include "host/control/arbiter/cable_arbiter.hpp"
+#include "host/control/verification/release_step.hpp"
+#include "host/control/verification/simulation_end.hpp"
+#include "host/control/verification/twin.hpp"
 
 namespace liana::closed_loop {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "hil/drive/drive.hpp"
-#include "host/canopen/boot_sequence.hpp"
-#include "tests/host/bus/quiet_bus.hpp"
+#include "host/drives/canopen/boot_sequence.hpp"
+#include "tests/host/drives/bus/quiet_bus.hpp"
 
 namespace liana::test {
 

@@ -9,9 +9,9 @@
 #include <fstream>
 
 #include "hil/config/scene_config.hpp"
-#include "host/config/drive_types_of_buses.hpp"
-#include "host/json/json.hpp"
-#include "host/lua/evaluate.hpp"
+#include "host/apps/mission_runner/evaluate.hpp"
+#include "host/base/json/json.hpp"
+#include "host/model/config/drive_types_of_buses.hpp"
 #include "tests/drives/drive_line.hpp"
 
 namespace liana {

@@ -1,6 +1,6 @@
 // A jog with a drive of the bench: by how much it moves, between which bounds, and that it ends disabled whatever
 // happens.
-#include "host/desk/jog.hpp"
+#include "host/drives/commissioning/jog.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // Dynamic combination of degrees of freedom: equation 13, and the switch point.
-#include "host/solve/dof_split.hpp"
+#include "host/model/inverse_kinematics/dof_split.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "host/solve/goal_ik.hpp"
+#include "host/model/inverse_kinematics/goal_ik.hpp"
 #include "tests/firmware_like/panel_slit.hpp"
 #include "tests/firmware_like/pose_of_arm.hpp"
 #include "tests/firmware_like/zhu2022.hpp"

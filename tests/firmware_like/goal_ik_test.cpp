@@ -1,5 +1,5 @@
 // Goal IK: success rate, honesty, held variables, nodes, repeatability.
-#include "host/solve/goal_ik.hpp"
+#include "host/model/inverse_kinematics/goal_ik.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "firmware_like/cable/motion/motion.hpp"
-#include "host/solve/goal_ik.hpp"
+#include "host/model/inverse_kinematics/goal_ik.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::cable {

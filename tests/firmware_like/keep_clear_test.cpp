@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host/solve/goal_ik.hpp"
+#include "host/model/inverse_kinematics/goal_ik.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::cable {

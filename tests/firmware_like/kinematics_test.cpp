@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "firmware_like/cable/arm/cables.hpp"
-#include "host/json/json.hpp"
+#include "host/base/json/json.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::cable {

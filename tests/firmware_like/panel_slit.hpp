@@ -1,7 +1,7 @@
 // The slit of the scene panel_slit, for tests.
 #pragma once
 
-#include "host/solve/dof_split.hpp"
+#include "host/model/inverse_kinematics/dof_split.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::cable {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host/solve/improve_shape.hpp"
+#include "host/model/inverse_kinematics/improve_shape.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::cable {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/solve/dof_split.hpp"
+#include "host/model/inverse_kinematics/dof_split.hpp"
 #include "tests/firmware_like/panel_slit.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 

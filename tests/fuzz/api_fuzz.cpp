@@ -1,11 +1,11 @@
 // Requests of the API, as the server and the service take them: JSON, stops however they are written, ranges.
-#include "host/api/request_bounds.hpp"
-#include "host/api/request_check.hpp"
-#include "host/api/request_error.hpp"
-#include "host/api/stop_packet.hpp"
-#include "host/json/json.hpp"
+#include "host/api/server/request_bounds.hpp"
+#include "host/api/server/request_check.hpp"
+#include "host/api/server/request_error.hpp"
+#include "host/api/server/stop_packet.hpp"
+#include "host/base/json/json.hpp"
 #include "tests/fuzz/fuzz.hpp"
-#include "tests/host/api/robots.hpp"
+#include "tests/host/api/server/robots.hpp"
 
 using namespace liana;
 

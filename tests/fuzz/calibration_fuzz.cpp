@@ -1,10 +1,10 @@
 // Calibration files. Their checksum would stop nearly all of them at the door, so it is made right here, as whoever
 // wants to do harm would.
-#include "host/calibration/calibration.hpp"
-#include "host/config/canonical.hpp"
-#include "host/config/sha256.hpp"
+#include "host/drives/calibration/calibration.hpp"
+#include "host/model/config/canonical.hpp"
+#include "host/model/config/sha256.hpp"
 #include "tests/fuzz/fuzz.hpp"
-#include "tests/host/config/tables.hpp"
+#include "tests/host/model/config/tables.hpp"
 
 using namespace liana;
 

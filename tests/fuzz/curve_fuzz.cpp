@@ -1,5 +1,5 @@
 // Curves of liana plan --follow.
-#include "host/cli/curve_file.hpp"
+#include "host/apps/cli/curve_file.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "host/device/device.hpp"
+#include "host/api/device/device.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace liana;

@@ -1,7 +1,7 @@
 // Messages of browsers to the gateway, which has no lianad here.
 #include <memory>
 
-#include "host/gateway/gateway.hpp"
+#include "host/apps/gateway/gateway.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace liana;

@@ -1,7 +1,7 @@
 // Recordings of hand motion.
 #include <sstream>
 
-#include "host/operator/hand_recording.hpp"
+#include "host/operator/simulated/hand_recording.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -9,8 +9,8 @@
 #include <csignal>
 #include <optional>
 
-#include "host/api/socket.hpp"
-#include "host/gateway/web_server.hpp"
+#include "host/apps/gateway/web_server.hpp"
+#include "host/base/net/socket.hpp"
 #include "tests/fuzz/fuzz.hpp"
 #include "tests/fuzz/tls_client.hpp"
 

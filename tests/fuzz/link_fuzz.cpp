@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "host/bus/embedded_link.hpp"
+#include "host/drives/bus/embedded_link.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace liana;

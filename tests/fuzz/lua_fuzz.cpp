@@ -1,10 +1,10 @@
 // Lua tables: a script in its sandbox, then its result as JSON, as a table of its kind, and in Lua again.
 #include <memory>
 
-#include "host/config/config.hpp"
-#include "host/json/json.hpp"
-#include "host/lua/json_bridge.hpp"
-#include "host/lua/script.hpp"
+#include "host/apps/mission_runner/json_bridge.hpp"
+#include "host/apps/mission_runner/script.hpp"
+#include "host/base/json/json.hpp"
+#include "host/model/config/config.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace liana;

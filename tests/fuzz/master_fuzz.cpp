@@ -1,10 +1,10 @@
 // Frames from drives into the CANopen master, tick by tick.
 #include <cstring>
 
-#include "host/canopen/master.hpp"
+#include "host/drives/canopen/master.hpp"
 #include "tests/fuzz/fuzz.hpp"
-#include "tests/host/bus/fake_drive.hpp"
-#include "tests/host/bus/quiet_bus.hpp"
+#include "tests/host/drives/bus/fake_drive.hpp"
+#include "tests/host/drives/bus/quiet_bus.hpp"
 
 using namespace liana;
 

@@ -1,5 +1,5 @@
 // MCAP files: records, chunks, checksums, summary.
-#include "host/record/mcap.hpp"
+#include "host/storage/recording/mcap.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace liana;

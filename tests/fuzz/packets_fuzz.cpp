@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "host/bus/embedded_link.hpp"
-#include "host/bus_sim/participant.hpp"
+#include "host/drives/bus/embedded_link.hpp"
+#include "host/drives/bus_simulator/participant.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace liana;

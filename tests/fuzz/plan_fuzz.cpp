@@ -1,8 +1,8 @@
 // Plans that are to be carried out, up to the check of their way. Scene and digest would stop nearly all of them at the
 // door, so they are made right here, as whoever wants to do harm would.
-#include "host/system/plan_way.hpp"
+#include "host/apps/launcher/plan_way.hpp"
 #include "tests/fuzz/fuzz.hpp"
-#include "tests/host/config/tables.hpp"
+#include "tests/host/model/config/tables.hpp"
 
 using namespace liana;
 

@@ -1,8 +1,8 @@
 // Recordings of ticks: packets of lianad to its archive, and messages of a recording that a replay takes.
-#include "host/record/recording.hpp"
-#include "host/record/serialise.hpp"
-#include "host/record/tick_packet.hpp"
-#include "host/record/visit_serial.hpp"
+#include "host/storage/recording/recording.hpp"
+#include "host/storage/recording/serialise.hpp"
+#include "host/storage/recording/tick_packet.hpp"
+#include "host/storage/recording/visit_serial.hpp"
 #include "tests/firmware_like/micro_arm.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/fuzz/fuzz.hpp"

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <vector>
 
-#include "host/record/core_again.hpp"
+#include "host/storage/recording/core_again.hpp"
 #include "tests/firmware_like/micro_arm.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/fuzz/fuzz.hpp"

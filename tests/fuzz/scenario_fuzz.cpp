@@ -1,5 +1,5 @@
 // Scenarios: scripts of bus faults.
-#include "host/bus_sim/fault_script.hpp"
+#include "host/drives/bus_simulator/fault_script.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

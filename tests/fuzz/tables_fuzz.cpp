@@ -2,8 +2,8 @@
 #include <array>
 #include <string_view>
 
-#include "host/config/config.hpp"
-#include "host/json/json.hpp"
+#include "host/base/json/json.hpp"
+#include "host/model/config/config.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace liana;

@@ -1,9 +1,9 @@
 // Conditions of missions, asked about states that are written out.
 #include <gtest/gtest.h>
 
-#include "host/json/json.hpp"
-#include "host/lua/json_bridge.hpp"
-#include "host/lua/script.hpp"
+#include "host/apps/mission_runner/json_bridge.hpp"
+#include "host/apps/mission_runner/script.hpp"
+#include "host/base/json/json.hpp"
 
 namespace liana::script {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "host/json/json.hpp"
-#include "host/lua/bindings.hpp"
+#include "host/apps/mission_runner/bindings.hpp"
+#include "host/base/json/json.hpp"
 #include "tests/lua/program.hpp"
 
 namespace liana::script {

@@ -9,8 +9,8 @@
 #include <chrono>
 #include <stdexcept>
 
-#include "host/lua/evaluate.hpp"
-#include "host/lua/json_bridge.hpp"
+#include "host/apps/mission_runner/evaluate.hpp"
+#include "host/apps/mission_runner/json_bridge.hpp"
 
 namespace liana::script {
 namespace {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/json/json.hpp"
+#include "host/base/json/json.hpp"
 
 namespace liana::script {
 

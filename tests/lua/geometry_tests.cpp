@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "host/json/json.hpp"
-#include "host/lua/json_bridge.hpp"
-#include "host/lua/script.hpp"
+#include "host/apps/mission_runner/json_bridge.hpp"
+#include "host/apps/mission_runner/script.hpp"
+#include "host/base/json/json.hpp"
 #include "tests/lua/program.hpp"
 
 namespace liana::script {

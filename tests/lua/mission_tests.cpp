@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "host/json/json.hpp"
+#include "host/base/json/json.hpp"
 #include "tests/lua/fake_lianad.hpp"
 #include "tests/lua/program.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/lua/script.hpp"
+#include "host/apps/mission_runner/script.hpp"
 #include "tests/lua/program.hpp"
 
 namespace liana::script {

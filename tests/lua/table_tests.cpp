@@ -4,7 +4,7 @@
 #include <array>
 #include <filesystem>
 
-#include "host/json/json.hpp"
+#include "host/base/json/json.hpp"
 
 #include "tests/lua/program.hpp"
 

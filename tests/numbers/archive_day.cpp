@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "host/archive/check.hpp"
-#include "host/archive/ledger.hpp"
-#include "host/archive/reader.hpp"
-#include "host/archive/segments.hpp"
-#include "host/archive/telemetry_files.hpp"
-#include "host/json/json.hpp"
+#include "host/base/json/json.hpp"
+#include "host/storage/archive/check.hpp"
+#include "host/storage/archive/ledger.hpp"
+#include "host/storage/archive/reader.hpp"
+#include "host/storage/archive/segments.hpp"
+#include "host/storage/archive/telemetry_files.hpp"
 #include "tests/numbers/options.hpp"
 
 namespace liana::numbers {

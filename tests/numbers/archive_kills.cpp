@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "host/archive/check.hpp"
-#include "host/archive/reader.hpp"
-#include "host/archive/recorder.hpp"
-#include "host/json/json.hpp"
+#include "host/base/json/json.hpp"
+#include "host/storage/archive/check.hpp"
+#include "host/storage/archive/reader.hpp"
+#include "host/storage/archive/recorder.hpp"
 #include "tests/numbers/options.hpp"
 
 namespace liana::numbers {

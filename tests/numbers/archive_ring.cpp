@@ -13,13 +13,13 @@
 #include <string_view>
 #include <vector>
 
-#include "host/archive/ring.hpp"
-#include "host/archive/ring_reader.hpp"
-#include "host/json/json.hpp"
-#include "host/record/codec.hpp"
-#include "host/record/mcap.hpp"
-#include "host/record/recording.hpp"
-#include "tests/host/archive/ring_ticks.hpp"
+#include "host/base/json/json.hpp"
+#include "host/storage/archive/ring.hpp"
+#include "host/storage/archive/ring_reader.hpp"
+#include "host/storage/recording/codec.hpp"
+#include "host/storage/recording/mcap.hpp"
+#include "host/storage/recording/recording.hpp"
+#include "tests/host/storage/archive/ring_ticks.hpp"
 #include "tests/numbers/options.hpp"
 
 namespace liana::numbers {

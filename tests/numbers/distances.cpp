@@ -1,12 +1,12 @@
-// Distances of host/clearance against an exact reference (exact_distance.hpp): `--count` pairs of a link and a body.
-// Ends with exit code 1 where a distance is off by more than kAllowed_m, above the truth by more than a rounding, or
-// free where the reference touches.
+// Distances of host/model/clearance against an exact reference (exact_distance.hpp): `--count` pairs of a link and a
+// body. Ends with exit code 1 where a distance is off by more than kAllowed_m, above the truth by more than a rounding,
+// or free where the reference touches.
 #include <cstdio>
 #include <random>
 #include <string>
 
-#include "host/clearance/self_clearance.hpp"
-#include "host/config/convex_shape.hpp"
+#include "host/model/clearance/self_clearance.hpp"
+#include "host/model/config/convex_shape.hpp"
 #include "tests/numbers/exact_distance.hpp"
 #include "tests/numbers/options.hpp"
 

@@ -1,4 +1,4 @@
-"""100,000 pairs of a link and a body: distances of host/clearance against an exact reference (exact_distance.hpp).
+"""100,000 pairs of a link and a body: distances of host/model/clearance against an exact reference (exact_distance.hpp).
 
 Alone: distances.py [--bin DIR] [--count PAIRS] [--json].
 """

@@ -1,6 +1,6 @@
 // Distances of a straight piece from bodies, by looking at everything there is in long double: slow, simple, and with
-// nothing in common with host/clearance. A hull is the union of the tetrahedra of its points, and every face of it is
-// one of their triangles; so what is nearest lies on some triangle of three points, whichever those are.
+// nothing in common with host/model/clearance. A hull is the union of the tetrahedra of its points, and every face of
+// it is one of their triangles; so what is nearest lies on some triangle of three points, whichever those are.
 #pragma once
 
 #include <algorithm>

@@ -5,5 +5,5 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BENCH = ROOT / "tests" / "bench"
 sys.path[:0] = [
-    str(ROOT / folder) for folder in ("host/python", "hil/scenarios", "tests/bench", "tests/mutation", "tests/fuzz")
+    str(ROOT / folder) for folder in ("host/api/python", "hil/scenarios", "tests/bench", "tests/mutation", "tests/fuzz")
 ]

@@ -1,4 +1,4 @@
-"""Arms that nobody has looked at, made up by seed (tests/host/cli/made_up_arms.py): kinematics against one written once
+"""Arms that nobody has looked at, made up by seed (tests/host/apps/cli/made_up_arms.py): kinematics against one written once
 more, goals that are surely reachable, a mission on the bench with its replay, and the bits of its ticks elsewhere.
 
 Alone: made_up.py [--bin DIR] [--count ARMS] [--first SEED] [--json].
@@ -17,7 +17,7 @@ import folders
 from asking import ask, joined, quaternion_of
 from page import table
 
-sys.path[:0] = [str(folders.ROOT / "tests/host/cli"), str(folders.ROOT / "tests/bits")]
+sys.path[:0] = [str(folders.ROOT / "tests/host/apps/cli"), str(folders.ROOT / "tests/bits")]
 from made_up_arms import TOUR, angles_of, table_of, tip_of  # noqa: E402 (found through the line above)
 import run as bits  # noqa: E402
 

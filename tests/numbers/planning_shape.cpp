@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "host/solve/goal_ik.hpp"
+#include "host/model/inverse_kinematics/goal_ik.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/numbers/options.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "host/draw/axes.hpp"
+#include "host/base/svg/axes.hpp"
 
 namespace liana::numbers {
 namespace {

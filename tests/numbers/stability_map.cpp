@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "tests/host/haptic/bilateral_rig.hpp"
+#include "tests/host/operator/haptics/bilateral_rig.hpp"
 
 namespace liana::numbers {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/haptic/feedback_law.hpp"
+#include "host/operator/haptics/feedback_law.hpp"
 
 namespace liana::numbers {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "host/draw/svg.hpp"
+#include "host/base/svg/svg.hpp"
 
 namespace liana::numbers {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "tests/host/verify/corpus.hpp"
+#include "tests/host/control/verification/corpus.hpp"
 #include "tests/numbers/options.hpp"
 
 namespace {

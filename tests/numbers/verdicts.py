@@ -1,4 +1,4 @@
-"""Commands with known verdicts (tests/host/verify/corpus.hpp), drawn anew from so many seeds that no test has.
+"""Commands with known verdicts (tests/host/control/verification/corpus.hpp), drawn anew from so many seeds that no test has.
 
 Alone: verdicts.py [--bin DIR] [--count SEEDS] [--json].
 """

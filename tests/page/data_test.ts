@@ -1,10 +1,10 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { RecordReader, type Layout } from '../../host/page/src/data/record';
-import { last_before, Run, type RunHead } from '../../host/page/src/data/run';
-import { telemetry_of } from '../../host/page/src/data/telemetry';
-import { chain_of } from '../../host/page/src/model/arm_chain';
-import { decimated } from '../../host/page/src/plots/decimate';
+import { RecordReader, type Layout } from '../../host/apps/web/src/data/record';
+import { last_before, Run, type RunHead } from '../../host/apps/web/src/data/run';
+import { telemetry_of } from '../../host/apps/web/src/data/telemetry';
+import { chain_of } from '../../host/apps/web/src/model/arm_chain';
+import { decimated } from '../../host/apps/web/src/plots/decimate';
 import { kArm, near } from './support';
 
 const layout: Layout = {

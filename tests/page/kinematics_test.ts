@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { chain_of } from '../../host/page/src/model/arm_chain';
+import { chain_of } from '../../host/apps/web/src/model/arm_chain';
 import { json_file, kArm, kMicro, near } from './support';
 
 interface Golden {

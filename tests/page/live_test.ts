@@ -1,12 +1,12 @@
 import assert from 'node:assert/strict';
 import { webcrypto } from 'node:crypto';
 import { test } from 'node:test';
-import type { Layout } from '../../host/page/src/data/record';
-import { History } from '../../host/page/src/live/history';
-import { credit_of, proof_of } from '../../host/page/src/live/protocol';
-import { Rate } from '../../host/page/src/live/rate';
-import { StateAge } from '../../host/page/src/live/state_age';
-import { AlarmBook, conditions_of, type Condition } from '../../host/page/src/model/alarms';
+import type { Layout } from '../../host/apps/web/src/data/record';
+import { History } from '../../host/apps/web/src/live/history';
+import { credit_of, proof_of } from '../../host/apps/web/src/live/protocol';
+import { Rate } from '../../host/apps/web/src/live/rate';
+import { StateAge } from '../../host/apps/web/src/live/state_age';
+import { AlarmBook, conditions_of, type Condition } from '../../host/apps/web/src/model/alarms';
 import { near } from './support';
 
 if (!('crypto' in globalThis)) Object.assign(globalThis, { crypto: webcrypto }); // Node 18

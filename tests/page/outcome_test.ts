@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import type { RunHead } from '../../host/page/src/data/run';
-import { outcome_of } from '../../host/page/src/run/outcome';
+import type { RunHead } from '../../host/apps/web/src/data/run';
+import { outcome_of } from '../../host/apps/web/src/run/outcome';
 import { kArm } from './support';
 
 const steps = [

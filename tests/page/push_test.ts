@@ -1,14 +1,14 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import type { Facts, Push } from '../../host/page/src/data/sample';
-import { told_changes, with_told_changes } from '../../host/page/src/data/told_changes';
-import { Live } from '../../host/page/src/live/live';
-import type { Welcome } from '../../host/page/src/live/protocol';
-import { is_at_site, payload_place } from '../../host/page/src/model/payload_place';
-import { push_lines } from '../../host/page/src/model/push_words';
-import type { Scene, ScenePose } from '../../host/page/src/model/robot';
-import { weight_of } from '../../host/page/src/model/weight';
-import { groups_of } from '../../host/page/src/plots/groups';
+import type { Facts, Push } from '../../host/apps/web/src/data/sample';
+import { told_changes, with_told_changes } from '../../host/apps/web/src/data/told_changes';
+import { Live } from '../../host/apps/web/src/live/live';
+import type { Welcome } from '../../host/apps/web/src/live/protocol';
+import { is_at_site, payload_place } from '../../host/apps/web/src/model/payload_place';
+import { push_lines } from '../../host/apps/web/src/model/push_words';
+import type { Scene, ScenePose } from '../../host/apps/web/src/model/robot';
+import { weight_of } from '../../host/apps/web/src/model/weight';
+import { groups_of } from '../../host/apps/web/src/plots/groups';
 import { kArm, kMicro, sample_of } from './support';
 
 const no_push: Push = { number: 0, phase: 'none', end: 'none', law: 'force', touched: false, wrist: 'silent' };

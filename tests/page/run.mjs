@@ -1,6 +1,6 @@
 // Runs the tests of the page: type check, plain modules, and end to end in Chromium against the real system.
 //   node tests/page/run.mjs [unit|console|run_page|frames|vr ...] [--judge-times]; all without a name. Needs `npm ci` in
-//   host/page. --judge-times: frames must hold their figures, not only their ratio
+//   host/apps/web. --judge-times: frames must hold their figures, not only their ratio
 // (docs/getting-started/tour-of-the-console.md).
 import { spawnSync } from 'node:child_process';
 import { existsSync, readdirSync } from 'node:fs';
@@ -9,7 +9,7 @@ import { fileURLToPath } from 'node:url';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, '..', '..');
-const page = join(root, 'host', 'page');
+const page = join(root, 'host', 'apps', 'web');
 
 function run(what, program, args, cwd = root) {
   console.log(`== ${what}`);
@@ -19,7 +19,7 @@ function run(what, program, args, cwd = root) {
 }
 
 if (!existsSync(join(page, 'node_modules', 'playwright-core'))) {
-  console.error('tests/page: npm ci in host/page first (about 80 MB)');
+  console.error('tests/page: npm ci in host/apps/web first (about 80 MB)');
   process.exit(2);
 }
 const suites = readdirSync(join(here, 'e2e')).filter((file) => file.endsWith('_test.mjs')).map((file) => file.replace('_test.mjs', ''));

@@ -1,12 +1,12 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { pitch_budget } from '../../host/page/src/model/pitch_budget';
-import { length_text, sentence_of } from '../../host/page/src/model/sentence';
-import { scale_of, tension_colour } from '../../host/page/src/model/tension_colour';
-import { moved, rotated, turn_between } from '../../host/page/src/model/vector';
-import { FramePace, FrameTurns } from '../../host/page/src/scene/frame_pace';
-import { write_camera_frame } from '../../host/page/src/scene/tip_camera';
-import { push_apart } from '../../host/page/src/scene/push_apart';
+import { pitch_budget } from '../../host/apps/web/src/model/pitch_budget';
+import { length_text, sentence_of } from '../../host/apps/web/src/model/sentence';
+import { scale_of, tension_colour } from '../../host/apps/web/src/model/tension_colour';
+import { moved, rotated, turn_between } from '../../host/apps/web/src/model/vector';
+import { FramePace, FrameTurns } from '../../host/apps/web/src/scene/frame_pace';
+import { write_camera_frame } from '../../host/apps/web/src/scene/tip_camera';
+import { push_apart } from '../../host/apps/web/src/scene/push_apart';
 import { kArm, near, sample_of } from './support';
 
 const scene = { name: 'x', rod: { position_m: [3, 0, 0] as [number, number, number], radius_m: 0.01 } };

@@ -1,9 +1,9 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { distance } from '../../host/page/src/model/vector';
-import { kActions, role_blocked } from '../../host/page/src/steer/actions';
-import { kLead_s, next_goal, sum_of, towards } from '../../host/page/src/steer/jog';
-import { action_of, is_field, type Direction } from '../../host/page/src/steer/keyboard';
+import { distance } from '../../host/apps/web/src/model/vector';
+import { kActions, role_blocked } from '../../host/apps/web/src/steer/actions';
+import { kLead_s, next_goal, sum_of, towards } from '../../host/apps/web/src/steer/jog';
+import { action_of, is_field, type Direction } from '../../host/apps/web/src/steer/keyboard';
 import { near } from './support';
 
 const limits = { tip_speed_m_s: 0.1, tip_rate_deg_s: 20 };

@@ -1,8 +1,8 @@
 // What the tests of the page share: robots and scenes as the system evaluates them, golden values.
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import type { CableRobot, SerialRobot } from '../../host/page/src/model/robot';
-import type { Facts, Sample } from '../../host/page/src/data/sample';
+import type { CableRobot, SerialRobot } from '../../host/apps/web/src/model/robot';
+import type { Facts, Sample } from '../../host/apps/web/src/data/sample';
 
 const root = process.env.LIANA_ROOT ?? process.cwd();
 

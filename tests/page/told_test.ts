@@ -1,11 +1,11 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import type { Facts, LianaEvent } from '../../host/page/src/data/sample';
-import { name_problem } from '../../host/page/src/live/own_name';
-import type { Alarm } from '../../host/page/src/model/alarms';
-import { alarm_badge, owner_badge, state_badge } from '../../host/page/src/model/badges';
-import { ending_of, refusal_words, type Ending, type Taken } from '../../host/page/src/model/ending';
-import { hardware_text } from '../../host/page/src/model/hardware';
+import type { Facts, LianaEvent } from '../../host/apps/web/src/data/sample';
+import { name_problem } from '../../host/apps/web/src/live/own_name';
+import type { Alarm } from '../../host/apps/web/src/model/alarms';
+import { alarm_badge, owner_badge, state_badge } from '../../host/apps/web/src/model/badges';
+import { ending_of, refusal_words, type Ending, type Taken } from '../../host/apps/web/src/model/ending';
+import { hardware_text } from '../../host/apps/web/src/model/hardware';
 import { sample_of } from './support';
 
 const resting: Facts = { state: 'ENABLED', at_rest: true, is_busy: false, faults: [], stop: null, owner: 'anna' };

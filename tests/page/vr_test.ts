@@ -1,9 +1,9 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { rotated } from '../../host/page/src/model/vector';
-import { next_node, next_scale, VrButtons } from '../../host/page/src/vr/buttons';
-import { device_from_headset, HandleSamples, kUpright, type Handle } from '../../host/page/src/vr/handles';
-import { IntervalLog } from '../../host/page/src/vr/interval_log';
+import { rotated } from '../../host/apps/web/src/model/vector';
+import { next_node, next_scale, VrButtons } from '../../host/apps/web/src/vr/buttons';
+import { device_from_headset, HandleSamples, kUpright, type Handle } from '../../host/apps/web/src/vr/handles';
+import { IntervalLog } from '../../host/apps/web/src/vr/interval_log';
 import { near } from './support';
 
 const handle = (position_m: [number, number, number], changes: Partial<Handle> = {}): Handle => ({ position_m, attitude: [1, 0, 0, 0], is_tracked: true, deadman: 0, ...changes });

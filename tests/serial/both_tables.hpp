@@ -9,8 +9,8 @@
 #include <string>
 
 #include "hil/config/serial_config.hpp"
-#include "host/config/serial_robot.hpp"
-#include "tests/host/config/tables.hpp"
+#include "host/model/config/serial_robot.hpp"
+#include "tests/host/model/config/tables.hpp"
 
 namespace liana::test {
 

@@ -15,7 +15,7 @@
 #include "hil/drive/torque_loop.hpp"
 #include "hil/serial/adapter.hpp"
 #include "hil/serial/flexible_chain.hpp"
-#include "host/config/serial_robot.hpp"
+#include "host/model/config/serial_robot.hpp"
 
 namespace liana::test {
 

@@ -1,4 +1,6 @@
-"""Checks rooms.ini: which folder includes which, who knows which library, who reads a clock. Seconds, no compiler.
+"""Checks rooms.ini: which room includes which, who knows which library, who reads a clock. Seconds, no compiler.
+
+A room is a folder with a row, and the folders below it that have none. Within a room no folders go in a circle.
 
 What people touch and what manages information are rooms apart (req:A14).
 """
@@ -11,7 +13,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TABLE = pathlib.Path(__file__).with_name("rooms.ini")
-# Every folder below these needs a row of its own; other rows (of tests) are checked as well.
+# Every folder below these is part of a room; other rows (of tests) are checked as well.
 PRODUCT = ("firmware_like", "host", "hil")
 INCLUDE = re.compile(r'\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 CLOCK = re.compile(
@@ -36,6 +38,11 @@ class Table:
         self.clocks = sections["clocks"]
         self.used = set()
 
+    def room_of(self, path):
+        """The room of a file: the nearest folder that has a row, or None."""
+        folders = (str(folder) for folder in pathlib.PurePosixPath(path).parents)
+        return next((folder for folder in folders if folder in self.rooms), None)
+
     def rows(self):
         """Every (section, name, word) that allows something."""
         for section, rows in [
@@ -55,24 +62,22 @@ class Table:
         """Whether this file of this room may include the file `target` of another room."""
         if target in self.against.get(file, []):
             return self.use("against the order", file, target)
-        there = room_of(target)
-        return there in self.rooms[room] and self.use("includes", room, there)
+        there = self.room_of(target)
+        return any(
+            there is not None and (there + "/").startswith(word + "/") and self.use("includes", room, word)
+            for word in self.rooms[room]
+        )
 
     def knows(self, file, room, library):
         """Whether this file or its room may include headers of the library."""
-        for word in (file, room):
-            if word in self.libraries[library]:
+        for word in self.libraries[library]:
+            if (file + "/").startswith(word + "/"):
                 return self.use("libraries", library, word)
         return False
 
     def reads_clock(self, file):
         """Whether this file or its room may read a clock."""
-        return any(name in self.clocks and self.use("clocks", name, "") for name in (file, room_of(file)))
-
-
-def room_of(path):
-    """Folder of a file: every folder is a room."""
-    return str(pathlib.PurePosixPath(path).parent)
+        return any((file + "/").startswith(name + "/") and self.use("clocks", name, "") for name in self.clocks)
 
 
 def file_of(target, file, root):
@@ -83,7 +88,7 @@ def file_of(target, file, root):
 
 def wrong_include(table, file, quoted, angled, root):
     """What is wrong with one include, or None."""
-    room = room_of(file)
+    room = table.room_of(file)
     target = angled or file_of(quoted, file, root)
     for library in table.libraries:
         if target.startswith(library) and not table.knows(file, room, library):
@@ -91,7 +96,7 @@ def wrong_include(table, file, quoted, angled, root):
             return f"{included}: allowed in {' '.join(table.libraries[library]) or 'no folder'}"
     if angled:
         return None
-    if room_of(target) == room or table.allows(file, room, target):
+    if table.room_of(target) == room or table.allows(file, room, target):
         return None
     return f'"{quoted}": {room} may include {" ".join([room, *table.rooms[room]])}'
 
@@ -113,17 +118,45 @@ def wrong_order(table):
     """Rows that name a room which does not stand above them: without these nothing goes in a circle."""
     above = set()
     for room, allowed in table.rooms.items():
-        yield from (
-            f"{room} may include {other}, which does not stand above it" for other in allowed if other not in above
-        )
+        for other in allowed:
+            if not any((name + "/").startswith(other + "/") for name in above):
+                yield f"{room} may include {other}, which does not stand above it"
         above.add(room)
+
+
+def folder_arrows(table, files):
+    """{folder: folders of the same room that its files include}, but for what is excepted."""
+    arrows = {}
+    for file, content in files:
+        folder = posixpath.dirname(file)
+        for target in re.findall(r'^\s*#\s*include\s*"([^"]+)"', content, re.M):
+            there = posixpath.dirname(target)
+            if there == folder or table.room_of(target) != table.room_of(file):
+                continue
+            if target in table.against.get(file, []):
+                table.use("against the order", file, target)
+            else:
+                arrows.setdefault(folder, set()).add(there)
+    return arrows
+
+
+def circles(arrows):
+    """Folders from which includes lead back to themselves."""
+    for start in sorted(arrows):
+        seen, ahead = set(), set(arrows[start])
+        while ahead:
+            folder = ahead.pop()
+            seen.add(folder)
+            ahead |= arrows.get(folder, set()) - seen
+        if start in seen:
+            yield f"{start}: its includes lead back to it, within its room"
 
 
 def sources(root, table):
     tops = {*PRODUCT, *(room.split("/")[0] for room in table.rooms)}
     for path in sorted(path for top in tops for path in (root / top).rglob("*.[ch]pp")):
         file = path.relative_to(root).as_posix()
-        if file.startswith(tuple(top + "/" for top in PRODUCT)) or room_of(file) in table.rooms:
+        if file.startswith(tuple(top + "/" for top in PRODUCT)) or table.room_of(file):
             yield file, path.read_text()
 
 
@@ -131,13 +164,14 @@ def problems(root, text):
     """Sentences, one for each thing that is not as the table says."""
     table = Table(text)
     yield from (f"rooms.ini: [includes] {wrong}" for wrong in wrong_order(table))
-    missing = set()
-    for file, content in sources(root, table):
-        if room_of(file) in table.rooms:
+    missing, files = set(), list(sources(root, table))
+    for file, content in files:
+        if table.room_of(file):
             yield from (f"{file}:{number}: {wrong}" for number, wrong in wrong_lines(table, file, content, root))
         else:
-            missing.add(room_of(file))
+            missing.add(posixpath.dirname(file))
     yield from (f"rooms.ini: [includes] has no row for {room}" for room in sorted(missing))
+    yield from circles(folder_arrows(table, files))
     for section, name, word in table.rows():
         if (section, name, word) not in table.used:
             yield f"rooms.ini: [{section}] {name}{': ' * bool(word)}{word}: nobody does it; take it out"

@@ -1,4 +1,4 @@
-"""Checks that every room of the host declares in its own namespace: host/plan in liana::plan. Seconds, no compiler."""
+"""Checks that every room of the host declares in its own namespace: host/model/config in liana::config. Seconds, no compiler."""
 
 import configparser
 import pathlib
@@ -41,7 +41,7 @@ def declarations(text):
 
 
 def allowed_in(table, room):
-    return table.get(room) or ["liana::" + room.split("/")[1]]
+    return table.get(room) or ["liana::" + room.split("/")[2]]
 
 
 def is_allowed(space, declaration, allowed):
@@ -57,9 +57,9 @@ def problems(root, text):
     parser.read_string(text)
     table = {room: (words or "").split() for room, words in parser["namespaces"].items()}
     used = set()
-    for path in sorted((root / "host").glob("*/**/*.[ch]pp")):
+    for path in sorted((root / "host").glob("*/*/**/*.[ch]pp")):
         file = path.relative_to(root).as_posix()
-        room = "/".join(file.split("/")[:2])
+        room = "/".join(file.split("/")[:3])
         wrong = {}
         for space, line, declaration in declarations(path.read_text()):
             used.add((room, space))
@@ -69,7 +69,7 @@ def problems(root, text):
             where = space or "no namespace"
             yield f"{file}:{line}: declares in {where}; {room} declares in {' '.join(allowed_in(table, room))}"
     for room, spaces in table.items():
-        if spaces == ["liana::" + room.split("/")[1]]:
+        if spaces == ["liana::" + room.split("/")[2]]:
             yield f"rooms.ini: [namespaces] {room}: needs no row for a namespace of its own name"
         for space in spaces:
             if (room, space) not in used:

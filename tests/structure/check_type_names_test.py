@@ -23,23 +23,25 @@ def in_liana(text):
 class CheckTypeNames(unittest.TestCase):
     def test_a_type_defined_in_two_rooms_is_found_until_it_is_known(self):
         files = {
-            "host/plan/a.hpp": in_liana("struct Range { double low; };"),
-            "host/draw/b.hpp": in_liana("class Range final : Base {};"),
+            "host/planning/planner/a.hpp": in_liana("struct Range { double low; };"),
+            "host/base/svg/b.hpp": in_liana("class Range final : Base {};"),
         }
-        self.assertIn("host/draw/b.hpp: liana::Range is also defined in host/plan/a.hpp", problems(files)[0])
+        self.assertIn(
+            "host/base/svg/b.hpp: liana::Range is also defined in host/planning/planner/a.hpp", problems(files)[0]
+        )
         self.assertEqual(problems(files, ["liana::Range"]), [])
 
     def test_an_enum_and_a_struct_of_one_name_are_found(self):
         files = {
-            "host/daemon/a.hpp": in_liana("enum class Refusal : int { kNone };"),
-            "host/plan/b.hpp": in_liana("struct Refusal {};"),
+            "host/control/server/a.hpp": in_liana("enum class Refusal : int { kNone };"),
+            "host/planning/planner/b.hpp": in_liana("struct Refusal {};"),
         }
         self.assertEqual(len(problems(files)), 1)
 
     def test_namespaces_of_rooms_keep_equal_names_apart(self):
         files = {
-            "host/plan/a.hpp": "namespace liana::plan { struct Range {}; }",
-            "host/draw/b.hpp": in_liana("struct Range {};"),
+            "host/planning/planner/a.hpp": "namespace liana::plan { struct Range {}; }",
+            "host/base/svg/b.hpp": in_liana("struct Range {};"),
         }
         self.assertEqual(problems(files), [])
 

@@ -173,7 +173,7 @@ class Drivers(DevicesTest):
         built = self.system.directory / "device_driver"
         source = SOURCE / "docs" / "examples" / "device_driver" / "driver.c"
         compiler = ["gcc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic"]
-        subprocess.run([*compiler, "-I", SOURCE / "host" / "device", source, "-o", built, "-lm"], check=True)
+        subprocess.run([*compiler, "-I", SOURCE / "host" / "api" / "device", source, "-o", built, "-lm"], check=True)
         driver = self.start(built, self.path)
         self.listed("sine")
         self.client.enable()

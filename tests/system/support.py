@@ -1,6 +1,6 @@
 """What the tests of the whole system share: safe arms as assertions, and `liana run` in a folder of its own.
 
-Importing it makes the tree's Python client (host/python) and the scenarios' modules (hil/scenarios, hil/vm) importable.
+Importing it makes the tree's Python client (host/api/python) and the scenarios' modules (hil/scenarios, hil/vm) importable.
 """
 import atexit
 import math
@@ -15,7 +15,7 @@ import unittest
 TESTS = pathlib.Path(__file__).resolve().parent
 SOURCE = TESTS.parents[1]
 SCENARIOS = SOURCE / "hil" / "scenarios"
-PYTHON = SOURCE / "host" / "python"
+PYTHON = SOURCE / "host" / "api" / "python"
 MISSIONS = TESTS / "missions"
 sys.path[:0] = [str(PYTHON), str(SCENARIOS), str(SOURCE / "hil" / "vm")]
 

@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <exception>
 
-#include "host/api/client.hpp"
-#include "host/json/json.hpp"
+#include "host/api/server/client.hpp"
+#include "host/base/json/json.hpp"
 
 namespace {
 

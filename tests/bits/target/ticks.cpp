@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "host/record/serialise.hpp"
+#include "host/storage/recording/serialise.hpp"
 #include "tests/bits/tape.hpp"
 #include "tests/bits/target/meter.hpp"
 

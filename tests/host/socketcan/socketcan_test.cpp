@@ -11,9 +11,9 @@
 #include <cstdlib>
 #include <thread>
 
-#include "host/bus/can_interface.hpp"
-#include "host/canopen/master.hpp"
-#include "tests/host/bus/fake_drive.hpp"
+#include "host/drives/bus/can_interface.hpp"
+#include "host/drives/canopen/master.hpp"
+#include "tests/host/drives/bus/fake_drive.hpp"
 
 namespace liana::bus {
 namespace {

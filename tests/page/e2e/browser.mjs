@@ -3,7 +3,7 @@ import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { root, screens } from './system.mjs';
 
-const require = createRequire(join(root, 'host', 'page', 'package.json'));
+const require = createRequire(join(root, 'host', 'apps', 'web', 'package.json'));
 const { chromium } = require('playwright-core');
 const axe_file = require.resolve('axe-core/axe.min.js');
 

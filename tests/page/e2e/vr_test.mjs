@@ -7,7 +7,7 @@ import { after, before, test } from 'node:test';
 import { open_browser, picture, state, until } from './browser.mjs';
 import { root, screens, start_console } from './system.mjs';
 
-const iwer = createRequire(join(root, 'host', 'page', 'package.json')).resolve('iwer/build/iwer.min.js');
+const iwer = createRequire(join(root, 'host', 'apps', 'web', 'package.json')).resolve('iwer/build/iwer.min.js');
 
 let system, chromium, page;
 

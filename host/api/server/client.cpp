@@ -1,0 +1,50 @@
+#include "host/api/server/client.hpp"
+
+#include <stdexcept>
+
+#include "host/base/json/json.hpp"
+#include "host/base/net/connect.hpp"
+
+namespace liana::api {
+
+namespace {
+constexpr double kSendTimeout_s = 10.0;
+
+[[noreturn]] void throw_gone() {
+  throw std::runtime_error("lianad is gone: the API socket was closed by the other end");
+}
+}  // namespace
+
+ApiClient ApiClient::connect(const std::string& path, double timeout_s) {
+  return ApiClient(connect_to("--api", path, timeout_s));
+}
+
+void ApiClient::send(const Json& request) {
+  const std::string packet = request.dump();
+  if (packet.size() > kMaxPacketBytes) {
+    throw std::runtime_error("API request of " + std::to_string(packet.size()) + " bytes: at most " +
+                             std::to_string(kMaxPacketBytes) + "; give fewer points, or numbers with fewer digits");
+  }
+  SocketResult result = send_packet(fd_.get(), packet);
+  if (result == SocketResult::kWouldBlock && wait_writable(fd_.get(), kSendTimeout_s))
+    result = send_packet(fd_.get(), packet);
+  if (result == SocketResult::kClosed) throw_gone();
+  if (result == SocketResult::kWouldBlock) throw std::runtime_error("lianad does not read its API socket");
+}
+
+bool ApiClient::receive_bytes(std::string& packet, double timeout_s) {
+  SocketResult result = receive_packet(fd_.get(), packet);
+  if (result == SocketResult::kWouldBlock && timeout_s > 0.0 && wait_readable(fd_.get(), timeout_s)) {
+    result = receive_packet(fd_.get(), packet);
+  }
+  if (result == SocketResult::kClosed) throw_gone();
+  return result == SocketResult::kDone;
+}
+
+std::optional<Json> ApiClient::receive(double timeout_s) {
+  std::string packet;
+  if (!receive_bytes(packet, timeout_s)) return std::nullopt;
+  return Json::parse(packet);
+}
+
+}  // namespace liana::api

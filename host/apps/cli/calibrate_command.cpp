@@ -1,0 +1,199 @@
+#include <cstdio>
+#include <iostream>
+#include <sstream>
+
+#include "host/apps/cli/arguments.hpp"
+#include "host/apps/cli/commands.hpp"
+#include "host/apps/launcher/calibrate_session.hpp"
+#include "host/apps/launcher/errors.hpp"
+#include "host/apps/launcher/interrupt.hpp"
+#include "host/apps/launcher/output.hpp"
+#include "host/apps/launcher/system_layout.hpp"
+#include "host/apps/launcher/tables.hpp"
+#include "host/base/json/json.hpp"
+#include "host/drives/calibration/calibrate.hpp"
+#include "host/drives/calibration/fixture.hpp"
+#include "host/drives/calibration/fixture_prompt.hpp"
+
+namespace liana::cli {
+namespace {
+
+constexpr const char* kFixtures = "zero,fixture,prepare";
+
+// The poses for which there are fixtures: those asked for, else those of the table.
+std::vector<std::string> poses_of(const CalibrateOptions& options, const config::RobotConfig& robot) {
+  if (options.poses.empty() && !robot.fixture_poses.empty()) return robot.fixture_poses;
+  std::vector<std::string> names;
+  const std::string list = options.poses.empty() ? kFixtures : options.poses;
+  std::istringstream in(list);
+  for (std::string name; std::getline(in, name, ',');) names.push_back(name);
+  return names;
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ",") + name;
+  return list;
+}
+
+// What runs in any case.
+system::RunOptions run_options(const CalibrateOptions& options, bool simulated) {
+  system::RunOptions run;
+  if (options.robot != CalibrateOptions{}.robot) run.scene = "none";  // the slit's scene is that of its own arm
+  run.robot = options.robot;
+  run.bus = options.bus;
+  run.physics = options.physics;
+  run.simulated_arm = simulated;
+  run.seed = options.seed;
+  return run;
+}
+
+// What runs while the arm lies in a fixture.
+system::SystemLayout plan_for(const CalibrateOptions& options, bool simulated, const std::string& pose) {
+  system::RunOptions run = run_options(options, simulated);
+  run.fixture = pose;
+  run.cross_wired = options.cross_wired;
+  return system::make_layout(run);
+}
+
+// What `measure` finds with the programs of the plan, of which nothing is left behind.
+template <class Measure>
+auto found_with(const system::SystemLayout& plan, const system::InterruptGuard& interrupts, const Measure& measure) {
+  try {
+    const auto found = measure(system::CalibrateSession(plan, interrupts));  // the programs end with the session
+    system::clean_up(plan, true);
+    return found;
+  } catch (...) {
+    system::clean_up(plan, true);
+    throw;
+  }
+}
+
+// Ctrl-C counts at any time, while the programs start and end, too; it is why they then fail.
+calibration::CalibrationReading read_in(const CalibrateOptions& options, bool simulated, const std::string& pose) {
+  const system::InterruptGuard interrupts;
+  calibration::CalibrationReading reading;
+  try {
+    reading = found_with(plan_for(options, simulated, pose), interrupts,
+                         [](system::CalibrateSession&& session) { return session.read(); });
+  } catch (const std::runtime_error&) {
+    if (interrupts.count() == 0) throw;
+  }
+  if (interrupts.count() > 0) throw system::Interrupted("interrupted: nothing was calibrated");
+  return reading;
+}
+
+// One fixture after the other; the drives are off all the time. Between the fixtures nothing runs: whoever moves the
+// arm has it for himself.
+std::vector<calibration::CalibrationReading> read_all(const CalibrateOptions& options, bool simulated,
+                                                      const std::vector<std::string>& poses,
+                                                      const std::vector<cable::ThetaVector>& thetas_rad) {
+  std::vector<calibration::CalibrationReading> readings;
+  if (!simulated)
+    system::clean_up(plan_for(options, simulated, poses.front()),
+                     true);  // what is missing is said before anybody lifts the arm
+  for (std::size_t p = 0; p < poses.size(); ++p) {
+    if (!simulated) calibration::wait_for_fixture(std::cin, std::cerr, poses[p], p + 1, poses.size());
+    std::fprintf(stderr, "pose %zu of %zu, %s: reading the drives\n", p + 1, poses.size(), poses[p].c_str());
+    readings.push_back(read_in(options, simulated, poses[p]));
+    readings.back().theta_rad = thetas_rad[p];
+  }
+  return readings;
+}
+
+void show(const calibration::CalibrationResult& result, bool as_json) {
+  if (as_json) {
+    Json report{{"problems", result.problems}, {"calibration", nullptr}};
+    if (result.problems.empty()) report["calibration"] = Json::parse(calibration::calibration_json(result.calibration));
+    std::printf("%s\n", report.dump().c_str());
+    return;
+  }
+  for (const std::string& problem : result.problems) std::printf("%s\n", problem.c_str());
+  if (!result.problems.empty()) return;
+  std::printf("drive  serial  direction      zero  drum radius mm  offset mm  tension N\n");
+  for (std::size_t i = 0; i < result.calibration.cables.size(); ++i) {
+    const calibration::CableCalibration& cable = result.calibration.cables[i];
+    std::printf("%5zu  %6u  %9d  %8d  %14.4f  %9.3f  %9.1f\n", i, cable.serial, cable.direction, cable.zero_counts,
+                1e3 * cable.drum_radius_m, 1e3 * cable.offset_m, cable.pretension_N);
+  }
+}
+
+std::string text_of(const calibration::FrictionOf& friction) {
+  char text[64];
+  std::snprintf(text, sizeof text, "mu %.4f +- %.4f", friction.mu, friction.sd);
+  return text;
+}
+
+void show(const calibration::Friction& friction, const calibration::Calibration& whole, bool as_json) {
+  if (as_json) {
+    std::printf("%s\n", Json::parse(calibration::calibration_json(whole)).at("friction").dump().c_str());
+    return;
+  }
+  std::printf("friction of the arm: %s\n", text_of(friction.arm).c_str());
+  for (std::size_t j = 0; j < friction.segment.size(); ++j) {
+    const auto& segment = friction.segment[j];
+    std::printf("  segment %zu: %s\n", j + 1, segment ? text_of(*segment).c_str() : "cannot be told apart");
+  }
+}
+
+// The arm moves: what was found of its friction is added to what is known of it.
+int measure_friction(const CalibrateOptions& options, bool simulated, const config::RobotConfig& robot) {
+  if (!options.out_file.empty() && options.calibration.empty())
+    throw system::BadInput("--out: '" + options.out_file +
+                           "': allowed with --friction only beside --calibration FILE, "
+                           "which friction is added to: run liana calibrate without --friction first");
+  calibration::Calibration whole;
+  if (!options.calibration.empty())
+    whole = system::checked(
+        [&] { return calibration::load_calibration(options.calibration, robot, calibration::today_utc()); });
+  system::RunOptions run = run_options(options, simulated);
+  run.calibration = options.calibration;
+  const system::SystemLayout plan = system::make_layout(run);
+  const system::InterruptGuard interrupts;
+  whole.friction =
+      found_with(plan, interrupts, [&](system::CalibrateSession&& session) { return session.measure_friction(robot); });
+  show(*whole.friction, whole, options.json);
+  if (!options.out_file.empty()) system::write_output(options.out_file, calibration::calibration_json(whole));
+  return system::kExitOk;
+}
+
+}  // namespace
+
+int calibrate_command(const CalibrateOptions& options) {
+  const std::string text = system::evaluate_table("robot", options.robot);
+  if (system::checked([&] { return config::robot_kind(text, options.robot); }) == "serial")
+    throw system::BadInput("--robot: '" + options.robot +
+                           "': has a serial arm, whose encoders are absolute: allowed a cable arm; its zeros are "
+                           "drives.zero_counts of its table");
+  const system::TableText table = system::buses_of(options.robot, text, options.bus);
+  const config::BusesConfig buses = system::checked([&] { return config::parse_buses(table.json, table.name); });
+  const bool simulated = buses.backend == "embedded";
+  if (!simulated && !options.cross_wired.empty())
+    throw system::BadInput("--cross-wired: '" + options.cross_wired + "': bus table " + table.name +
+                           " has real drives: allowed with the simulated arm only, --bus=embedded: leave it out");
+  const config::RobotConfig robot =
+      system::checked([&] { return config::parse_robot(text, options.robot, options.physics, buses); });
+  system::check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
+  if (!options.out_file.empty()) system::check_output("--out", options.out_file);
+  if (options.friction) return measure_friction(options, simulated, robot);
+  if (!options.calibration.empty())
+    throw system::BadInput("--calibration: '" + options.calibration + "': allowed with --friction only: leave it out");
+  const std::vector<std::string> poses = poses_of(options, robot);
+  std::vector<cable::ThetaVector> thetas_rad;
+  try {
+    for (const std::string& pose : poses) thetas_rad.push_back(calibration::named_pose_rad(robot, pose));
+    calibration::check_poses(robot, thetas_rad);
+  } catch (const std::runtime_error& error) {
+    throw system::BadInput("--poses: '" + list_of(poses) + "': " + error.what() +
+                           (options.poses.empty() ? "; or name poses in the table, fixture_poses" : ""));
+  }
+  const calibration::CalibrationResult result =
+      calibration::calibrate(robot, read_all(options, simulated, poses, thetas_rad), calibration::today_utc());
+  show(result, options.json);
+  if (!result.problems.empty()) return system::kExitFailure;
+  if (!options.out_file.empty())
+    system::write_output(options.out_file, calibration::calibration_json(result.calibration));
+  return system::kExitOk;
+}
+
+}  // namespace liana::cli

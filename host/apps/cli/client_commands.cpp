@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+
+#include "host/api/server/client.hpp"
+#include "host/apps/cli/commands.hpp"
+#include "host/apps/launcher/errors.hpp"
+#include "host/apps/launcher/observer.hpp"
+#include "host/base/json/json.hpp"
+
+namespace liana::cli {
+namespace {
+
+// One running system while a command deals with it.
+struct Talk {
+  std::string api;
+  std::optional<api::ApiClient> client;
+  std::string problem;  // empty: none so far
+};
+
+// Does `action` with a system, unless something went wrong with it before; what goes wrong is kept, so that others get
+// their turn.
+template <typename Action>
+void attempt(Talk& talk, const Action& action) {
+  if (!talk.problem.empty()) return;
+  try {
+    action();
+  } catch (const std::exception& error) {
+    talk.problem = error.what();
+  }
+}
+
+// Greets every system before anything is waited for: one that hangs must not keep a stop from the others.
+template <typename Action>
+std::vector<Talk> begin_talks(const ClientOptions& options, const char* name, system::Observer observer,
+                              const Action& action) {
+  std::vector<Talk> talks;
+  for (const std::string& api : system::systems_to_ask(options.api)) {
+    Talk& talk = talks.emplace_back();
+    talk.api = api;
+    attempt(talk, [&] {
+      talk.client.emplace(api::ApiClient::connect(api, kConnectTimeout_s));
+      system::say_hello(*talk.client, name, observer);
+      action(*talk.client);
+    });
+  }
+  return talks;
+}
+
+// The answer whose `op` is given; what is missing without one is the problem's text.
+Json answer_of(Talk& talk, const char* op, const char* missing) {
+  Json answer;
+  attempt(talk, [&] {
+    auto message = system::wait_for(*talk.client, op, kAnswerTimeout_s);
+    if (!message) throw std::runtime_error(missing);
+    answer = std::move(*message);
+  });
+  return answer;
+}
+
+int exit_code_of(const std::vector<Talk>& talks) {
+  for (const Talk& talk : talks) {
+    if (!talk.problem.empty()) std::fprintf(stderr, "liana: %s: %s\n", talk.api.c_str(), talk.problem.c_str());
+  }
+  return std::all_of(talks.begin(), talks.end(), [](const Talk& talk) { return talk.problem.empty(); })
+             ? system::kExitOk
+             : system::kExitFailure;
+}
+
+void print_state(const std::string& api, const Json& state) {
+  const std::string owner = state.value("owner", "");
+  std::printf("%s: %s, t = %.2f s, owner %s\n", api.c_str(), state.value("state", "?").c_str(),
+              state.value("time_s", 0.0), owner.empty() ? "nobody" : owner.c_str());
+  const Json stop = state.value("stop", Json());
+  if (stop.is_object())
+    std::printf("emergency stop by %s %s\n", stop.value("by", "").c_str(), stop.value("reason", "").c_str());
+  const Json step = state.value("step", Json());
+  if (step.is_object()) {
+    const Json waits = step.value("waits", Json());
+    std::printf("step %d %s%s\n", step.value("index", 0), step.value("name", "").c_str(),
+                waits.is_string() ? (" waits, " + waits.text()).c_str() : "");
+  }
+  for (const Json& fault : state.value("faults", Json::array())) {
+    std::printf("fault %d %s (index %d): %s\n", fault.value("number", 0), fault.value("name", "").c_str(),
+                fault.value("index", -1), fault.value("text", "").c_str());
+  }
+  const Json clearance = state.value("clearance", Json());
+  if (clearance.is_object()) {
+    std::printf("clearance at least %.1f mm (%s, link %d; %s, bound %.1f mm; %s)\n",
+                1e3 * clearance.value("distance_m", 0.0), clearance.value("body", "").c_str(),
+                clearance.value("link", 0), clearance.value("sure", "").c_str(), 1e3 * clearance.value("bound_m", 0.0),
+                clearance.value("level", "").c_str());
+  }
+  std::printf("theta (deg):");
+  for (const Json& angle : state.value("measured_js_deg", Json::array())) std::printf(" %.3f", angle.get<double>());
+  std::printf("\n");
+}
+
+}  // namespace
+
+int status_command(const ClientOptions& options) {
+  std::vector<Talk> talks = begin_talks(options, "liana status", system::Observer::kSeeing, [](api::ApiClient&) {});
+  for (Talk& talk : talks) {
+    Json state = answer_of(talk, "state", "lianad runs but sent no state within 5 s");
+    if (!talk.problem.empty()) continue;
+    if (options.json) {
+      state["api"] = talk.api;
+      std::puts(state.dump().c_str());
+    } else {
+      print_state(talk.api, state);
+    }
+  }
+  return exit_code_of(talks);
+}
+
+}  // namespace liana::cli

@@ -1,0 +1,157 @@
+// `liana drive check`: what a boot would refuse of one drive, or of all drives of a robot table; reads only.
+#include <cstdio>
+
+#include "host/apps/cli/drive_session.hpp"
+#include "host/apps/launcher/errors.hpp"
+#include "host/apps/launcher/tables.hpp"
+#include "host/base/json/json.hpp"
+#include "host/drives/canopen/boot_mismatch.hpp"
+#include "host/model/config/drive_type.hpp"
+
+namespace liana::cli {
+namespace {
+
+constexpr std::uint16_t kFollowingWindow = 0x6065;
+
+std::string name_of(const canopen::BootObject& object) {
+  return config::object_name({object.index, object.sub}) + " (" + object.name + ")";
+}
+
+bool is_pdo_object(const canopen::BootObject& object) {
+  return (object.index & 0xFD00) == 0x1400 || (object.index & 0xFC00) == 0x1800;
+}
+
+// What the boot would find missing, and what it would write over something else. Without a robot nobody knows the
+// window.
+Json outlook(const canopen::BootNode& node) {
+  Json missing = Json::array(), written = Json::array();
+  const std::span<const canopen::BootObject> objects = node.plan().objects();
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const canopen::BootObject& object = objects[i];
+    const canopen::BootOutcome& outcome = node.outcomes()[i];
+    const bool spare_pdo = object.keep != 0 && object.may_be_missing;
+    if (!outcome.found && !outcome.is_refused && !spare_pdo) missing.push_back(name_of(object));
+    const bool differs = outcome.found && ((*outcome.found ^ object.value) & object.mask) != 0;
+    const bool is_unknown = object.index == kFollowingWindow && object.value == 0;
+    if (object.write && differs && !is_pdo_object(object) && !is_unknown)
+      written.push_back({{"object", name_of(object)}, {"found", *outcome.found}, {"to", object.value}});
+  }
+  return {{"not_there", missing}, {"would_be_written", written}};
+}
+
+void print_outlook(const Json& said) {
+  for (const Json& each : said["not_there"]) std::printf("  not there, so not checked: %s\n", each.text().c_str());
+  for (const Json& each : said["would_be_written"])
+    std::printf("  would be written: %s: %u, now %u\n", each["object"].text().c_str(), each["to"].get<std::uint32_t>(),
+                each["found"].get<std::uint32_t>());
+}
+
+// What a look at the boot of this drive has found.
+Json looked_at(DriveSession& session, desk::Place at, const canopen::DriveExpectation& drive,
+               canopen::BootReference reference) {
+  const std::unique_ptr<canopen::BootNode> node = session.desk.look_at_boot(drive);
+  Json said = outlook(*node);
+  said["node"] = at.node;
+  said["type"] = drive.type.name;
+  said["ok"] = node->mismatches().empty();
+  said["stops_by_itself"] = drive.type.stops_by_itself();
+  if (const std::string warning = nothing_stops(drive.type); !warning.empty()) said["warning"] = warning;
+  said["refusals"] = Json::array();
+  for (const canopen::BootMismatch& mismatch : node->mismatches())
+    said["refusals"].push_back(canopen::describe({&mismatch, 1}, 0, session.bus_of(at), reference));
+  return said;
+}
+
+void print_refusals(const Json& said) {
+  for (const Json& each : said["refusals"]) std::printf("refused: %s\n", each.text().c_str());
+}
+
+int check_one(DriveSession& session, const DriveOptions& options, std::uint8_t node) {
+  const desk::Place at = session.place(node);
+  if (const desk::Answer there = session.desk.read(at, 0x1000, 0); !there.is_done())
+    return tell_failure(session, at, "reading 1000", there, options.json);
+  const Json said = looked_at(session, at, expected_drive(session, at, options), canopen::BootReference::kDesk);
+  const bool is_good = said["ok"].get<bool>();
+  if (options.json) {
+    std::printf("%s\n", said.dump().c_str());
+  } else {
+    print_refusals(said);
+    if (is_good)
+      std::printf("%s answers as type %s has to; nothing was written\n", session.where(at).c_str(),
+                  options.type.c_str());
+    print_outlook(said);
+    if (said.contains("warning")) std::printf("warning: %s\n", said["warning"].text().c_str());
+  }
+  return is_good ? system::ExitCode::kExitOk : system::ExitCode::kExitFailure;
+}
+
+std::vector<canopen::DriveExpectation> drives_of_robot(const std::string& name, const config::BusesConfig& buses) {
+  const std::string robot = system::evaluate_table("robot", name);
+  return system::checked([&] {
+    if (config::robot_kind(robot, name) == "serial")
+      return canopen::drive_expectations(config::parse_serial_robot(robot, name), buses);
+    return canopen::drive_expectations(config::parse_robot(robot, name, "nominal", buses), buses);
+  });
+}
+
+Json silent(const DriveSession& session, desk::Place at, const canopen::DriveExpectation& drive) {
+  return {{"node", at.node},
+          {"type", drive.type.name},
+          {"ok", false},
+          {"answers", false},
+          {"refusals", {session.where(at) + ": no answer within 1 s: it is missing, or has another id or bit rate"}}};
+}
+
+void print_robot(const DriveSession& session, const std::string& robot, const Json& all, int good) {
+  for (const Json& said : all) {
+    print_refusals(said);
+    if (said.contains("warning")) std::printf("warning: %s\n", said["warning"].text().c_str());
+    if (!said["ok"].get<bool>()) continue;
+    const auto node = static_cast<std::uint8_t>(said["node"].get<int>());
+    std::printf("%s answers as type %s has to; %zu objects are not there, so not checked\n",
+                session.where({session.buses.bus_of_node(node), node}).c_str(), said["type"].text().c_str(),
+                said["not_there"].size());
+  }
+  std::printf("%s: %d of %zu drives answer as they have to; nothing was written\n", robot.c_str(), good, all.size());
+}
+
+int check_robot(DriveSession& session, const DriveOptions& options,
+                const std::vector<canopen::DriveExpectation>& drives) {
+  Json all = Json::array();
+  int good = 0, answering = 0;
+  for (const canopen::DriveExpectation& drive : drives) {
+    const desk::Place at{drive.bus, drive.node};
+    const bool answers = session.desk.read(at, 0x1000, 0).is_done();
+    all.push_back(answers ? looked_at(session, at, drive, canopen::BootReference::kRobotTable)
+                          : silent(session, at, drive));
+    answering += answers ? 1 : 0;
+    good += all.back()["ok"].get<bool>() ? 1 : 0;
+  }
+  const bool is_good = good == static_cast<int>(drives.size());
+  if (options.json) {
+    std::printf("%s\n", Json{{"ok", is_good}, {"robot", options.robot}, {"drives", all}}.dump().c_str());
+  } else {
+    print_robot(session, options.robot, all, good);
+  }
+  if (answering == 0) return kNobodyAnswers;
+  return is_good ? system::ExitCode::kExitOk : system::ExitCode::kExitFailure;
+}
+
+}  // namespace
+
+int drive_check_command(const DriveOptions& options) {
+  if (options.robot.empty()) {
+    drive_type_of(options);  // bad input before anything is asked
+    const std::uint8_t node = node_of(options);
+    DriveSession session(options);
+    refuse_beside_a_master(session);
+    return check_one(session, options, node);
+  }
+  const config::BusesConfig buses = drive_buses(options);
+  const std::vector<canopen::DriveExpectation> drives = drives_of_robot(options.robot, buses);
+  DriveSession session(options);
+  refuse_beside_a_master(session);
+  return check_robot(session, options, drives);
+}
+
+}  // namespace liana::cli

@@ -1,0 +1,107 @@
+// Options of the commands for an arm as it stands there: status, estop, clear, calibrate, latency, faults.
+#include "host/apps/cli/arguments.hpp"
+#include "host/apps/cli/commands.hpp"
+#include "host/apps/cli/options/options.hpp"
+
+namespace liana::cli {
+namespace {
+
+void add_client(CLI::App& app, Action& action, const char* name, const char* text,
+                int (*command)(const ClientOptions&)) {
+  auto [sub, client] = add<ClientOptions>(app, action, name, text, command);
+  sub.add_option("--api", client.api, "API socket of one lianad; where not given, all running systems of this user");
+  sub.add_flag("--json", client.json, "print JSON, one line for each system");
+}
+
+void add_clear(CLI::App& app, Action& action) {
+  auto [sub, client] = add<ClientOptions>(
+      app, action, "clear", "clear an emergency stop and the latched faults of one running system; enables nothing",
+      clear_command);
+  sub.add_option("--api", client.api,
+                 "API socket of the lianad; where not given, that of the one running system of this user (several are "
+                 "refused)");
+  sub.add_flag("--json", client.json, "print JSON, also when nothing could be cleared");
+}
+
+void add_calibrate(CLI::App& app, Action& action) {
+  auto [sub, calibrate] = add<CalibrateOptions>(
+      app, action, "calibrate", "zeros, drums, directions and wiring of all drives, with the arm in fixtures",
+      calibrate_command);
+  add_robot(sub, calibrate.robot);
+  sub.add_option("--bus", calibrate.bus, "bus table; where not given as for liana run");
+  sub.add_option("--poses", calibrate.poses,
+                 "named poses of the robot for which there are fixtures, two or more; where not given the table's "
+                 "fixture_poses, else zero,fixture,prepare");
+  add_physics(sub, calibrate.physics);
+  add_cross_wired(sub, calibrate.cross_wired);
+  sub.add_option("--out", calibrate.out_file,
+                 "write the calibration to this file, for lianad --calibration and liana run --calibration");
+  sub.add_flag(
+      "--friction", calibrate.friction,
+      "measure the cables' friction instead: the arm is enabled and each segment turned by 3 deg to and fro, for "
+      "about three minutes; needs 0.5 m of room around it");
+  sub.add_option("--calibration", calibrate.calibration, "with --friction: the calibration that it is added to");
+  add_seed(sub, calibrate.seed, "of the simulated arm");
+  add_json(sub, calibrate.json);
+}
+
+void add_latency(CLI::App& app, Action& action) {
+  auto [sub, latency] = add<LatencyOptions>(
+      app, action, "latency", "how late this machine wakes lianad's real-time thread, and how long its ticks take",
+      latency_command);
+  sub.add_option("--robot", latency.robot, "robot table: a name under lua/robots or a file; zhu2022 where not given");
+  sub.add_option("--rate", latency.rate_hz, "250 or 500 Hz")->default_str("250");
+  sub.add_option_function<std::string>(
+         "--seconds",
+         [&seconds = latency.seconds](const std::string& text) {
+           seconds = parse_number_in("--seconds", text, 0.1, 86400.0, "s");
+         },
+         "how long to measure; 0.1 to 86400")
+      ->default_str("10");
+  sub.add_option(
+      "--buses", latency.buses,
+      "bus table, in place of the embedded one of the rate or the robot: vcan, or a table of your interfaces");
+  sub.add_option("--arm", latency.arm,
+                 "the bench's arm model: full, or light (no inertia, contact or cable friction) for slow machines")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"full", "light"}));
+  add_json(sub, latency.json);
+}
+
+void add_faults(CLI::App& app, Action& action) {
+  auto [sub, faults] = add<FaultsOptions>(
+      app, action, "faults", "every fault number: how it is detected, what it stops, what to do", faults_command);
+  sub.add_option("--robot", faults.robot, "robot table whose tick counts")->capture_default_str();
+  sub.add_flag("--refusals", faults.refusals, "error codes M_e of verification in place of faults");
+  sub.add_flag("--markdown", faults.markdown,
+               "print the table of docs/reference/faults.md, or of docs/reference/refusals.md");
+  add_json(sub, faults.json);
+}
+
+void add_force(CLI::App& app, Action& action) {
+  auto [sub, force] =
+      add<ForceOptions>(app, action, "force", "how well contact forces are estimated, on the bench", force_command);
+  sub.add_flag("--self-test", force.self_test, "push a simulated arm and compare what it tells with the truth");
+  sub.add_option("--robot", force.robot, "a cable arm's table")->capture_default_str();
+  add_physics(sub, force.physics);
+  sub.add_option("--configurations", force.configurations, "places about which the arm is pushed, 1 to 1000")
+      ->capture_default_str();
+  sub.add_option("--pushes", force.pushes, "in each, 1 to 100: at rest, dithered and on the move")
+      ->capture_default_str();
+  add_seed(sub, force.seed, "of pushes, places and of the bench");
+  add_json(sub, force.json);
+}
+
+}  // namespace
+
+void declare_arm(CLI::App& app, Action& action) {
+  add_client(app, action, "status", "state of every running system", status_command);
+  add_client(app, action, "estop", "emergency stop of every running system: stop, brakes, disable", estop_command);
+  add_clear(app, action);
+  add_calibrate(app, action);
+  add_latency(app, action);
+  add_force(app, action);
+  add_faults(app, action);
+}
+
+}  // namespace liana::cli

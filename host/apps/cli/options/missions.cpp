@@ -1,0 +1,120 @@
+// Options of the commands that carry out a mission: run, check, mission.
+#include "host/apps/cli/commands.hpp"
+#include "host/apps/cli/options/options.hpp"
+
+namespace liana::cli {
+namespace {
+
+void add_mission_options(CLI::App& sub, system::RunOptions& run) {
+  sub.add_option("mission", run.mission, "a name under lua/missions, a file, or a plan (JSON of liana plan --out)")
+      ->required();
+  sub.add_option(
+      "--robot", run.robot,
+      "robot table: a name under lua/robots or a file; where not given that of the plan or the mission, else zhu2022");
+  sub.add_option(
+      "--scene", run.scene,
+      "scene table: a name under lua/scenes or a file; where not given that of the plan or the mission, else "
+      "panel_slit, for a serial arm none");
+  sub.add_option(
+      "--bus", run.bus,
+      "bus table: a name under lua/buses or a file; where not given that of the mission with its own robot, else "
+      "embedded_ROBOT if there is such a table, else one for the robot's drives on simulated buses");
+  sub.add_option("--start-pose", run.start_pose,
+                 "where the simulated arm begins: a named pose of the robot, or all its angles, t1,t2,... deg; where "
+                 "not given the table's start_pose, else prepare or zero");
+  add_physics(sub, run.physics);
+  sub.add_option("--calibration", run.calibration,
+                 "what liana calibrate wrote; the robot table's values where not given");
+  sub.add_option("--faults", run.faults,
+                 "to try it out: faults of the simulated drives, cables and camera (docs/how-to/run-hil.md)")
+      ->check(CLI::ExistingFile);
+  sub.add_option("--fault", run.fault,
+                 "to try it out: a fault that the mission is shipped with, by its name (MISSION/faults/NAME.json "
+                 "beside it)")
+      ->excludes("--faults");
+  sub.add_option("--true-physics", run.true_physics,
+                 "to try it out: nominal, ideal or worn; the simulated arm's friction, where it is not what lianad is "
+                 "told with --physics")
+      ->check(CLI::IsMember({"nominal", "ideal", "worn"}));
+  sub.add_option("--scene-offset", run.scene_offset,
+                 "to try it out: MM,DEG, e.g. 10,1; the simulated scene is so far from where its table has it, in a "
+                 "direction drawn from the seed");
+  sub.add_option("--gravity", run.gravity_share,
+                 "to try it out: share of the simulated arm's weight that its counterweights leave; down is -z of the "
+                 "base frame")
+      ->check(within(0.0, 1.0));
+  sub.add_option("--linkage-error", run.linkage_error,
+                 "to try it out: share by which the simulated joints of a segment bend unevenly at most, 0.01 is 1 %, "
+                 "drawn from the seed")
+      ->check(within(0.0, 0.5));
+  sub.add_option("--json", run.report_file, "write the report as JSON to this file (- = standard output)");
+  add_seed(sub, run.seed, "seed of everything random: hand, start pose, bench parameters, camera");
+}
+
+// Who steers, and over what.
+void add_people(CLI::App& sub, system::OperatorChoice& people) {
+  sub.add_option("--operator", people.who,
+                 "recorded: VR handles from a file, a simulated person at the hand controller; human: a simulated "
+                 "person at simulated devices in every step (docs/explanation/operator-model.md); recorded where "
+                 "nothing is said")
+      ->check(CLI::IsMember({"recorded", "human"}));
+  sub.add_option("--delay", people.delay,
+                 "of the human: FORWARD_S,RETURN_S, e.g. 0.5,0.5; delays of the link between hand and arm, 0 to 2 s");
+  sub.add_option("--feedback", people.feedback,
+                 "of the human: the law of the force on the hand, or off; as the mission's steps say where not given")
+      ->check(CLI::IsMember({"aligned", "claim", "abstract", "off"}));
+  sub.add_option("--fixtures", people.fixtures,
+                 "off: no fixture of the scene guides the hand or is felt, whatever the mission says "
+                 "(docs/explanation/virtual-fixtures.md)")
+      ->check(CLI::IsMember({"on", "off"}));
+  sub.add_option(
+         "--temper", people.temper,
+         "lively: whoever steers has bursts and reversals, drifts, trembles more, loses grips in motion and "
+         "holds both devices, details by --seed (docs/explanation/operator-model.md); gentle where nothing is said")
+      ->check(CLI::IsMember({"gentle", "lively"}));
+  sub.add_option("--passivity", people.passivity,
+                 "of the human: energy tank and damping at the hand controller; on where nothing is said")
+      ->check(CLI::IsMember({"on", "off"}));
+}
+
+void add_run(CLI::App& app, Action& action) {
+  auto [sub, run] =
+      add<system::RunOptions>(app, action, "run", "start the whole system and run a mission", run_command);
+  add_mission_options(sub, run);
+  sub.add_option("--time", run.time, "fast, paced or real; fast where nothing is said, real on SocketCAN")
+      ->check(CLI::IsMember({"fast", "paced", "real"}));
+  sub.add_option("--in-pose", run.in_pose,
+                 "named pose in which the arm lies in its fixture: unless every cable says so, it is not enabled");
+  add_cross_wired(sub, run.cross_wired);
+  add_people(sub, run.people);
+  sub.add_option("--record", run.record_dir, "keep recording, logs, bus traffic and report in this directory");
+  sub.add_flag("--console", run.has_console, "show it in a browser while it runs; the address goes to standard error");
+}
+
+void add_check(CLI::App& app, Action& action) {
+  auto [sub, check] = add<system::RunOptions>(
+      app, action, "check", "dry run of a mission: what its steps leave of the limits, what is refused", check_command);
+  add_mission_options(sub, check);
+}
+
+void add_mission(CLI::App& app, Action& action) {
+  auto [sub, mission] =
+      add<MissionOptions>(app, action, "mission", "tells the mission that runs how to go on", mission_command);
+  sub.add_option("command", mission.command,
+                 "pause: the arm holds; resume: go on; step: one step, then a pause; confirm: what the step asks for; "
+                 "abort: end it")
+      ->required()
+      ->check(CLI::IsMember({"pause", "resume", "step", "confirm", "abort"}));
+  sub.add_option("--api", mission.api, "API socket of the lianad; where not given, that of the one running system");
+  add_json(sub, mission.json);
+}
+
+}  // namespace
+
+void declare_missions(CLI::App& app, Action& action) {
+  add_run(app, action);
+  add_check(app, action);
+  add_mission(app, action);
+}
+
+}  // namespace liana::cli

@@ -1,0 +1,72 @@
+#include <cstdio>
+
+#include "firmware_like/cable/arm/cables.hpp"
+#include "firmware_like/cable/arm/kinematics.hpp"
+#include "host/apps/cli/arguments.hpp"
+#include "host/apps/cli/commands.hpp"
+#include "host/apps/cli/pose_json.hpp"
+#include "host/apps/cli/serial_commands.hpp"
+#include "host/apps/cli/slit_part.hpp"
+#include "host/apps/launcher/tables.hpp"
+#include "host/base/json/json.hpp"
+
+namespace liana::cli {
+namespace {
+
+Json pose_of(const cable::RobotTable& table, const cable::ThetaVector& theta_rad) {
+  const cable::ArmTrig trig = arm_trig(table, theta_rad);
+  const cable::ArmKinematics arm = forward_kinematics(table, trig);
+  const cable::CableLayout layout = cable_layout(table);
+  const cable::CableGeometry cables = cable_geometry(table, layout, trig);
+  Json ends = Json::array();
+  for (std::size_t m = 1; m <= static_cast<std::size_t>(table.segment_count); ++m)
+    ends.push_back(arm.node_in_base[m].position_m);
+  Json length = Json::array();
+  Json change = Json::array();
+  for (std::size_t c = 0; c < static_cast<std::size_t>(table.cable_count()); ++c) {
+    length.push_back(cables.length_m[c]);
+    change.push_back(cables.length_m[c] - layout.zero_length_m[c]);
+  }
+  return {{"tip_pose", homogeneous(arm.tip_in_base)},
+          {"segment_ends_m", ends},
+          {"jacobian", jacobian_rows(arm.tip_jacobian.linear, arm.tip_jacobian.angular, table.theta_count())},
+          {"cable_length_m", length},
+          {"cable_length_change_m", change}};
+}
+
+void print_summary(const Json& pose) {
+  for (const Json& row : pose["tip_pose"]) {
+    std::printf("%10.6f %10.6f %10.6f %11.6f m\n", row[0].get<double>(), row[1].get<double>(), row[2].get<double>(),
+                row[3].get<double>());
+  }
+  const Json& change = pose["cable_length_change_m"];
+  for (std::size_t c = 0; c < change.size(); ++c) {
+    std::printf("cable %2zu: %10.6f m, %+9.3f mm\n", c, pose["cable_length_m"][c].get<double>(),
+                1000.0 * change[c].get<double>());
+  }
+  if (pose.contains("slit")) std::printf("slit: %s\n", pose["slit"].dump().c_str());
+}
+
+}  // namespace
+
+int pose_command(const PoseOptions& options) {
+  if (const auto serial = system::serial_robot_for_kinematics(options.robot))
+    return serial_pose_command(*serial, options);
+  const config::RobotConfig robot = system::robot_for_kinematics(options.robot);
+  const cable::ThetaVector theta_rad = parse_theta_deg("--theta-deg", options.theta_deg, robot.table);
+  Json pose = pose_of(robot.table, theta_rad);
+  if (!options.scene.empty()) {
+    const config::SceneConfig scene = system::scene_of(options.scene);
+    if (!scene.slit)
+      throw system::BadInput("--scene: '" + options.scene + "': has no slit; name a scene with one, or leave it out");
+    pose["slit"] = slit_part(robot, scene, theta_rad);
+  }
+  if (options.json) {
+    std::puts(pose.dump().c_str());
+  } else {
+    print_summary(pose);
+  }
+  return 0;
+}
+
+}  // namespace liana::cli

@@ -1,0 +1,283 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "firmware_like/cable/arm/tension.hpp"
+#include "firmware_like/math/trig.hpp"
+#include "host/apps/cli/commands.hpp"
+#include "host/apps/cli/serial_robot_check.hpp"
+#include "host/apps/launcher/errors.hpp"
+#include "host/apps/launcher/output.hpp"
+#include "host/apps/launcher/start_pose.hpp"
+#include "host/apps/launcher/tables.hpp"
+#include "host/base/json/json.hpp"
+#include "host/drives/calibration/calibrate.hpp"
+#include "host/drives/calibration/fixture.hpp"
+#include "host/model/config/field.hpp"
+#include "host/planning/workspace/picture.hpp"
+#include "host/planning/workspace/region.hpp"
+
+namespace liana::cli {
+namespace {
+
+constexpr double kLeastHoleDistance_m = 0.001;
+constexpr double kUnknown_m = 0.01e-3;   // of a length, after homing: arms of the bench stay above their floor by it
+constexpr std::int32_t kSamples = 5000;  // of the workspace, whose boundary is then climbed to
+constexpr std::int32_t kTipValues = 6;   // place and attitude
+
+std::string text(const char* format, auto... values) {
+  char line[300];
+  std::snprintf(line, sizeof line, format, values...);
+  return line;
+}
+
+Json buses_of(const config::BusesConfig& buses) {
+  Json list = Json::array();
+  for (std::size_t b = 0; b < buses.buses.size(); ++b) {
+    list.push_back({{"name", buses.buses[b].name},
+                    {"drives", buses.buses[b].nodes.size()},
+                    {"worst_case_load", config::worst_case_load(buses, b)}});
+  }
+  return {{"name", buses.name}, {"rate_hz", buses.rate_hz}, {"max_load", buses.max_load}, {"buses", list}};
+}
+
+// Least and most tension at the motors as the controller plans them at a pose, nothing having slipped.
+struct Planned {
+  double least_N = 1e9, most_N = 0.0;
+  bool is_balanced = true;
+};
+
+Planned planned_at(const cable::RobotTable& table, const cable::ThetaVector& theta_rad) {
+  const cable::CableLayout layout = cable_layout(table);
+  const cable::ArmTrig trig = arm_trig(table, theta_rad);
+  const cable::TensionRatio ratio = tension_ratio(table, layout, trig, cable::SlipState{});
+  const cable::TensionPlan plan =
+      plan_tension(table, cable_geometry(table, layout, trig), ratio, cable::SegmentVector{});
+  Planned planned{.is_balanced = plan.balanced};
+  for (std::size_t c = 0; c < static_cast<std::size_t>(table.cable_count()); ++c) {
+    planned.least_N = std::min(planned.least_N, plan.motor_N[c]);
+    planned.most_N = std::max(planned.most_N, plan.motor_N[c]);
+  }
+  return planned;
+}
+
+Json poses_of(const config::RobotConfig& robot, Json& problems) {
+  const cable::TensionLimits& limits = robot.table.tension;
+  Json poses = Json::object();
+  for (const auto& [name, angles_deg] : robot.named_poses_deg) {
+    cable::ThetaVector theta_rad{};
+    for (std::size_t k = 0; k < angles_deg.size(); ++k) theta_rad[k] = kDegree * angles_deg[k];
+    const Planned planned = planned_at(robot.table, theta_rad);
+    poses[name] = {{"least_N", planned.least_N}, {"most_N", planned.most_N}};
+    const char* pose = name.c_str();
+    if (!planned.is_balanced) {
+      problems.push_back(
+          text("pose %s: the cables of a segment cannot turn both of its angles: change cables.phase_deg", pose));
+    } else if (planned.least_N < limits.floor_motor_N || planned.most_N > limits.ceiling_free_N) {
+      problems.push_back(
+          text("pose %s: tensions of %.1f to %.1f N are planned: allowed %g to %g N: bend it less, or "
+               "raise tension.ceiling_free_N",
+               pose, planned.least_N, planned.most_N, limits.floor_motor_N, limits.ceiling_free_N));
+    }
+  }
+  return poses;
+}
+
+void look_at_holes(const cable::RobotTable& table, Json& problems) {
+  const cable::CableLayout layout = cable_layout(table);
+  const auto cables = static_cast<std::size_t>(layout.cable_count);
+  for (std::size_t a = 0; a < cables; ++a) {
+    for (std::size_t b = a + 1; b < cables; ++b) {
+      const double distance_m =
+          std::hypot(layout.hole_y_m[a] - layout.hole_y_m[b], layout.hole_z_m[a] - layout.hole_z_m[b]);
+      if (distance_m < kLeastHoleDistance_m)
+        problems.push_back(
+            text("cables %zu and %zu: their holes are %.1f mm apart in the discs that both pass: turn "
+                 "a segment's cables.phase_deg",
+                 a + 1, b + 1, 1e3 * distance_m));
+    }
+  }
+}
+
+void look_at_fixtures(const config::RobotConfig& robot, Json& problems) {
+  if (robot.fixture_poses.empty()) return;
+  std::vector<cable::ThetaVector> thetas_rad;
+  for (const std::string& name : robot.fixture_poses) thetas_rad.push_back(calibration::named_pose_rad(robot, name));
+  try {
+    calibration::check_poses(robot, thetas_rad);
+  } catch (const std::runtime_error& error) {
+    problems.push_back(std::string("fixture_poses: ") + error.what());
+  }
+}
+
+void look_at_zero(const config::RobotConfig& robot, Json& problems) {
+  const std::vector<double>& zero_deg = robot.named_poses_deg.at("zero");
+  for (std::size_t k = 0; k < zero_deg.size(); ++k) {
+    if (zero_deg[k] == 0.0) continue;
+    problems.push_back(
+        text("named_poses_deg.zero: angle %zu is %g deg: allowed 0, it is the straight arm: give the "
+             "pose another name",
+             k + 1, zero_deg[k]));
+    return;
+  }
+}
+
+// What the straight arm, turned about its base at the tip's acceleration, asks of one cable there: an arm that needs
+// more than the hard limit does not move as it is planned.
+void look_at_mass(const config::RobotConfig& robot, const Json& table, Json& problems) {
+  const double mass_kg = table.at("module").at("mass_kg").get<double>();
+  double along_m = 0.0, inertia_kgm2 = 0.0;
+  for (const Json& segment : table.at("segments")) {
+    for (int m = 0; m < segment.at("modules").get<int>(); ++m) {
+      along_m += segment.at("module_length_m").get<double>();
+      inertia_kgm2 += mass_kg * along_m * along_m;
+    }
+  }
+  const double needed_N = inertia_kgm2 * robot.table.limits.tip_accel_m_s2 / along_m / robot.table.hole_radius_m;
+  if (needed_N <= robot.table.tension.hard_limit_N) return;
+  problems.push_back(
+      text("module.mass_kg: %g: a cable would pull %.0f N to turn the arm at limits.tip_accel_m_s2: allowed "
+           "up to tension.hard_limit_N, %g N: weigh a module, or lower the acceleration",
+           mass_kg, needed_N, robot.table.tension.hard_limit_N));
+}
+
+// What nobody knows of a cable's length, times its stiffness, may not take the tension from what is planned to the
+// floor at the motor. The shortest cable, of segment 1, is the stiffest.
+void look_at_stiffness(const cable::RobotTable& table, Json& problems) {
+  const double shortest_m = table.segment[0].modules * table.segment[0].module_length_m + table.lead_m;
+  const double change_N = kUnknown_m * table.cable_EA_N / shortest_m;
+  const double allowed_N = table.tension.plan_N - table.tension.floor_motor_N;
+  if (change_N <= allowed_N) return;
+  problems.push_back(
+      text("cables.EA_N: %g: the shortest cable, %.3g m, loses %.3g N by a length error of %g mm: allowed up to "
+           "tension.plan_N less floor_motor_N, %g N: more plan_N, a longer cables.lead_m, or EA_N up to %.4g",
+           table.cable_EA_N, shortest_m, change_N, 1e3 * kUnknown_m, allowed_N, allowed_N * shortest_m / kUnknown_m));
+}
+
+// Cables that move too little between any two poses do not tell their drives' directions.
+void look_at_travel(const cable::RobotTable& table, Json& notes) {
+  for (std::size_t j = 0; j < static_cast<std::size_t>(table.segment_count); ++j) {
+    const cable::SegmentTable& segment = table.segment[j];
+    const double most_m = table.hole_radius_m * segment.modules * segment.theta_limit_rad;
+    if (most_m >= calibration::kLeastChange_m) continue;
+    notes.push_back(
+        text("segment %zu moves its cables by %.1f mm at most: liana calibrate needs %g mm: set drives.zero_counts "
+             "and .direction by hand (docs/how-to/calibrate.md)",
+             j + 1, 1e3 * most_m, 1e3 * calibration::kLeastChange_m));
+  }
+}
+
+Json workspace_of(const cable::RobotTable& table) {
+  reach::RegionRequest request;
+  request.point.node = table.segment_count;
+  request.samples = kSamples;
+  const reach::Region region = reach::explore_region(reach::arm_of(table), request);
+  return {{"length_m", region.length_m},
+          {"nearest_m", region.nearest_m},
+          {"farthest_m", region.farthest_m},
+          {"least_m", region.extent_m[0]},
+          {"most_m", region.extent_m[1]}};
+}
+
+Json checked_cable_robot(const config::RobotConfig& robot) {
+  const cable::RobotTable& table = robot.table;
+  std::int32_t modules = 0;
+  for (std::size_t j = 0; j < static_cast<std::size_t>(table.segment_count); ++j) modules += table.segment[j].modules;
+  Json problems = Json::array();
+  Json checked{{"robot", robot.name},
+               {"kind", "cable"},
+               {"segments", table.segment_count},
+               {"most_segments", cable::kMaxSegments},
+               {"modules", modules},
+               {"angles", table.theta_count()},
+               {"most_held", std::max(0, table.theta_count() - kTipValues)},
+               {"cables", table.cable_count()},
+               {"most_cables", cable::kMaxCables},
+               {"mm_per_count", 1e3 * table.drive[0].metres_per_count},
+               {"planned_tension", poses_of(robot, problems)},
+               {"workspace", workspace_of(table)}};
+  look_at_holes(table, problems);
+  look_at_fixtures(robot, problems);
+  const Json written = Json::parse(robot.canonical_json);
+  look_at_zero(robot, problems);
+  look_at_mass(robot, written, problems);
+  look_at_stiffness(table, problems);
+  Json notes = Json::array();
+  look_at_travel(table, notes);
+  checked["problems"] = problems;
+  checked["notes"] = notes;
+  return checked;
+}
+
+void print_cable_robot(const Json& checked) {
+  const auto number = [&](const char* key) { return checked[key].get<int>(); };
+  std::printf("%d of %d segments, %d modules, %d of %d cables, %.4f mm per count\n", number("segments"),
+              number("most_segments"), number("modules"), number("cables"), number("most_cables"),
+              checked["mm_per_count"].get<double>());
+  if (number("angles") < kTipValues) {
+    std::printf("%d angles: places, not attitudes: missions and plans by joint angles\n", number("angles"));
+  } else {
+    std::printf("%d angles: the tip reaches places and attitudes, and %d can be held meanwhile\n", number("angles"),
+                number("most_held"));
+  }
+  const Json& space = checked["workspace"];
+  std::printf("tip: %.3f to %.3f m from the base (straight arm %.3f m)", space["nearest_m"].get<double>(),
+              space["farthest_m"].get<double>(), space["length_m"].get<double>());
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    std::printf("; %c %.3f to %.3f m", "xyz"[axis], space["least_m"][axis].get<double>(),
+                space["most_m"][axis].get<double>());
+  std::printf("\n");
+  for (const auto& [name, planned] : checked["planned_tension"].items())
+    std::printf("pose %s: %.1f to %.1f N planned at the motors\n", name.c_str(), planned["least_N"].get<double>(),
+                planned["most_N"].get<double>());
+}
+
+void print_parts(const Json& checked) {
+  std::printf("%s, a %s arm\n", checked["robot"].get<std::string>().c_str(),
+              checked["kind"].get<std::string>().c_str());
+  if (checked["kind"] == "cable") print_cable_robot(checked);
+  if (checked["kind"] == "serial") print_swings(checked["swings"]);
+  const Json& buses = checked["buses"];
+  for (const Json& bus : buses["buses"]) {
+    std::printf("bus %s of %s: %d drives at %g Hz, worst-case load %.1f %% of %.0f %% allowed\n",
+                bus["name"].get<std::string>().c_str(), buses["name"].get<std::string>().c_str(),
+                bus["drives"].get<int>(), buses["rate_hz"].get<double>(), 100.0 * bus["worst_case_load"].get<double>(),
+                100.0 * buses["max_load"].get<double>());
+  }
+  for (const Json& note : checked["notes"]) std::printf("note: %s\n", note.get<std::string>().c_str());
+  for (const Json& problem : checked["problems"]) std::printf("problem: %s\n", problem.get<std::string>().c_str());
+  std::printf(checked["problems"].empty() ? "fits\n" : "does NOT fit as it is\n");
+}
+
+}  // namespace
+
+int robot_check_command(const RobotCheckOptions& options) {
+  const std::string robot_text = system::evaluate_table("robot", options.robot);
+  const system::TableText table = system::buses_of(options.robot, robot_text, options.bus);
+  const config::BusesConfig buses = system::checked([&] { return config::parse_buses(table.json, table.name); });
+  const bool is_serial = system::checked([&] { return config::robot_kind(robot_text, options.robot); }) == "serial";
+  if (is_serial && !options.svg_file.empty())
+    throw system::BadInput("--svg: robot " + options.robot + " has a serial arm, without cables; leave it out");
+  if (!is_serial && !options.scene.empty())
+    throw system::BadInput("--scene: robot " + options.robot + " has cables and carries no payload; leave it out");
+  const config::SceneConfig scene = options.scene.empty() ? config::SceneConfig{} : system::scene_of(options.scene);
+  Json checked;
+  if (is_serial) {
+    checked = system::checked(
+        [&] { return checked_serial_robot(config::parse_serial_robot(robot_text, options.robot, buses), scene); });
+  } else {
+    const config::RobotConfig robot =
+        system::checked([&] { return config::parse_robot(robot_text, options.robot, "nominal", buses); });
+    if (!options.svg_file.empty()) system::write_output(options.svg_file, reach::routing_picture(robot));
+    checked = checked_cable_robot(robot);
+  }
+  checked["buses"] = buses_of(buses);
+  if (options.json) {
+    std::puts(checked.dump().c_str());
+  } else {
+    print_parts(checked);
+  }
+  return checked["problems"].empty() ? system::kExitOk : system::kExitFailure;
+}
+
+}  // namespace liana::cli

@@ -1,0 +1,89 @@
+#include "host/apps/launcher/runs.hpp"
+
+#include <stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+namespace liana::system {
+namespace {
+
+namespace fs = std::filesystem;
+
+// How the names begin: beside a file of SQLite may lie two that belong to it.
+constexpr std::array<std::string_view, 12> kLasting{"archive.db",  "telemetry-", "ring-",      "robot.json",
+                                                    "scene.json",  "buses.json", "events.txt", "commands.txt",
+                                                    "report.json", "truth.bin",  "page.html",  "mission_files"};
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+constexpr const char* kPage = "page.html";
+
+// A run that goes on writes, so that it is never old.
+fs::file_time_type newest_change(const fs::path& run) {
+  std::error_code gone;  // other runs end at the same time
+  fs::file_time_type newest = fs::file_time_type::min();
+  for (const fs::directory_entry& entry : fs::directory_iterator(run, gone)) {
+    if (entry.path().filename() == kPage) continue;  // made whenever somebody looks
+    const fs::file_time_type when = entry.last_write_time(gone);
+    if (!gone) newest = std::max(newest, when);
+  }
+  return newest;
+}
+
+}  // namespace
+
+std::string runs_folder() {
+  const std::string state = variable("XDG_STATE_HOME"), home = variable("HOME");
+  if (!state.empty()) return state + "/liana/runs";
+  return home.empty() ? "" : home + "/.local/state/liana/runs";
+}
+
+std::vector<std::string> kept_runs(const std::string& folder) {
+  std::vector<std::pair<fs::file_time_type, std::string>> found;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    if (entry.is_directory(none)) found.emplace_back(newest_change(entry.path()), entry.path());
+  }
+  std::sort(found.rbegin(), found.rend());
+  std::vector<std::string> runs;
+  for (auto& [when, run] : found) runs.push_back(std::move(run));
+  return runs;
+}
+
+std::string make_run_folder(const std::string& folder) {
+  if (folder.empty()) throw std::runtime_error("neither XDG_STATE_HOME nor HOME is set");
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw std::runtime_error(folder + ": cannot be made: " + error.message());
+  std::string name = folder + "/liana-run-XXXXXX";
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(folder + ": no folder can be made there");
+  return name;
+}
+
+void keep_what_lasts(const std::string& run) {
+  std::error_code gone;
+  std::vector<fs::path> others;
+  for (const fs::directory_entry& entry : fs::directory_iterator(run, gone)) {
+    const std::string name = entry.path().filename();
+    const bool lasts =
+        std::any_of(kLasting.begin(), kLasting.end(), [&](auto begin) { return name.starts_with(begin); });
+    if (!lasts) others.push_back(entry.path());
+  }
+  for (const fs::path& each : others) fs::remove_all(each, gone);
+}
+
+void remove_oldest_runs(const std::string& folder) {
+  const std::vector<std::string> runs = kept_runs(folder);
+  std::error_code gone;
+  for (std::size_t i = kKeptRuns; i < runs.size(); ++i) fs::remove_all(runs[i], gone);
+}
+
+}  // namespace liana::system

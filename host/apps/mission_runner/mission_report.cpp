@@ -1,0 +1,49 @@
+// Reports of missions, also of those that died.
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+
+#include "host/base/json/json.hpp"
+
+#include "host/apps/mission_runner/mission_run.hpp"
+
+namespace liana::script {
+
+namespace {
+
+double seconds_since(const Json& step, std::uint64_t tick, double period_s) {
+  const std::uint64_t start = step.value("start_tick", std::uint64_t{0});
+  return tick > start ? static_cast<double>(tick - start) * period_s : 0.0;
+}
+
+// The step lasted at least until the last state that was seen.
+void close_step(Json& step, std::uint64_t last_tick, double period_s, const std::string& reason) {
+  step["outcome"] = "failed";
+  step["reason"] = reason;
+  step["duration_s"] = seconds_since(step, last_tick, period_s);
+  step["end_tick"] = std::max(step.value("start_tick", std::uint64_t{0}), last_tick);
+}
+
+}  // namespace
+
+void write_report(const std::string& path, const std::string& report_json) {
+  std::ofstream out(path, std::ios::trunc);
+  out << report_json << "\n";
+  if (!out.flush())
+    throw std::runtime_error(path + ": cannot be written: allowed a writable place: choose another --report");
+}
+
+std::string failed_report(const Activity& activity, const std::string& mission, const std::string& reason) {
+  Json report = Json::parse_or_null(activity.report.data());
+  if (!report.is_object()) report = {{"mission", mission}, {"steps", Json::array()}, {"duration_s", 0}};
+  report["outcome"] = "failed";
+  report["reason"] = reason;
+  const std::uint64_t last_tick = activity.tick.load(std::memory_order_relaxed);
+  for (auto& step : report["steps"]) {
+    if (step.value("outcome", "") == "running") close_step(step, last_tick, activity.period_s, reason);
+  }
+  if (!report["steps"].empty()) report["duration_s"] = seconds_since(report["steps"][0], last_tick, activity.period_s);
+  return report.dump();
+}
+
+}  // namespace liana::script

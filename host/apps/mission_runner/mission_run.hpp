@@ -1,0 +1,36 @@
+// One mission against lianad: states in, commands out, until the mission is over.
+#pragma once
+
+#include <string>
+
+#include "host/apps/mission_runner/script.hpp"
+
+namespace liana::script {
+
+// What `liana-mission run` was asked to do.
+struct MissionOptions {
+  std::string api;      // socket of lianad
+  std::string mission;  // name or file
+  LuaFolders lua_folders;
+  std::string report_file;  // empty = none
+  bool lockstep = false;
+  bool progress = false;  // one line per step begin and end
+  bool json = false;      // progress and the report as JSON lines on standard output
+};
+
+// Exit codes of the mission runner.
+constexpr int kExitSuccess = 0;
+constexpr int kExitNotSuccess = 1;  // refused, aborted or failed, its process killed: see the report
+constexpr int kExitBadInput = 2;
+
+// Runs the mission and returns the exit code; the report is written whatever happens short of the death of this
+// process.
+int run_mission(const MissionOptions& options, Activity& activity);
+
+// Writes a report file: {"mission","outcome","reason","steps","duration_s",...}; throws std::runtime_error.
+void write_report(const std::string& path, const std::string& report_json);
+
+// The last report in `activity`, or a new one, ended as failed for `reason`.
+std::string failed_report(const Activity& activity, const std::string& mission, const std::string& reason);
+
+}  // namespace liana::script

@@ -1,0 +1,79 @@
+// Builds the page: build/page/console.html (one file, live) and build/page/view.html (template of a run's page).
+// Beside them, with --tests, the unit tests of tests/page as one program for node.
+import { build } from 'esbuild';
+import { mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { deflateRawSync } from 'node:zlib';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const root = join(here, '..', '..', '..');
+const out = join(root, 'build', 'page');
+const kMostBundle_kB = 700;
+
+// The rows of a table in docs/ that begin with a number, as arrays of cells.
+function table_rows(file) {
+  const lines = readFileSync(join(root, 'docs', file), 'utf8').split('\n');
+  const rows = lines.filter((line) => /^\| \d+ \|/.test(line)).map((line) => line.split('|').slice(1, -1).map((c) => c.trim()));
+  const width = Math.max(...rows.map((row) => row.length));
+  return rows.filter((row) => row.length === width); // the page's first table is its widest
+}
+
+// What faults and refusals mean and what to do: written by the code's own tables into docs/.
+function fault_tables() {
+  const faults = table_rows('reference/faults.md').map(([number, name, , , , retreat, text, remedy]) => ({
+    number: Number(number), name, retreat: retreat === 'yes', text, remedy,
+  }));
+  const refusals = table_rows('reference/refusals.md').map(([number, name, text, , action, remedy]) => ({
+    number: Number(number), name, text, action, remedy,
+  }));
+  if (faults.length < 20 || refusals.length < 20) {
+    throw new Error('docs/reference/faults.md or docs/reference/refusals.md has another form now');
+  }
+  return { faults, refusals };
+}
+
+const tables = {
+  name: 'tables',
+  setup(hook) {
+    hook.onResolve({ filter: /^liana:tables$/ }, () => ({ path: 'tables', namespace: 'liana' }));
+    hook.onLoad({ filter: /.*/, namespace: 'liana' }, () => ({ contents: JSON.stringify(fault_tables()), loader: 'json' }));
+  },
+};
+
+const common = { bundle: true, plugins: [tables], legalComments: 'none', absWorkingDir: here, logLevel: 'warning' };
+
+async function bundle(entry, options) {
+  const result = await build({ ...common, entryPoints: [entry], write: false, ...options });
+  return result.outputFiles[0].text;
+}
+
+// Inside an HTML file no script may contain its own end.
+const inlined = (script) => script.replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
+
+const kInflate = `(async()=>{try{const p=Uint8Array.from(atob(document.getElementById('liana-page').textContent),c=>c.charCodeAt(0));
+const s=document.createElement('script');s.textContent=await new Response(new Blob([p]).stream().pipeThrough(new DecompressionStream('deflate-raw'))).text();
+document.head.append(s)}catch(e){document.body.textContent='This page needs a browser of 2023 or newer (Chromium 103, Firefox 113, Safari 16.4): '+e}})()`;
+
+async function pages() {
+  const script = await bundle('src/main.ts', { minify: true, format: 'iife', target: 'es2021' });
+  const style = await bundle('src/page.css', { minify: true });
+  const shell = readFileSync(join(here, 'src', 'page.html'), 'utf8').replace('/* style */', () => style);
+  const packed = deflateRawSync(Buffer.from(script), { level: 9 }).toString('base64');
+  const fill = (text) => shell.replace('<!-- script -->', () => text);
+  mkdirSync(out, { recursive: true });
+  writeFileSync(join(out, 'console.html'), fill(`<script>${inlined(script)}</script>`).replace('<!-- liana-run -->\n', ''));
+  writeFileSync(join(out, 'view.html'), fill(`<script type="text/plain" id="liana-page">${packed}</script>\n<script>${kInflate}</script>`));
+  const kB = Math.ceil(script.length / 1000);
+  console.log(`build/page: script ${kB} kB, packed ${Math.ceil(packed.length / 1000)} kB`);
+  if (kB > kMostBundle_kB) throw new Error(`the script has ${kB} kB, at most ${kMostBundle_kB} are allowed`);
+}
+
+async function tests() {
+  const folder = join(root, 'tests', 'page');
+  const entries = readdirSync(folder).filter((file) => file.endsWith('_test.ts')).map((file) => join(folder, file));
+  await build({ ...common, entryPoints: entries, outdir: join(out, 'tests'), platform: 'node', format: 'esm', outExtension: { '.js': '.mjs' } });
+}
+
+if (process.argv.includes('--tests')) await tests();
+else await pages();

@@ -1,0 +1,114 @@
+#include "host/base/net/socket.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include "host/base/net/address.hpp"
+
+namespace liana::api {
+
+UniqueFd& UniqueFd::operator=(UniqueFd&& other) noexcept {
+  if (this != &other) {
+    if (fd_ >= 0) ::close(fd_);
+    fd_ = other.release();
+  }
+  return *this;
+}
+
+UniqueFd::~UniqueFd() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+int UniqueFd::release() { return std::exchange(fd_, -1); }
+
+SocketResult send_packet(int fd, std::string_view packet) {
+  for (;;) {
+    if (::send(fd, packet.data(), packet.size(), MSG_NOSIGNAL | MSG_DONTWAIT) >= 0) return SocketResult::kDone;
+    if (errno == EINTR) continue;
+    const bool full = errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS;
+    return full ? SocketResult::kWouldBlock : SocketResult::kClosed;
+  }
+}
+
+SocketResult receive_packet(int fd, std::string& packet, std::size_t most_bytes) {
+  for (;;) {
+    // The size first: a buffer for the largest packet would have to be made anew for each small one.
+    const ssize_t size = ::recv(fd, nullptr, 0, MSG_DONTWAIT | MSG_PEEK | MSG_TRUNC);
+    // A peer that left without reading everything is reported once as a reset; what it sent before is still there.
+    if (size < 0 && (errno == EINTR || errno == ECONNRESET)) continue;
+    packet.resize(size > 0 ? std::min(static_cast<std::size_t>(size), most_bytes + 1) : 0);
+    if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return SocketResult::kWouldBlock;
+    if (size <= 0) return SocketResult::kClosed;
+    const ssize_t n = ::recv(fd, packet.data(), packet.size(), MSG_DONTWAIT);
+    if (n < 0 && errno == EINTR) continue;
+    packet.resize(n > 0 ? static_cast<std::size_t>(n) : 0);
+    return n > 0 ? SocketResult::kDone : SocketResult::kClosed;
+  }
+}
+
+namespace {
+bool wait_for(int fd, short events, double timeout_s) {
+  pollfd p{fd, events, 0};
+  const int timeout_ms = timeout_s <= 0.0 ? 0 : static_cast<int>(timeout_s * 1e3) + 1;
+  return ::poll(&p, 1, timeout_ms) > 0;
+}
+}  // namespace
+
+bool wait_readable(int fd, double timeout_s) { return wait_for(fd, POLLIN, timeout_s); }
+bool wait_writable(int fd, double timeout_s) { return wait_for(fd, POLLOUT, timeout_s); }
+
+// An address holds 107 bytes; the descriptor of a file with a longer path has a short name of its own.
+UniqueFd try_to_connect(const std::string& path) {
+  UniqueFd place;
+  std::string name = path;
+  if (path.empty() || path.size() >= sizeof(sockaddr_un::sun_path)) {
+    place = UniqueFd(::open(path.c_str(), O_PATH | O_CLOEXEC));
+    if (place.get() < 0) return {};
+    name = "/proc/self/fd/" + std::to_string(place.get());
+  }
+  const sockaddr_un address = unix_address(name);
+  UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (fd.get() < 0 || ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return fd;
+  const int why = errno;
+  fd = UniqueFd();
+  errno = why;
+  return fd;
+}
+
+bool is_listening(const std::string& path) { return try_to_connect(path).get() >= 0 || errno == EAGAIN; }
+
+UniqueFd listen_at(const std::string& option, const std::string& path, std::optional<gid_t> group) {
+  const auto fail = [&](const std::string& why) { throw std::runtime_error(option + " " + path + ": " + why); };
+  if (is_listening(path)) fail("another program listens there; end it or give another path");
+  std::error_code unreadable;
+  const auto kind = std::filesystem::status(path, unreadable).type();
+  if (kind != std::filesystem::file_type::not_found && kind != std::filesystem::file_type::socket) {
+    fail("a file that is no socket is there; give another path");
+  }
+  // The path appears only when it can be connected to: those who wait for it start at once.
+  const std::string before = path + "~";
+  const sockaddr_un address = unix_address(before);
+  ::unlink(before.c_str());
+  UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (fd.get() < 0 || ::bind(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
+      ::chmod(before.c_str(), group ? 0660 : 0600) != 0 ||
+      (group && ::chown(before.c_str(), static_cast<uid_t>(-1), *group) != 0) || ::listen(fd.get(), 64) != 0 ||
+      ::rename(before.c_str(), path.c_str()) != 0) {
+    fail(std::string("cannot listen: ") + std::strerror(errno) + "; give a path in a folder you may write");
+  }
+  return fd;
+}
+
+}  // namespace liana::api

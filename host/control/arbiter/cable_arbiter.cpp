@@ -1,0 +1,262 @@
+#include "host/control/arbiter/cable_arbiter.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "host/api/server/request_error.hpp"
+
+namespace liana::arbiter {
+
+namespace {
+
+// Of the tip's speed limit that a hand may ask for: an arm that friction held swings on faster than it is led.
+constexpr double kHandSpeed = 0.9;
+
+}  // namespace
+
+CableArbiter::CableArbiter(const cable::RobotTable& table, const SpeedZone& zone, SearchResult taken,
+                           PathCheck<cable::CableArm> check, const fixture::Guidance& guidance)
+    : table_(table),
+      asked_speed_m_s_(table.limits.tip_speed_m_s),
+      robot_speed_m_s_(table.limits.tip_speed_m_s),
+      cap_m_s_(table.limits.tip_speed_m_s),
+      zone_(zone),
+      interval_s_(interval_s(table)),
+      moves_(table, zone, taken, std::move(check)),
+      lead_(table, taken),
+      guidance_(guidance) {}
+
+void CableArbiter::require_free(const cable::Outputs& now) const {
+  moves_.require_ready(now);
+  if (is_searching())
+    throw api::RequestError("busy",
+                            "the shape that a search has found is gone to: wait until it has settled or send hold");
+  moves_.require_free(now);
+  if (dither_.is_under_way())
+    throw api::RequestError("busy", "tensions are dithered: wait until it is over or send hold");
+  if (device_.engaged()) throw api::RequestError("busy", "the operator steers: wait for the deadman to open");
+}
+
+void CableArbiter::move_joints(const cable::Outputs& now, const cable::ThetaVector& goal_rad, double rate_rad_s,
+                               const motion::Swings& swings) {
+  require_free(now);
+  moves_.move_joints(now, goal_rad, rate_rad_s, swings);
+}
+
+void CableArbiter::move_line(const cable::Outputs& now, const Pose& goal, const motion::Swings& swings) {
+  require_free(now);
+  moves_.move_line(now, goal, swings);
+}
+
+void CableArbiter::move_path(const cable::Outputs& now, const PathRequest<cable::CableArm>& request) {
+  require_free(now);
+  moves_.move_path(now, request);
+}
+
+void CableArbiter::servo_tip(const cable::Outputs& now, const Pose& goal) {
+  require_free(now);
+  moves_.servo_tip(now, goal);
+}
+
+void CableArbiter::servo_target(const cable::Outputs& now, const servo::ServoRequest& request) {
+  require_free(now);
+  moves_.servo_target(now, request);
+}
+
+// The tip stays where it is, unless somebody moves it.
+void CableArbiter::ask_anew(const cable::Outputs& now) {
+  moves_.ask_anew();
+  lead_.ask_anew();
+  if (!device_.engaged()) moves_.stay_if_idle(now);
+}
+
+void CableArbiter::hold_theta(const cable::Outputs& now, std::uint32_t mask, const cable::ThetaVector& held_rad) {
+  moves_.require_ready(now);
+  moves_.wishes().held_mask = mask;
+  moves_.wishes().held_rad = held_rad;
+  ask_anew(now);
+}
+
+void CableArbiter::shape(const cable::Outputs& now, const cable::NodeTargets& nodes,
+                         const cable::KeepClearTargets& clear, bool search) {
+  moves_.require_ready(now);
+  if (search && is_busy())
+    throw api::RequestError("busy",
+                            "search needs an arm at rest, a planned move is under way: wait for it or send hold");
+  if (search && now.at_rest == 0)
+    throw api::RequestError("busy", "search looks for a shape of the arm at rest: wait for it or send hold");
+  lead_.forget();
+  const CableWishes& held = moves_.wishes();
+  if (search) lead_.look_for({now.tip_command, now.theta_command_rad, held.held_mask, held.held_rad, nodes, clear});
+  nodes_ = nodes;
+  moves_.wishes().clear = clear;
+  ask_anew(now);
+}
+
+bool CableArbiter::is_vr_in_slit(const cable::Outputs& now, const DeviceUse& use) const {
+  return use.kind == device::Kind::kHandles && !use.anywhere && zone_.holds(now.tip_command.position_m);
+}
+
+// A hand that leads the tip would find it going another way under it.
+void CableArbiter::require_open_clutch(const DeviceUse& use) const {
+  const DeviceUse& in_use = device_.in_use();
+  if (!device_.engaged() || use.kind != in_use.kind || use.mapping == in_use.mapping) return;
+  throw api::RequestError("busy",
+                          "the operator steers: scale, rotation_scale and frame of the device in use change while the "
+                          "deadman is open: wait for that, or say device = none first");
+}
+
+void CableArbiter::use_device(const cable::Outputs& now, const DeviceUse& use) {
+  if (is_vr_in_slit(now, use))
+    throw api::RequestError(
+        "refused", "device = " + use.name + ": the tip is inside the slit: use hand there, or say anywhere = true");
+  if (is_busy()) throw api::RequestError("busy", "a planned move is under way: wait for it or send hold");
+  require_open_clutch(use);
+  take_device_away();
+  device_.use(use);
+  asked_speed_m_s_ = use.speed_m_s > 0.0 ? use.speed_m_s : robot_speed_m_s_;
+  cap_tip_speed(cap_m_s_);
+}
+
+void CableArbiter::dither(const cable::Outputs& now, double share, double duration_s) {
+  require_free(now);
+  if (now.at_rest == 0) throw api::RequestError("busy", "dither needs an arm at rest: wait for it or send hold");
+  const cable::TensionLimits& limits = table_.tension;
+  // What is measured, and may be less where something pushes, has to stay taut; what is planned keeps its limits.
+  const double taut_N = cable::kSlackCheckShare * limits.floor_motor_N;
+  double fits = share;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(table_.cable_count()); ++c) {
+    const double planned_N = now.tension_plan_N[c];
+    fits = std::min({fits, 1.0 - limits.floor_motor_N / planned_N, limits.ceiling_free_N / planned_N - 1.0,
+                     (now.tension_measured_N[c] - taut_N) / planned_N});
+  }
+  if (fits < share) {
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "share = %.3g: tensions stay between %.0f and %.0f N, and cables taut, up to %.3g here: ask for less",
+                  share, limits.floor_motor_N, limits.ceiling_free_N, std::max(0.0, fits));
+    throw api::RequestError("refused", text);
+  }
+  dither_ = DitherOrder(share, duration_s);
+  dithered_at_rad_ = now.theta_command_rad;
+}
+
+void CableArbiter::cap_tip_speed(double speed_m_s) {
+  cap_m_s_ = speed_m_s;
+  ask_speed();
+}
+
+void CableArbiter::ask_speed() {
+  const double most_m_s = kHandSpeed * robot_speed_m_s_;
+  moves_.limit_tip_speed(ease_.share * std::min({asked_speed_m_s_, cap_m_s_, most_m_s}));
+}
+
+void CableArbiter::lead_nobody() {
+  guidance_.stop();
+  refusal_wait_.forget();
+  ease_ = {};
+  ask_speed();
+}
+
+void CableArbiter::take_device_away() {
+  device_.use(DeviceUse{});
+  device_node_ = {};
+  was_engaged_ = false;
+}
+
+// The way out takes over from whatever is under way. An operator who could grip again would steer back in as soon as it
+// ends.
+void CableArbiter::retract(const cable::Outputs& now, std::uint64_t until_tick) {
+  moves_.retract(now, until_tick);
+  dither_ = {};
+  nodes_ = {};
+  lead_.forget();
+  take_device_away();
+}
+
+void CableArbiter::hold() {
+  moves_.hold();
+  dither_ = {};
+  lead_.forget();
+  device_.let_go();
+}
+
+bool CableArbiter::refused(const std::string& why, bool may_swing_less) {
+  const bool goes_on = moves_.refused(why, may_swing_less && !was_engaged_);
+  dither_ = {};
+  if (was_engaged_) refusal_wait_.refuse(led_from_, led_to_);
+  return goes_on || was_engaged_;
+}
+
+std::optional<cable::Setpoint> CableArbiter::next_setpoint(std::uint64_t tick, const cable::Outputs& now) {
+  std::optional<SteerGoal> steer = device_.finish_interval(now, interval_s_);
+  if (steer && is_vr_in_slit(now, device_.in_use())) {
+    device_.leave_slit();
+    steer.reset();
+  }
+  if (!steer || is_busy()) lead_nobody();
+  if (!moves_.begin_interval(tick, now)) {
+    hold();
+    nodes_ = {};
+    return std::nullopt;
+  }
+  if (is_busy()) {
+    device_.drop_anchor();  // a hand that closes the deadman now starts from where the move ends
+    if (dither_.is_under_way()) return dithering_setpoint();
+    wish_nodes();
+    return moves_.ask(now);
+  }
+  const ShapeLead::Found found = lead_.look();
+  if (found == ShapeLead::Found::kNow) moves_.ask_anew();
+  if (steer) return steered_setpoint(now, *steer);
+  if (was_engaged_) moves_.hold();  // the operator let go: stop along the path
+  was_engaged_ = false;
+  ask_speed();
+  if (found == ShapeLead::Found::kNotYet) return std::nullopt;
+  if (lead_.ends(now)) moves_.ask_anew();
+  wish_nodes();
+  return moves_.ask(now);
+}
+
+cable::Setpoint CableArbiter::dithering_setpoint() {
+  cable::Setpoint setpoint;
+  setpoint.kind = CommandKind::kJoint;
+  setpoint.joint_rad = dithered_at_rad_;
+  setpoint.tip_speed_m_s = robot_speed_m_s_;
+  setpoint.dither_share = dither_.next(interval_s_);
+  return setpoint;
+}
+
+std::optional<cable::Setpoint> CableArbiter::steered_setpoint(const cable::Outputs& now, const SteerGoal& goal) {
+  was_engaged_ = true;
+  lead_.ask_anew();
+  device_node_ = goal.node;
+  wish_nodes();
+  const std::uint32_t held = moves_.wishes().held_mask;
+  const Pose led = guidance_.guide(goal.tip_in_base, {now.tip_command, now.theta_command_rad, held}, interval_s_);
+  if (refusal_wait_.holds(now.tip_command, led, interval_s_)) {
+    ease_ = {0.0, fixture::EaseCause::kRefused};
+    return std::nullopt;
+  }
+  led_from_ = now.tip_command;
+  led_to_ = led;
+  ease_ = fixture::ease(table_, now.theta_command_rad, held, led);
+  if (refusal_wait_.speed_share() < ease_.share) ease_ = {refusal_wait_.speed_share(), fixture::EaseCause::kRefused};
+  ask_speed();
+  return moves_.steer(now, led);
+}
+
+// The operator's node takes the place of its own target, or one that is free.
+void CableArbiter::wish_nodes() {
+  cable::NodeTargets& wished = moves_.wishes().nodes;
+  wished = is_searching() ? lead_.nodes() : nodes_;
+  if (device_node_.node == 0) return;
+  for (cable::NodeTarget& slot : wished) {
+    if (slot.node != 0 && slot.node != device_node_.node) continue;
+    slot = device_node_;
+    break;
+  }
+}
+
+}  // namespace liana::arbiter

@@ -1,0 +1,88 @@
+#include "host/control/arbiter/joint_move.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "host/control/arbiter/cable_kind.hpp"
+#include "host/control/arbiter/serial_kind.hpp"
+
+namespace liana::arbiter {
+
+namespace {
+
+// The tip's way on the joint line.
+struct TipWay {
+  double travel_m = 0.0;
+  double turn_rad = 0.0;
+};
+
+// Greatest travel and turn of the tip per unit of s, sampled densely enough for the smooth curve it is.
+template <class Arm>
+TipWay steepest_tip_way(const typename Arm::Table& table, const Joints<Arm>& from, const Joints<Arm>& to) {
+  constexpr int kSteps = 100;
+  TipWay steepest;
+  Pose last = ArmKind<Arm>::tip_at(table, from);
+  for (int i = 1; i <= kSteps; ++i) {
+    const Pose tip = ArmKind<Arm>::tip_at(table, between(from, to, static_cast<double>(i) / kSteps));
+    const Vec3 turn = rotation_vector(multiply(tip.quaternion, conjugate(last.quaternion)));
+    steepest.travel_m = std::max(steepest.travel_m, norm(subtract(tip.position_m, last.position_m)) * kSteps);
+    steepest.turn_rad = std::max(steepest.turn_rad, norm(turn) * kSteps);
+    last = tip;
+  }
+  return steepest;
+}
+
+}  // namespace
+
+template <class Arm>
+JointMove<Arm>::JointMove(const Table& table, const Joints<Arm>& from_rad, const Joints<Arm>& to_rad, double rate_rad_s,
+                          const motion::Swings& swings)
+    : table_(table), rate_rad_s_(rate_rad_s), swings_(swings), to_rad_(to_rad), interval_s_(interval_s(table)) {
+  plan(from_rad);
+}
+
+template <class Arm>
+void JointMove<Arm>::plan(const Joints<Arm>& from_rad) {
+  using Kind = ArmKind<Arm>;
+  const double share = again_.speed_share();
+  from_rad_ = from_rad;
+  time_s_ = 0.0;
+  motion::MoveNeeds needs;
+  for (std::size_t i = 0; i < Kind::joint_count(table_); ++i) {
+    const double way_rad = std::fabs(to_rad_[i] - from_rad[i]);
+    needs.speed_s = std::max(
+        needs.speed_s, way_rad / (motion::kMoveShare * std::min(share * rate_rad_s_, Kind::rate_rad_s(table_, i))));
+    needs.accel_s2 = std::max(needs.accel_s2, way_rad / Kind::move_accel_rad_s2(table_, i));
+  }
+  const TipWay tip = steepest_tip_way<Arm>(table_, from_rad, to_rad_);
+  TipBounds bounds = Kind::tip_bounds(table_);
+  bounds.linear.speed *= share;
+  bounds.angular.speed *= share;
+  needs.add(tip.travel_m, motion::share_of(bounds.linear));
+  needs.add(tip.turn_rad, motion::share_of(bounds.angular));
+  law_ = motion::TimeLaw(needs, swings_);
+}
+
+template <class Arm>
+Joints<Arm> JointMove<Arm>::at(double time_s) const {
+  return time_s >= law_.duration_s() ? to_rad_ : between(from_rad_, to_rad_, law_.share_at(time_s));
+}
+
+template <class Arm>
+Goal<Arm> JointMove<Arm>::next(const liana::Outputs<Arm>& now) {
+  if (again_.waits(now.at_rest != 0)) return {};
+  if (!has_begun_ && now.at_rest == 0) return {};
+  const Joints<Arm>& stands_rad = ArmKind<Arm>::command_rad(now);
+  if (!std::exchange(has_begun_, true) && (again_.begins_again() || stands_rad != from_rad_)) plan(stands_rad);
+  time_s_ += interval_s_;
+  is_over_ = time_s_ >= law_.duration_s() && now.at_rest != 0;
+  return at(time_s_);
+}
+
+template class JointMove<cable::CableArm>;
+template class JointMove<serial::SerialArm>;
+static_assert(WayOfMoving<JointMove<cable::CableArm>, cable::CableArm>);
+static_assert(WayOfMoving<JointMove<serial::SerialArm>, serial::SerialArm>);
+
+}  // namespace liana::arbiter

@@ -1,0 +1,48 @@
+// A way of moving: all joints together from where they stand to a goal, on one time law. It begins from rest: an arm
+// that moves stops first. What was refused goes on from rest, more slowly.
+#pragma once
+
+#include "host/control/arbiter/another_try.hpp"
+#include "host/control/arbiter/arm_kind.hpp"
+#include "host/control/timing/time_law.hpp"
+
+namespace liana::arbiter {
+
+template <class Arm>
+class JointMove {
+ public:
+  static constexpr bool kIsPlanned = true;
+  using Table = typename Arm::Table;
+
+  // Duration such that no joint passes `rate_rad_s`, its own rate and its acceleration for moves, and the tip not its
+  // speed limit. `table` has to outlive this. Cost: 100 forward kinematics.
+  JointMove(const Table& table, const Joints<Arm>& from_rad, const Joints<Arm>& to_rad, double rate_rad_s,
+            const motion::Swings& swings = {});
+
+  double duration_s() const { return law_.duration_s(); }
+  // Joints at a time since the start.
+  Joints<Arm> at(double time_s) const;
+
+  Goal<Arm> next(const liana::Outputs<Arm>& now);
+  // The time is up and the arm, which follows, is at rest.
+  bool is_over() const { return is_over_; }
+  bool refused() {
+    has_begun_ = false;
+    return again_.refused();
+  }
+
+ private:
+  void plan(const Joints<Arm>& from_rad);
+
+  const Table& table_;
+  double rate_rad_s_;
+  motion::Swings swings_;
+  Joints<Arm> from_rad_, to_rad_;
+  double interval_s_;
+  motion::TimeLaw law_;
+  double time_s_ = 0.0;
+  bool is_over_ = false, has_begun_ = false;
+  AnotherTry again_;
+};
+
+}  // namespace liana::arbiter

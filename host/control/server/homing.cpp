@@ -1,0 +1,97 @@
+#include "host/control/server/homing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "host/drives/calibration/fixture.hpp"
+
+namespace liana::daemon {
+namespace {
+
+using Index = std::size_t;
+
+// The cables of a segment and the part of their lengths that no angles of it explain.
+struct Contradiction {
+  Index segment = 0;
+  Index first = 0, cables = 0;
+  double largest_m = 0.0;
+};
+
+std::vector<Contradiction> contradictions(const cable::RobotTable& table, const cable::EstimatorState& estimator) {
+  std::vector<Contradiction> out;
+  Index first = 0;
+  for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
+    Contradiction of{m, first, static_cast<Index>(table.segment[m].cables)};
+    for (Index c = first; c < first + of.cables; ++c)
+      of.largest_m = std::fmax(of.largest_m, std::fabs(estimator.residual_m[c]));
+    first += of.cables;
+    if (!(of.largest_m < cable::kHomingResidual_m)) out.push_back(of);
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Contradiction& a, const Contradiction& b) { return a.largest_m > b.largest_m; });
+  return out;
+}
+
+std::string text_of(const Contradiction& found) {
+  char text[100];
+  std::snprintf(text, sizeof text, "%zu to %zu (segment %zu) contradict each other by %.1f mm", found.first,
+                found.first + found.cables - 1, found.segment + 1, 1e3 * found.largest_m);
+  return text;
+}
+
+std::string why_lengths_do_not_fit(const cable::RobotTable& table, const cable::EstimatorState& estimator) {
+  std::string out;
+  for (const Contradiction& found : contradictions(table, estimator))
+    out += (out.empty() ? "cables " : ", cables ") + text_of(found);
+  if (out.empty())
+    return "the angles that the cables' lengths say have not settled: wait, or look for a drum that turns";
+  char allowed[40];
+  std::snprintf(allowed, sizeof allowed, "; allowed %.1f mm: ", 1e3 * cable::kHomingResidual_m);
+  return out + allowed + "look for cables on each other's drums, slack ones and wrong zeros, then run liana calibrate";
+}
+
+}  // namespace
+
+double paid_out_m(const cable::DriveTable& drive, const DriveFeedback& feedback) {
+  return drive.direction * (static_cast<double>(feedback.position_counts) - drive.zero_counts) * drive.metres_per_count;
+}
+
+double reported_tension_N(const cable::DriveTable& drive, const DriveFeedback& feedback) {
+  return feedback.torque_permille * drive.newtons_per_permille;
+}
+
+cable::CableVector paid_out_m(const cable::RobotTable& table, const cable::Inputs& inputs) {
+  cable::CableVector out{};
+  for (Index i = 0; i < static_cast<Index>(table.cable_count()); ++i)
+    out[i] = paid_out_m(table.drive[i], inputs.drive[i]);
+  return out;
+}
+
+cable::CableVector reported_tension_N(const cable::RobotTable& table, const cable::Inputs& inputs) {
+  cable::CableVector out{};
+  for (Index i = 0; i < static_cast<Index>(table.cable_count()); ++i)
+    out[i] = reported_tension_N(table.drive[i], inputs.drive[i]);
+  return out;
+}
+
+Homing::Homing(const config::RobotConfig& robot, const std::string& in_pose) : robot_(robot), in_pose_(in_pose) {
+  if (!in_pose.empty()) calibration::check_tells_apart(robot, in_pose);
+}
+
+void Homing::look(const control::ArmReport<cable::CableArm>& report, const cable::EstimatorState& estimator) {
+  const cable::RobotTable& table = robot_.table;
+  for (Index i = 0; i < static_cast<Index>(table.cable_count()); ++i) {
+    if (report.inputs.drive[i].feedback_age_ticks == 0xFFFF) return;
+  }
+  why_not_.clear();
+  if (!in_pose_.empty()) {
+    why_not_ = calibration::contradiction(robot_, in_pose_, paid_out_m(table, report.inputs),
+                                          reported_tension_N(table, report.inputs));
+    if (why_not_.empty() && report.outputs.homed != 0) in_pose_.clear();
+  }
+  if (why_not_.empty() && report.outputs.homed == 0) why_not_ = why_lengths_do_not_fit(table, estimator);
+}
+
+}  // namespace liana::daemon

@@ -1,0 +1,42 @@
+// Whether the arm is where its drives say, and why not: homing is the comparison of stored zeros with the lengths
+// found.
+#pragma once
+
+#include <string>
+
+#include "firmware_like/cable_controller.hpp"
+#include "host/control/realtime/link.hpp"
+#include "host/model/config/config.hpp"
+
+namespace liana::daemon {
+
+// Cable that a drive reports as paid out beyond its zero [m], and tension that it reports [N].
+double paid_out_m(const cable::DriveTable& drive, const DriveFeedback& feedback);
+double reported_tension_N(const cable::DriveTable& drive, const DriveFeedback& feedback);
+
+// Cable that every drive reports as paid out beyond its zero [m].
+cable::CableVector paid_out_m(const cable::RobotTable& table, const cable::Inputs& inputs);
+
+// Tension that every drive reports [N].
+cable::CableVector reported_tension_N(const cable::RobotTable& table, const cable::Inputs& inputs);
+
+class Homing {
+ public:
+  // `in_pose`: the named pose in which the arm lies in its fixture at the start; empty: nobody knows. Throws
+  // std::runtime_error when there is no such pose, or when it does not tell every two cables apart.
+  Homing(const config::RobotConfig& robot, const std::string& in_pose);
+
+  // Once per interval after booting. The pose is compared until it fits once: then the arm may leave it.
+  void look(const control::ArmReport<cable::CableArm>& report, const cable::EstimatorState& estimator);
+
+  bool is_homed() const { return why_not_.empty(); }
+  // What contradicts what and what to do; empty while homed.
+  const std::string& why_not() const { return why_not_; }
+
+ private:
+  const config::RobotConfig& robot_;
+  std::string in_pose_;  // still to be found
+  std::string why_not_ = "the drives have not been heard yet";
+};
+
+}  // namespace liana::daemon

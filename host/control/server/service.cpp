@@ -1,0 +1,333 @@
+#include "host/control/server/service.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <string_view>
+
+#include "host/api/server/request_error.hpp"
+#include "host/api/server/request_text.hpp"
+#include "host/api/server/welcome_size.hpp"
+#include "host/base/event/event_json.hpp"
+#include "host/control/verification/refusal_table.hpp"
+#include "host/storage/recording/tick_packet.hpp"
+
+namespace liana::daemon {
+
+namespace {
+
+constexpr double kLockstepPatience_s = 10.0;  // a client that stays silent longer is dead
+constexpr double kAfterMission_s = 1.0;       // of arm time at rest
+constexpr double kAfterFault_s = 5.0;         // the same where something failed: elastic cables let the arm swing
+constexpr double kMostAfterMission_s = 60.0;  // of arm time, at rest or not
+constexpr double kHoming_s = 0.5;             // of arm time after booting: homing takes 0.1 s
+constexpr double kShutdownLimit_s = 10.0;     // of arm time, until the drives are off
+
+}  // namespace
+
+Service::Service(const ServiceConfig& config, Desk& desk)
+    : config_(config),
+      desk_(desk),
+      bounds_(api::request_bounds(Json::parse(config.robot_json))),
+      stream_(bounds_),
+      log_(
+          [this](const event::Event& event) {
+            server_.publish_event(event::event_json(event).dump(-1, Json::BadUtf8::kReplace));
+            if (file_) file_->append(event);
+          },
+          config_.buses.tick_s()),
+      server_(config.api_path, *this, config.api_group) {
+  api::require_fit_in_welcome(config.robot_json, config.scene_json, config.buses.canonical_json);
+  if (!config.events_file.empty()) file_.emplace(config.events_file, config_.buses.tick_s());
+  if (!config.commands_file.empty()) dispatch_.emplace(config.commands_file);
+  if (!config.verify_times_file.empty())
+    verify_times_.emplace(config.verify_times_file, "--verify-times", "# us from setpoint to release, of each command");
+  if (config.way_file.empty()) return;
+  way_file_.emplace(config.way_file, Json::parse(config.robot_json).at("name").text(), desk.joint_count());
+  desk.restore_way(way_file_->kept());
+}
+
+// In real time finer than ticks: both ways of a device's packets are measured with it.
+std::int64_t Service::arm_time_us() {
+  const std::int64_t tick_us = std::llround(time_s() * 1e6);
+  if (config_.time_mode != timing::TimeMode::kReal) return tick_us;
+  using std::chrono::microseconds;
+  const auto since = std::chrono::steady_clock::now().time_since_epoch();
+  const std::int64_t clock_us = std::chrono::duration_cast<microseconds>(since).count();
+  if (!clock_ahead_us_) clock_ahead_us_ = clock_us - tick_us;
+  return clock_us - *clock_ahead_us_;
+}
+
+std::uint64_t Service::ticks_in(double time_s) const {
+  return static_cast<std::uint64_t>(std::lround(time_s / config_.buses.tick_s()));
+}
+
+void Service::wait_for(const std::vector<api::Role>& roles, double timeout_s) {
+  using Clock = std::chrono::steady_clock;
+  const auto deadline = Clock::now() + std::chrono::duration<double>(timeout_s);
+  for (const api::Role role : roles) {
+    while (!server_.has_role(role)) {
+      server_.pump(0.05);
+      if (Clock::now() > deadline) {
+        throw std::runtime_error("--expect: a client with role '" + std::string(api::role_name(role)) +
+                                 "' did not come within the time");
+      }
+    }
+  }
+}
+
+void Service::cycle() {
+  desk_.refresh();
+  log_.begin_interval(tick());
+  watch_events_file();
+  watch_arm();
+  desk_.watch(boot_seen_ == control::BootPhase::kDone);
+  watch_homing();
+  forward_ticks();
+  idle(0.0);  // what came from clients outside lockstep
+  forward_camera();
+  watch_tool();
+  desk_.tell_devices(arm_time_us());  // first: who has the state has had what its device was told
+  publish_state();
+  if (config_.time_mode != timing::TimeMode::kReal) server_.wait_done(tick(), kLockstepPatience_s);
+  desk_.hear_devices(arm_time_us());
+  server_.dispatch();
+  desk_.take_samples();
+  watch_stream();
+  release_next();
+}
+
+void Service::idle(double timeout_s) {
+  server_.pump(timeout_s, desk_.devices_fd());
+  desk_.hear_devices(arm_time_us());  // before requests, which may name a device that has just come
+  server_.dispatch();
+}
+
+void Service::publish_state() {
+  if (!server_.has_subscriber(api::Topic::kState)) return;
+  if (config_.time_mode == timing::TimeMode::kReal)
+    notes_.tick_us = tick_watch_.longest_us(desk_.link().timing.tick_us.counts()).value_or(0);
+  const Json state = state_message(config_.buses, desk_, owner_, notes_, log_.shown());
+  const char* name = state_name(desk_);
+  server_.publish(api::Topic::kState, state.dump(),
+                  name != published_);  // a slow reader may lose states, but no change of state
+  published_ = name;
+}
+
+// A clear says what it looked at, and what kept it from clearing.
+void Service::note_clear() {
+  const ClearReport& clear = desk_.supervisor().clear;
+  if (clear.tick == clear_seen_tick_) return;
+  clear_seen_tick_ = clear.tick;
+  note(clear_event(clear));
+}
+
+// An arm that is not homed some time after booting says why, once; the refusal to enable it says how it stands.
+void Service::watch_homing() {
+  if (boot_seen_ == control::BootPhase::kDone && !homed_told_ && desk_.why_not_homed().empty()) {
+    homed_told_ = true;
+    note(homed_event());
+  }
+  if (!homing_due_tick_ || tick() < *homing_due_tick_) return;
+  homing_due_tick_.reset();
+  if (!desk_.why_not_homed().empty()) note(not_homed_event(desk_.why_not_homed()));
+}
+
+// An owner that streams tip goals with a time to live and stands still: nobody stands behind its last goal any more.
+void Service::watch_stream() {
+  const double next_s = time_s() + config_.buses.interval_ticks() * config_.buses.tick_s();
+  const std::optional<double> ttl_s = stream_.overdue(next_s, desk_.tip_command());
+  if (!ttl_s || now().state != OperatingState::kEnabled) return;
+  desk_.hold();
+  note(stands_still_event(owner_.name(), *ttl_s));
+}
+
+// The run goes on until the arm has been at rest for a while: what a failure leads to belongs to it.
+bool Service::is_over_after_mission() {
+  const bool off = now().state == OperatingState::kDisabled || now().state == OperatingState::kFault;
+  if (!off && now().at_rest == 0) moved_tick_ = tick();
+  const auto since_s = [this](std::uint64_t then) {
+    return static_cast<double>(tick() - then) * config_.buses.tick_s();
+  };
+  const double rested_s = since_s(std::max(*mission_end_tick_, moved_tick_));
+  const double enough_s = now().faults.count == 0 ? kAfterMission_s : kAfterFault_s;
+  return rested_s > enough_s || since_s(*mission_end_tick_) > kMostAfterMission_s;
+}
+
+// What changes by itself: the end of booting, the end of the run after the mission.
+void Service::watch_arm() {
+  note_clear();
+  if (dispatch_) dispatch_->note_active(tick(), now().active_sequence);
+  note(trouble_.changes(config_.buses, desk_.report()));
+  note(faults_.changes(now().faults));
+  note(desk_.take_events());
+  if (mission_end_tick_) {
+    if (is_over_after_mission()) begin_shutdown("the mission has ended");
+  } else if (dismissed_) {
+    begin_shutdown("asked for");
+  }
+  const control::BootPhase boot = desk_.report().boot;
+  if (boot == boot_seen_) return;
+  if (boot == control::BootPhase::kBooting) note(boot_goes_on_event());
+  boot_seen_ = boot;
+  notes_.boot_problems.clear();
+  if (boot == control::BootPhase::kDone) {
+    note(booted_event());
+    image_sent_ = false;  // one from the time before, after a boot that had failed, is of another tick
+    notes_.serials = config_.serials();
+    homing_due_tick_ = tick() + ticks_in(kHoming_s);
+  }
+  if (boot != control::BootPhase::kFailed) return;
+  notes_.boot_problems = config_.boot_problems();
+  note(boot_failed_events(notes_.boot_problems));
+}
+
+// What a drive reports beside its statusword; whether it is a fault, its statusword says.
+void Service::note_emergencies(const CycleInputs& inputs) {
+  for (std::size_t i = 0; i < inputs.drive.size(); ++i) {
+    const std::uint16_t code = inputs.drive[i].emergency_code;
+    if (code == 0) continue;
+    note(emergency_event(i, code));
+  }
+}
+
+// Tick records and controller images for the archive. The image before the first tick makes a recording complete.
+void Service::forward_ticks() {
+  const bool wanted = server_.has_subscriber(api::Topic::kTick);
+  desk_.take_ticks(server_.dropped_ticks(), [&](const CycleInputs& inputs, const std::function<std::string()>& packet) {
+    note_emergencies(inputs);
+    if (wanted) server_.publish(api::Topic::kTick, packet());
+  });
+  if (boot_seen_ == control::BootPhase::kBooting || !wanted) return;
+  if (image_sent_ && desk_.image_tick() % record::kImageEveryTicks != 0) return;
+  server_.publish(api::Topic::kTick, desk_.image_packet());
+  image_sent_ = true;
+}
+
+// In lockstep time a frame waits until every run has certainly received it, so that runs repeat.
+void Service::forward_camera() {
+  while (!camera_.empty() && camera_.front().due_tick <= tick()) {
+    server_.publish(api::Topic::kCamera, camera_.front().packet);
+    desk_.take_picture(camera_.front().picture);
+    camera_.pop_front();
+  }
+}
+
+void Service::watch_tool() {
+  if (auto ended = notes_.tool.pass(tick())) note(std::move(*ended));
+}
+
+// What was said at `said_s` of arm time, in the slot that begins then, is certainly here two slots later; one more for
+// rounding. In real time it counts at once.
+std::uint64_t Service::certainly_heard_tick(double said_s) const {
+  if (config_.time_mode == timing::TimeMode::kReal) return 0;
+  return static_cast<std::uint64_t>(std::ceil(said_s / config_.buses.tick_s() - 1e-6)) + 3;
+}
+
+std::optional<LastVerdict> Service::timed_release() {
+  const auto began = std::chrono::steady_clock::now();
+  std::optional<LastVerdict> verdict = desk_.release_next(owner_.client() != 0, owner_.role_number());
+  const std::chrono::duration<double, std::micro> took_us = std::chrono::steady_clock::now() - began;
+  if (verdict && verify_times_) verify_times_->append(std::to_string(std::lround(took_us.count())));
+  return verdict;
+}
+
+void Service::release_next() {
+  const std::optional<LastVerdict> verdict = timed_release();
+  tell_of_paths();
+  keep_way();
+  if (!verdict) return;
+  if (dispatch_) dispatch_->note(tick(), owner_.name(), *verdict);
+  notes_.verdict = *verdict;
+  notes_.verdict_us = arm_time_us();
+  if (verdict->released) return;
+  ++notes_.refusals;
+  if (!verdict->goes_on) ++notes_.refused_motions;
+  note(verdict_event(verdict->sequence, verdict->worst));
+  const verify::RefusalRow& row = verify::row_of(verdict->worst.code);
+  const bool stops = row.action == verify::RefusalAction::kStop && !verdict->leads_back;  // the way out tries again
+  if (stops) order_stop({"lianad", std::string("refused: ") + row.says, tick()});
+}
+
+// A path that does not begin is a refusal as that of a command is: who asked for it looks there.
+void Service::tell_of_paths() {
+  for (const arbiter::PathNews& news : desk_.take_path_news()) {
+    note(path_event(news));
+    if (news.what != event::PathEvent::kRefused) continue;
+    ++notes_.refusals;
+    ++notes_.refused_motions;
+    notes_.verdict.released = false;
+    notes_.verdict.worst.code = verify::Refusal::kPath;
+    notes_.verdict.worst.text = news.text;
+  }
+}
+
+void Service::keep_way() {
+  for (const arbiter::WayNews& news : desk_.take_way_news()) note(way_event(news));
+  if (!way_file_) return;
+  if (const auto change = desk_.take_way_change()) way_file_->follow(*change);
+  if (auto trouble = way_file_->trouble()) note(std::move(*trouble));
+}
+
+bool Service::note(event::Event event) { return log_.add(tick(), std::move(event)); }
+
+void Service::note(std::vector<event::Event> events) {
+  for (event::Event& event : events) note(std::move(event));
+}
+
+// A disk that takes no events is trouble of the host, and no reason to stop the arm.
+void Service::watch_events_file() {
+  if (auto change = file_ ? file_->change() : std::nullopt) note(std::move(*change));
+  if (auto change = dispatch_ ? dispatch_->change() : std::nullopt) note(std::move(*change));
+}
+
+void Service::request(Request what) {
+  const bool asks_again = boot_seen_ == control::BootPhase::kFailed && what == Request::kClear;
+  if (boot_seen_ != control::BootPhase::kDone && !asks_again)
+    return;  // drives that are not booted have no power, and a stop in force keeps it so
+  if (!desk_.link().requests.push(what))
+    throw api::RequestError("busy", "too many requests are waiting for the next ticks");
+}
+
+// Drives that are not booted have no power.
+void Service::press_stop() noexcept {
+  stop_tick_ = tick();
+  if (boot_seen_ == control::BootPhase::kDone) desk_.link().stop.press();
+}
+
+// Nobody asks for motion any more: the command in force expires and the arm holds.
+void Service::drop_motion(event::Event why) {
+  stream_.end();
+  desk_.drop_motion();
+  note(std::move(why));
+}
+
+void Service::begin_shutdown(const std::string& reason) {
+  if (shutdown_tick_) return;
+  shutdown_tick_ = tick();
+  notes_.stopping = true;
+  press_stop();
+  note({.kind = event::EventKind::kShutdown, .text = "shutdown: " + reason});
+}
+
+void Service::order_stop(const StopOrder& order) {
+  press_stop();
+  notes_.stop.press(order);
+  note(stop_event(order));
+}
+
+void Service::stop_by_itself(const std::string& reason) {
+  order_stop({"lianad", printable(reason), tick()});
+  publish_state();
+}
+
+bool Service::finished() const {
+  if (!shutdown_tick_) return false;
+  const double waited_s = static_cast<double>(tick() - *shutdown_tick_) * config_.buses.tick_s();
+  const bool off = now().state == OperatingState::kDisabled || now().state == OperatingState::kFault;
+  const bool told = tick() > *shutdown_tick_ + static_cast<std::uint64_t>(config_.buses.interval_ticks());
+  return (off && told) || waited_s > kShutdownLimit_s;
+}
+
+}  // namespace liana::daemon

@@ -1,0 +1,196 @@
+#include "host/control/server/service_events.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "host/api/server/request_text.hpp"
+#include "host/control/verification/refusal_table.hpp"
+#include "host/drives/canopen/emergency.hpp"
+
+namespace liana::daemon {
+namespace {
+
+std::string drive_name(long long index) { return "drive " + std::to_string(index); }
+
+std::string subject_of(const Fault& fault) {
+  if (fault.index < 0) return "";
+  return fault.number == FaultNumber::kBusLost ? "bus " + std::to_string(fault.index) : drive_name(fault.index);
+}
+
+std::string condition_names(std::uint32_t conditions) {
+  std::string text;
+  for (std::uint32_t bit = 1; bit != 0; bit <<= 1) {
+    if ((conditions & bit) != 0) text += (text.empty() ? "" : ", ") + std::string(condition_name(bit));
+  }
+  return text;
+}
+
+event::Event fault_event(const Fault& fault) {
+  const FaultInfo& info = fault_info(fault.number);
+  return {.kind = event::EventKind::kFault,
+          .number = event::number_of(fault.number),
+          .subject = subject_of(fault),
+          .values = {{"detail", static_cast<double>(fault.detail)}, {"tick", static_cast<double>(fault.tick)}},
+          .text = std::string(info.name) + ": " + info.text};
+}
+
+event::Event faults_without_place_event(std::uint32_t count) {
+  return {.kind = event::EventKind::kFault,
+          .values = {{"count", static_cast<double>(count)}},
+          .text = std::to_string(count) + " more faults found no place in the list"};
+}
+
+bool has(const FaultList& list, const Fault& wanted) {
+  return std::any_of(list.fault.begin(), list.fault.begin() + list.count, [&](const Fault& f) {
+    return f.number == wanted.number && f.index == wanted.index && f.tick == wanted.tick;
+  });
+}
+
+}  // namespace
+
+event::Event booted_event() {
+  return {.kind = event::EventKind::kBoot,
+          .number = event::number_of(event::BootEvent::kDone),
+          .text = "all drives are booted"};
+}
+
+event::Event boot_goes_on_event() {
+  return {.kind = event::EventKind::kBoot,
+          .number = event::number_of(event::BootEvent::kGoesOn),
+          .text = "booting goes on: a drive has come, or is asked for again"};
+}
+
+std::vector<event::Event> boot_failed_events(const std::vector<control::BootProblem>& problems) {
+  std::vector<event::Event> events;
+  events.reserve(problems.size());
+  for (const control::BootProblem& problem : problems) {
+    events.push_back({.kind = event::EventKind::kBootProblem,
+                      .number = event::number_of(problem.number),
+                      .subject = drive_name(problem.drive),
+                      .values = {{"drive", static_cast<double>(problem.drive)}},
+                      .text = problem.text});
+  }
+  events.push_back({.kind = event::EventKind::kBoot,
+                    .number = event::number_of(event::BootEvent::kFailed),
+                    .text = "booting failed: " + control::text_of(problems)});
+  return events;
+}
+
+event::Event homed_event() {
+  return {.kind = event::EventKind::kHoming,
+          .number = event::number_of(event::HomingEvent::kHomed),
+          .text = "the arm is homed"};
+}
+
+event::Event not_homed_event(const std::string& why) {
+  return {.kind = event::EventKind::kHoming,
+          .number = event::number_of(event::HomingEvent::kContradicted),
+          .text = "not homed: " + why};
+}
+
+event::Event clear_event(const ClearReport& clear) {
+  const std::string result =
+      clear.missing == 0 ? "faults cleared" : "faults not cleared, not met: " + condition_names(clear.missing);
+  return {.kind = event::EventKind::kClear,
+          .number = clear.missing,
+          .values = {{"checked", static_cast<double>(clear.checked)}},
+          .text = result + "; checked: " + condition_names(clear.checked)};
+}
+
+event::Event emergency_event(std::size_t drive, std::uint16_t code) {
+  char text[96];
+  std::snprintf(text, sizeof text, "drive %zu sent emergency 0x%04X: %s", drive, static_cast<unsigned>(code),
+                canopen::emergency_text(code));
+  return {.kind = event::EventKind::kEmergency,
+          .number = code,
+          .subject = drive_name(static_cast<long long>(drive)),
+          .values = {{"drive", static_cast<double>(drive)}},
+          .text = text};
+}
+
+event::Event verdict_event(std::uint64_t command, const verify::Verdict& verdict) {
+  return {.kind = event::EventKind::kVerdict,
+          .number = event::number_of(verdict.code),
+          .subject = event::number_of(verdict.code) < 200 ? "execution" : "simulation",
+          .values = {{"command", static_cast<double>(command)}, {"share", verdict.share}},
+          .text = "refused " + std::to_string(command) + ", M_e " + std::to_string(event::number_of(verdict.code)) +
+                  " " + verify::row_of(verdict.code).name + ": " + verdict.text};
+}
+
+event::Event path_event(const arbiter::PathNews& news) {
+  return {.kind = event::EventKind::kPath,
+          .number = event::number_of(news.what),
+          .subject = news.path.hash,
+          .values = {{"share", news.path.share}, {"duration_s", news.duration_s}},
+          .text = news.text};
+}
+
+event::Event way_event(const arbiter::WayNews& news) {
+  return {.kind = event::EventKind::kWayBack,
+          .number = event::number_of(news.what),
+          .values = {{"points", static_cast<double>(news.points)}, {"distance_m", news.distance_m}},
+          .text = news.text};
+}
+
+event::Event refusal_event(const std::string& client, const std::string& op, const std::string& code,
+                           const std::string& why) {
+  return {.kind = event::EventKind::kRefusal,
+          .number = event::number_of(event::refusal_event(code)),
+          .subject = client,
+          .text = (op.empty() ? "request" : op) + " refused (" + code + "): " + why};
+}
+
+event::Event owner_event(event::OwnerEvent what, const std::string& client) {
+  const std::string name = "'" + client + "'";
+  const std::string text = what == event::OwnerEvent::kAcquired   ? name + " owns motion"
+                           : what == event::OwnerEvent::kReleased ? name + " gave back motion: the arm holds"
+                                                                  : "the owner of motion died: the arm holds";
+  return {.kind = event::EventKind::kOwner, .number = event::number_of(what), .subject = client, .text = text};
+}
+
+event::Event taken_event(const Claimant& from, const Claimant& by, const std::string& why) {
+  return {.kind = event::EventKind::kOwner,
+          .number = event::number_of(event::OwnerEvent::kTaken),
+          .subject = from.name,
+          .text = by.text() + " took motion from " + from.text() + ", " + why + ": the arm holds"};
+}
+
+event::Event stands_still_event(const std::string& client, double ttl_s) {
+  return {.kind = event::EventKind::kOwner,
+          .number = event::number_of(event::OwnerEvent::kStandsStill),
+          .subject = client,
+          .values = {{"ttl_s", ttl_s}},
+          .text = "owner '" + client + "' stands still: no servo_cp for " + api::text_of(ttl_s) +
+                  " s, its ttl_s: the arm holds"};
+}
+
+event::Event stop_event(const StopOrder& order) {
+  return {.kind = event::EventKind::kStop,
+          .number = event::number_of(StopCategory::kStop),
+          .subject = order.by,
+          .text = text_of(order)};
+}
+
+event::Event step_event(int index, const std::string& name, const std::string& waits, const std::string& after) {
+  return {.kind = event::EventKind::kStep,
+          .number = index,
+          .subject = name,
+          .text = "step " + std::to_string(index) + ": " + name + (waits.empty() ? "" : " waits, " + waits) +
+                  (after.empty() ? "" : "; what ended the step before: " + after)};
+}
+
+event::Event last_step_event(const std::string& after) {
+  return {.kind = event::EventKind::kStep, .text = "steps over; what ended the last: " + after};
+}
+
+std::vector<event::Event> FaultWatch::changes(const FaultList& now) {
+  std::vector<event::Event> events;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(now.count); ++i) {
+    if (!has(seen_, now.fault[i])) events.push_back(fault_event(now.fault[i]));
+  }
+  if (now.dropped > seen_.dropped) events.push_back(faults_without_place_event(now.dropped - seen_.dropped));
+  seen_ = now;
+  return events;
+}
+
+}  // namespace liana::daemon

@@ -1,0 +1,43 @@
+// The state message (docs/reference/api.md) from what the arm reports and what the service knows.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/base/event/event.hpp"
+#include "host/base/json/json.hpp"
+#include "host/control/server/desk.hpp"
+#include "host/control/server/emergency_stop.hpp"
+#include "host/control/server/owner.hpp"
+#include "host/control/server/tip_tool.hpp"
+#include "host/model/config/config.hpp"
+
+namespace liana::daemon {
+
+// What the service adds to the arm's own report.
+struct Notes {
+  Json step = nullptr;           // announced by the mission
+  Json operator_says = nullptr;  // with the tick
+  Json mission_control = nullptr;
+  LastVerdict verdict{};
+  std::int64_t verdict_us = 0;  // arm time at which it was given
+  std::uint64_t refusals = 0, refused_motions = 0;
+  std::vector<control::BootProblem> boot_problems;  // faults of drives that did not boot
+  EmergencyStop stop;
+  TipTool tool;
+  bool stopping = false;
+  std::vector<std::uint32_t> serials;    // of the drives, once they are booted
+  std::optional<std::uint32_t> tick_us;  // longest tick of the last command interval; nothing in virtual time
+};
+
+// Name of the operating state in the API.
+const char* state_name(const Desk& desk);
+
+// The whole message; `events`: those it shows.
+Json state_message(const config::BusesConfig& buses, const Desk& desk, const Owner& owner, const Notes& notes,
+                   const std::deque<event::Event>& events);
+
+}  // namespace liana::daemon

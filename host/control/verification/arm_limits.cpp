@@ -1,0 +1,80 @@
+#include "host/control/verification/arm_limits.hpp"
+
+#include <cmath>
+
+#include "firmware_like/serial/drive_units.hpp"
+
+namespace liana::verify {
+
+namespace {
+
+constexpr double kPushBeyond_m = 0.001;  // a push that ends at its bound has stopped within this
+
+void judge_tension(const cable::RobotTable& table, const cable::Outputs& outputs, Judge& judge) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(table.cable_count()); ++i) {
+    const double tension_N = outputs.tension_plan_N[i];
+    judge.check(Refusal::kTension, "planned tension of cable", kNewtons, static_cast<int>(i), tension_N,
+                table.tension.ceiling_free_N);
+    judge.require(tension_N * kRounding >= table.tension.floor_motor_N, Refusal::kTension,
+                  "planned tension under the floor at cable", static_cast<int>(i));
+  }
+}
+
+void judge_push(const serial::TorqueTable& most, const serial::PushReport& push, Judge& judge) {
+  if (push.phase == serial::PushPhase::kNone || push.phase == serial::PushPhase::kYielding) return;
+  judge.check(Refusal::kPushTube, "way of the push along its axis", kMillimetres, -1, push.travel_m,
+              most.most_travel_m + kPushBeyond_m);
+  judge.check(Refusal::kPushTube, "way of the push beside its axis", kMillimetres, -1, push.aside_m,
+              most.most_aside_m + kPushBeyond_m);
+  judge.check(Refusal::kPushTube, "set force of the push", kNewtons, -1, push.set_N, most.most_force_N);
+}
+
+}  // namespace
+
+void judge_targets(const cable::RobotTable& table, const cable::Outputs* before, const cable::Outputs& after,
+                   Judge& judge) {
+  judge_tension(table, after, judge);
+  if (before == nullptr) return;
+  const double way_m = kTargetSpeedMargin * table.limits.cable_speed_m_s * table.tick_s;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(table.cable_count()); ++i) {
+    judge.check(Refusal::kCableSpeed, "travel per tick of cable", kMillimetres, static_cast<int>(i),
+                after.payout_command_m[i] - before->payout_command_m[i], way_m);
+  }
+}
+
+void judge_targets(const serial::RobotTable& table, const serial::Outputs* before, const serial::Outputs& after,
+                   Judge& judge) {
+  if (before == nullptr) return;
+  for (std::size_t i = 0; i < table.joints(); ++i) {
+    const double way_rad = kTargetSpeedMargin * table.joint[i].rate_rad_s * table.tick_s;
+    judge.check(Refusal::kJointTravel, "travel per tick of joint", kDegrees, static_cast<int>(i),
+                after.joint_command_rad[i] - before->joint_command_rad[i], way_rad);
+  }
+}
+
+void judge_joints(const cable::RobotTable& table, const cable::Outputs& first, const cable::Outputs& outputs,
+                  Judge& judge) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
+    const double from_rad = std::fabs(first.theta_command_rad[i]);
+    judge.check(Refusal::kJointAngle, "theta", kDegrees, static_cast<int>(i), outputs.theta_command_rad[i],
+                std::fmax(table.segment[i / 2].theta_limit_rad, from_rad));
+    judge.check(Refusal::kJointRate, "rate of theta", kDegreesPerSecond, static_cast<int>(i),
+                outputs.theta_rate_rad_s[i], table.limits.theta_rate_rad_s);
+  }
+}
+
+// A range need not be symmetric: what counts is the distance from its middle.
+void judge_joints(const serial::RobotTable& table, const serial::Outputs&, const serial::Outputs& outputs,
+                  Judge& judge) {
+  for (std::size_t i = 0; i < table.joints(); ++i) {
+    const serial::JointTable& joint = table.joint[i];
+    judge.check(Refusal::kJointAngle, "angle from the middle of its range of joint", kDegrees, static_cast<int>(i),
+                outputs.joint_command_rad[i] - 0.5 * (joint.low_rad + joint.high_rad),
+                0.5 * (joint.high_rad - joint.low_rad));
+    judge.check(Refusal::kJointRate, "rate of joint", kDegreesPerSecond, static_cast<int>(i),
+                outputs.joint_rate_rad_s[i], joint.rate_rad_s);
+  }
+  judge_push(table.torque, outputs.push, judge);
+}
+
+}  // namespace liana::verify

@@ -1,0 +1,105 @@
+#include "host/control/verification/judge_distances.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "host/model/clearance/clearance.hpp"
+
+namespace liana::verify {
+
+namespace {
+
+constexpr double kRounded_m = 1e-6;
+
+First at_scene(const config::SceneConfig& scene, const simulate::Nearest& nearest, const LinkName& link_name) {
+  if (nearest.link < 0) return {};
+  return {clearance::obstacle_name(scene, nearest.other) + " (" + link_name(nearest.link) + ")", nearest.time_s};
+}
+
+First at_itself(const simulate::Nearest& nearest, const LinkName& link_name) {
+  return {link_name(nearest.other) + " (" + link_name(nearest.link) + ")", nearest.time_s};
+}
+
+// An arm that is too near already may go away; the way back out may need it to go along beside a body first.
+bool leads_away(const simulate::Distances& distances, double travel_m, const TooNear& too_near) {
+  const double start_m = distances.scene_at_start_m, least_m = distances.scene.distance_m;
+  const double end_m = distances.scene_at_end_m;
+  if (!too_near.stands()) return end_m >= start_m && least_m >= start_m - kGivenAway_m;
+  if (start_m >= too_near.least_m()) return least_m >= too_near.least_m();
+  return end_m >= start_m + kAwayShare * travel_m && least_m >= start_m - kCreptDip_m;
+}
+
+// An arm that touches a body goes into no other one, and out of all that it touches.
+const simulate::BodyBeside* entered(const simulate::Distances& distances, double prediction_m) {
+  for (const simulate::BodyBeside& body : distances.bodies) {
+    if (body.nearest.distance_m < std::min(body.at_start_m, prediction_m) - kGivenAway_m) return &body;
+  }
+  return nullptr;
+}
+
+// An arm that touches itself, or all but does, may unfold, and no more than rounding the other way.
+bool leads_apart(const simulate::Distances& distances) {
+  const double start_m = distances.self_at_start_m;
+  return distances.self_at_end_m >= start_m - kRounded_m && distances.self.distance_m >= start_m - kGivenAway_m;
+}
+
+}  // namespace
+
+void TooNear::stand(double distance_m) {
+  const double kept_m = distance_m - kGivenAway_m;
+  farthest_m_ = stands_ ? std::max(distance_m, farthest_m_) : distance_m;
+  least_m_ = stands_ ? std::max(least_m_, kept_m) : kept_m;
+  if (was_refused_) least_m_ = std::max(std::min(least_m_, distance_m - kCreptDip_m), farthest_m_ - kMostCrept_m);
+  stands_ = true;
+  was_refused_ = false;
+}
+
+std::string in_millimetres(double distance_m) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f mm", 1000.0 * distance_m);
+  return text;
+}
+
+std::string plain_link_name(std::int32_t link) { return "link " + std::to_string(link + 1); }
+
+void refuse(SimulationVerdict& verdict, Refusal code, const std::string& text, const First& first) {
+  verdict.code = code;
+  verdict.text = text;
+  verdict.first = first;
+}
+
+// Before anything else: a contact is what a command is stopped for.
+void judge_distances(const config::SceneConfig& scene, const simulate::Distances& distances, const LinkName& link_name,
+                     double travel_m, TooNear& too_near, SimulationVerdict& verdict) {
+  const config::SceneMargins& levels = scene.margins;
+  const double least_m = distances.scene.distance_m, start_m = distances.scene_at_start_m;
+  const double claimed_m = least_m - levels.prediction_m;
+  const First first = at_scene(scene, distances.scene, link_name);
+  verdict.margins.clearance_m = claimed_m - levels.refuse_m;
+  verdict.slowly = claimed_m < levels.slow_m;
+  verdict.first = first;
+  const bool stands_too_near = start_m - levels.prediction_m < levels.refuse_m;
+  stands_too_near ? too_near.stand(start_m) : too_near.forget();
+  const auto refuse_contact = [&](double simulated_m, double stands_m, const First& where) {
+    too_near.refused();
+    refuse(verdict, Refusal::kSceneContact,
+           "the arm could touch " + where.body + ": " + in_millimetres(simulated_m - levels.prediction_m) +
+               " of the simulated " + in_millimetres(simulated_m) + " are certain, " + in_millimetres(levels.refuse_m) +
+               " have to be left; it stands " + in_millimetres(stands_m) + " off",
+           where);
+  };
+  if (!std::isfinite(least_m) || (claimed_m < levels.refuse_m && !leads_away(distances, travel_m, too_near))) {
+    refuse_contact(least_m, start_m, first);
+  } else if (const simulate::BodyBeside* body = entered(distances, levels.prediction_m)) {
+    refuse_contact(body->nearest.distance_m, body->at_start_m, at_scene(scene, body->nearest, link_name));
+  } else if (!(distances.self.distance_m > 0.0)) {
+    const First self = at_itself(distances.self, link_name);
+    if (leads_apart(distances))
+      verdict.touches_itself = self.body;
+    else
+      refuse(verdict, Refusal::kSelfContact, "the arm would touch itself: " + self.body, self);
+  }
+}
+
+}  // namespace liana::verify

@@ -1,0 +1,62 @@
+// The second end's first question, for every kind of arm: does the simulated motion keep off the scene and off itself.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "host/control/verification/verdict.hpp"
+#include "host/model/simulation/motion.hpp"
+
+namespace liana::verify {
+
+// What the bound between poses and the noise of a measured pose may give away.
+constexpr double kGivenAway_m = 1e-3;
+
+// Of what the arm moves, an arm that has crept nearer has to go away from the scene.
+constexpr double kAwayShare = 0.1;
+
+// How much nearer it may come before it is away, and than it stands after a refusal. An offset from the command settles
+// in the simulation and stays in truth: 0.3 mm at the end of a motion look like away.
+constexpr double kCreptDip_m = 1e-4;
+
+// By how much less than the farthest it has stood off an arm may go along after all refusals.
+constexpr double kMostCrept_m = 3e-3;
+
+// How near to the scene an arm may be led that is nearer than commands may leave it: 1 mm less than the farthest it has
+// stood off since. Motions may lead it away, and along beside a body no nearer than that. What is no nearer as
+// simulated may be nearer by the simulation's error, again and again: an arm that has come nearer than that only goes
+// away, until a motion is refused. From where it then stands it may go along once more, so that a way back is there.
+class TooNear {
+ public:
+  // The next motion begins so far off.
+  void stand(double distance_m);
+  // It is far enough off, or something else than commands has moved it.
+  void forget() { *this = {}; }
+  void refused() { was_refused_ = true; }
+  bool stands() const { return stands_; }
+  // Nothing of a motion may be nearer than that.
+  double least_m() const { return least_m_; }
+
+ private:
+  double farthest_m_ = 0.0, least_m_ = 0.0;
+  bool stands_ = false, was_refused_ = false;
+};
+
+// What people call link 0, 1, ...
+using LinkName = std::function<std::string(std::int32_t)>;
+
+// "link 3" for 2.
+std::string plain_link_name(std::int32_t link);
+
+// Refuses contact with the scene (208) and with itself (209); sets `slowly`, margins.clearance_m and where the arm
+// comes nearest. `travel_m`: the farthest that any point of the arm is moved. `too_near`: of all motions of this arm in
+// turn.
+void judge_distances(const config::SceneConfig& scene, const simulate::Distances& distances, const LinkName& link_name,
+                     double travel_m, TooNear& too_near, SimulationVerdict& verdict);
+
+// Of what is refused: why, and what comes first.
+void refuse(SimulationVerdict& verdict, Refusal code, const std::string& text, const First& first);
+
+std::string in_millimetres(double distance_m);
+
+}  // namespace liana::verify

@@ -1,0 +1,75 @@
+#include "host/control/verification/judge_serial.hpp"
+
+#include <cmath>
+
+#include "firmware_like/math/trig.hpp"
+#include "host/control/verification/judge.hpp"
+
+namespace liana::verify {
+
+namespace {
+
+using Index = std::size_t;
+
+constexpr double kMeanRate = 1.01;   // rates of rows are means over an interval of what the twin did in ticks
+constexpr double kCatchingUp = 1.5;  // times the tip's limit
+constexpr double kMostMargin = 1e3;  // [deg, deg/s] before anything was looked at
+
+// Angles and rates that the drives are told.
+void judge_told(const serial::RobotTable& table, const simulate::ToldRows<serial::JointVector>& told, Judge& judge,
+                SimulationVerdict& verdict) {
+  double& angle_deg = verdict.margins.joint_deg = kMostMargin;
+  double& rate_deg_s = verdict.margins.rate_deg_s = kMostMargin;
+  for (Index row = 0; row < told.rows_rad.size(); ++row) {
+    for (Index i = 0; i < table.joints(); ++i) {
+      const serial::JointTable& joint = table.joint[i];
+      const double now_rad = told.rows_rad[row][i], before_rad = told.rows_rad[row > 0 ? row - 1 : 0][i];
+      const double middle_rad = 0.5 * (joint.low_rad + joint.high_rad);
+      const double room_rad = 0.5 * (joint.high_rad - joint.low_rad);
+      const double rate_rad_s = (now_rad - before_rad) / told.interval_s;
+      judge.check(Refusal::kJointAngle, "angle from the middle of the range of joint", kDegrees, static_cast<int>(i),
+                  now_rad - middle_rad, room_rad);
+      judge.check(Refusal::kJointRate, "rate of joint", kDegreesPerSecond, static_cast<int>(i), rate_rad_s,
+                  kMeanRate * joint.rate_rad_s);
+      angle_deg = std::fmin(angle_deg, (room_rad - std::fabs(now_rad - middle_rad)) / kDegree);
+      rate_deg_s = std::fmin(rate_deg_s, (joint.rate_rad_s - std::fabs(rate_rad_s)) / kDegree);
+      if (verdict.passed()) continue;
+      verdict.first = {"joint " + std::to_string(i + 1), static_cast<double>(row) * told.interval_s};
+      return;
+    }
+  }
+}
+
+void judge_tip(const serial::RobotTable& table, const simulate::SerialMotion& motion, double interval_s, Judge& judge,
+               SimulationVerdict& verdict) {
+  const std::vector<Vec3>& tip_m = motion.tip_in_base_m;
+  for (Index row = 1; row < tip_m.size() && verdict.passed(); ++row) {
+    judge.check(Refusal::kTipSpeed, "simulated tip speed", kMetresPerSecond, -1,
+                norm(subtract(tip_m[row], tip_m[row - 1])) / interval_s, kCatchingUp * table.tip.speed_m_s);
+    if (!verdict.passed()) verdict.first = {"tip", static_cast<double>(row) * interval_s};
+  }
+}
+
+}  // namespace
+
+void judge_serial(const serial::RobotTable& table, const simulate::SerialSimulation& simulation,
+                  const simulate::ToldRows<serial::JointVector>& told, const simulate::SerialMotion& motion,
+                  TooNear& too_near, SimulationVerdict& verdict) {
+  const double clearance_unknown_m = verdict.margins.clearance_m;
+  const std::vector<Vec3>& tip_m = motion.tip_in_base_m;
+  const double travel_m = tip_m.empty() ? 0.0 : norm(subtract(tip_m.back(), tip_m.front()));
+  judge_distances(
+      simulation.scene(), motion.distances, [&](std::int32_t link) { return simulation.contact().link_name(link); },
+      travel_m, too_near, verdict);
+  if (clearance::obstacle_count(simulation.scene()) == 0) verdict.margins.clearance_m = clearance_unknown_m;
+  if (!verdict.passed()) return;
+  const First nearest = verdict.first;
+  verdict.first = {};
+  Judge judge(verdict);
+  judge_told(table, told, judge, verdict);
+  judge_tip(table, motion, told.interval_s, judge, verdict);
+  judge.conclude();
+  if (verdict.first.body.empty()) verdict.first = nearest;
+}
+
+}  // namespace liana::verify

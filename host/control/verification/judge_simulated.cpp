@@ -1,0 +1,201 @@
+#include "host/control/verification/judge_simulated.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "firmware_like/math/trig.hpp"
+#include "host/control/verification/judge.hpp"
+#include "host/control/verification/tick_time.hpp"
+#include "host/control/virtual_fixtures/forbidden.hpp"
+
+namespace liana::verify {
+
+namespace {
+
+using Index = std::size_t;
+using simulate::Moment;
+
+constexpr double kEvenRate = 1.01;  // rates of the sequence are means over an interval of what the twin did in ticks
+constexpr double kTipLead = 1.05;   // the same allowance as the execution end's
+
+std::string numbered(const char* what, Index index) { return what + std::string(" ") + std::to_string(index + 1); }
+
+// Checks of every moment, in the order of time; remembers when and where the first one failed.
+class MomentJudge {
+ public:
+  MomentJudge(const MotionRules& rules, SimulationVerdict& verdict)
+      : table_(rules.table), zone_(rules.zone), verdict_(verdict), judge_(verdict) {}
+
+  void told(const simulate::JointSequence& sequence) {
+    for (Index row = 0; row < sequence.rows_rad.size(); ++row) {
+      const cable::ThetaVector& now = sequence.rows_rad[row];
+      const cable::ThetaVector& before = sequence.rows_rad[row > 0 ? row - 1 : 0];
+      for (Index k = 0; k < thetas(); ++k) {
+        const double limit_rad = most_rad(sequence, k);
+        const double rate_rad_s = (now[k] - before[k]) / sequence.interval_s;
+        judge_.check(Refusal::kJointAngle, "theta", kDegrees, static_cast<int>(k), now[k], limit_rad);
+        judge_.check(Refusal::kJointRate, "rate of theta", kDegreesPerSecond, static_cast<int>(k), rate_rad_s,
+                     kEvenRate * table_.limits.theta_rate_rad_s);
+        least(verdict_.margins.joint_deg, (limit_rad - std::fabs(now[k])) / kDegree);
+        least(verdict_.margins.rate_deg_s, (table_.limits.theta_rate_rad_s - std::fabs(rate_rad_s)) / kDegree);
+        note("theta", k, static_cast<double>(row) * sequence.interval_s);
+      }
+    }
+  }
+
+  void told_tip(const simulate::Motion& motion, double interval_s) {
+    const std::vector<Vec3>& tip_m = motion.told_tip_in_base_m;
+    for (Index row = 1; row < tip_m.size(); ++row) {
+      judge_.check(Refusal::kTipSpeed, "tip speed", kMetresPerSecond, -1,
+                   norm(subtract(tip_m[row], tip_m[row - 1])) / interval_s,
+                   kTipLead * zone_.limit_at(tip_m[row], table_.limits.tip_speed_m_s));
+      note("tip", kNoIndex, static_cast<double>(row) * interval_s);
+    }
+  }
+
+  void simulated(const simulate::JointSequence& sequence, const simulate::Motion& motion) {
+    for (const Moment& moment : motion.moments) {
+      joints(sequence, motion, moment);
+      nodes(moment);
+      cables(moment, motion.least_passed_share);
+    }
+  }
+
+  void conclude() { judge_.conclude(); }
+  Judge& judge() { return judge_; }
+
+ private:
+  Index thetas() const { return static_cast<Index>(table_.theta_count()); }
+  static void least(double& margin, double value) { margin = std::fmin(margin, value); }
+
+  // An arm that stands beyond a range already goes no further out.
+  double most_rad(const simulate::JointSequence& sequence, Index k) const {
+    return std::fmax(table_.segment[k / 2].theta_limit_rad, std::fabs(sequence.rows_rad.front()[k]));
+  }
+
+  void joints(const simulate::JointSequence& sequence, const simulate::Motion& motion, const Moment& moment) {
+    for (Index k = 0; k < thetas(); ++k) {
+      const double stands_rad = std::fabs(motion.moments.front().theta_rad[k]);
+      judge_.check(Refusal::kJointAngle, "simulated theta", kDegrees, static_cast<int>(k),
+                   std::fabs(moment.theta_rad[k]) + motion.friction_band_rad[k],
+                   std::fmax(most_rad(sequence, k), stands_rad) + kSwingAngle_rad);
+      judge_.check(Refusal::kJointRate, "simulated rate of theta", kDegreesPerSecond, static_cast<int>(k),
+                   moment.rate_rad_s[k], kSwingRate * table_.limits.theta_rate_rad_s);
+      note("theta", k, moment.time_s);
+    }
+  }
+
+  void nodes(const Moment& moment) {
+    const auto tip = static_cast<Index>(table_.segment_count) - 1;
+    const double tip_m_s = zone_.limit_at(moment.node_in_base_m[tip], table_.limits.tip_speed_m_s);
+    for (Index m = 0; m < tip; ++m) {
+      judge_.check(Refusal::kNodeSpeed, "speed of node", kMetresPerSecond, static_cast<int>(m),
+                   moment.node_speed_m_s[m], kNodeShare * table_.limits.tip_speed_m_s);
+      note("node", m, moment.time_s);
+    }
+    judge_.check(Refusal::kTipSpeed, "simulated tip speed", kMetresPerSecond, -1, moment.node_speed_m_s[tip],
+                 kSwingTip * tip_m_s);
+    judge_.check(Refusal::kTipSpeed, "simulated tip turn rate", kDegreesPerSecond, -1, moment.tip_rate_rad_s,
+                 kSwingTip * table_.limits.tip_rate_rad_s);
+    note("tip", kNoIndex, moment.time_s);
+  }
+
+  void cables(const Moment& moment, const cable::CableVector& passed_share) {
+    const cable::TensionLimits& limits = table_.tension;
+    const double unsure_N = kSwingTension_N * limits.scale();
+    for (Index c = 0; c < static_cast<Index>(table_.cable_count()); ++c) {
+      const double tension_N = moment.tension_N[c];
+      const double left_N = (tension_N - unsure_N) * passed_share[c] - limits.floor_anywhere_N;
+      judge_.check(Refusal::kSwingTension, "tension with inertia of cable", kNewtons, static_cast<int>(c),
+                   tension_N + unsure_N, limits.alarm_N);
+      if (left_N < 0.0 && verdict_.passed())
+        judge_.refuse(Refusal::kSwingTension,
+                      slack_text(c, tension_N, limits.floor_anywhere_N / passed_share[c] + unsure_N));
+      least(verdict_.margins.tension_N, std::fmin(limits.alarm_N - tension_N - unsure_N, left_N));
+      note("cable", c, moment.time_s);
+    }
+  }
+
+  static std::string slack_text(Index c, double tension_N, double asked_N) {
+    char text[128];
+    std::snprintf(text, sizeof text,
+                  "slack with inertia: cable %d would have %.1f N at the motor, %.1f N are asked for",
+                  static_cast<int>(c) + 1, tension_N, asked_N);
+    return text;
+  }
+
+  static constexpr Index kNoIndex = ~Index{0};
+
+  void note(const char* what, Index index, double time_s) {
+    if (verdict_.passed() || !verdict_.first.body.empty()) return;
+    verdict_.first = {index == kNoIndex ? what : numbered(what, index), time_s};
+  }
+
+  const cable::RobotTable& table_;
+  const arbiter::SpeedZone& zone_;
+  SimulationVerdict& verdict_;
+  Judge judge_;
+};
+
+// The farthest that any node is moved.
+double travel_m(const cable::RobotTable& table, const simulate::Motion& motion) {
+  double most_m = 0.0;
+  if (motion.moments.empty()) return most_m;
+  for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
+    const Vec3 way_m = subtract(motion.moments.back().node_in_base_m[m], motion.moments.front().node_in_base_m[m]);
+    most_m = std::fmax(most_m, norm(way_m));
+  }
+  return most_m;
+}
+
+// When the tip passes a wall of the fixture from between them, and by how much; nothing where it does not. A tip that
+// is beyond a wall already may go back, and by what the noise of a measured pose gives away no farther; one in the room
+// behind a wall, where it came past none, is no concern of theirs.
+void judge_walls(const MotionRules& rules, const config::SceneFixture& walls, const simulate::Motion& motion,
+                 SimulationVerdict& verdict) {
+  const auto tip = static_cast<Index>(rules.table.segment_count - 1);
+  double allowed_m = 0.0;
+  bool was_between = false;
+  for (const Moment& moment : motion.moments) {
+    const auto beyond =
+        fixture::beyond_walls(walls, rules.arm_radius_m, rules.drawing_in_base, moment.node_in_base_m[tip]);
+    const bool concerns = beyond && (was_between || beyond->is_between);
+    was_between = concerns;
+    if (!concerns) continue;
+    if (&moment == &motion.moments.front() && beyond->depth_m > 0.0) allowed_m = beyond->depth_m + kGivenAway_m;
+    if (beyond->depth_m <= allowed_m) continue;
+    return refuse(verdict, Refusal::kFixture,
+                  "the tip would pass the walls of fixture " + walls.name + " by " + in_millimetres(beyond->depth_m) +
+                      ", allowed " + in_millimetres(allowed_m),
+                  {walls.name, moment.time_s});
+  }
+}
+
+}  // namespace
+
+SimulationVerdict judge_simulated(const MotionRules& rules, const simulate::JointSequence& sequence, bool comes_to_rest,
+                                  const simulate::Motion& motion, TooNear& too_near) {
+  SimulationVerdict verdict;
+  if (!motion.solved) {
+    refuse(verdict, Refusal::kNotFinite, "the simulated arm's equations have no solution", {});
+    return verdict;
+  }
+  verdict.margins = {0.0, 1e3, 1e3, 1e6, 0.0};
+  judge_distances(rules.scene, motion.distances, plain_link_name, travel_m(rules.table, motion), too_near, verdict);
+  const First nearest = verdict.first;
+  for (const config::SceneFixture& fixture : rules.scene.fixtures)
+    if (verdict.passed()) judge_walls(rules, fixture, motion, verdict);
+  if (verdict.passed()) verdict.first = {};
+  MomentJudge moments(rules, verdict);
+  moments.told(sequence);
+  moments.told_tip(motion, sequence.interval_s);
+  moments.simulated(sequence, motion);
+  moments.judge().require(comes_to_rest, Refusal::kNoRest, "the arm would not come to rest in time after the command");
+  moments.conclude();
+  judge_tick_time(rules.table, rules.machine, verdict);
+  if (verdict.first.body.empty()) verdict.first = nearest;
+  return verdict;
+}
+
+}  // namespace liana::verify

@@ -1,0 +1,42 @@
+// What every error code M_e is called, what it says, what its margin is measured in, what lianad does about it and what
+// people can.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "host/control/verification/verdict.hpp"
+
+namespace liana::verify {
+
+// Besides that the command is not released, which lets the arm come to rest along its path.
+enum class RefusalAction : std::uint8_t {
+  kHold,  // nothing: the next command may be better
+  kStop,  // an emergency stop, in force until it is cleared: the reason is a collision
+};
+
+struct RefusalRow {
+  Refusal code = Refusal::kNone;
+  const char* name = "";  // of the class, for programs
+  const char* says = "";  // for people, one sentence
+  const char* unit = "";  // of the margin; empty: it has none
+  RefusalAction action = RefusalAction::kHold;
+  const char* remedy = "";  // for people: what can be done next, here and now
+};
+
+// A row for every code but kNone, in the order of their numbers. A code without one does not compile.
+std::span<const RefusalRow> refusal_table();
+
+// The row of a code; of kNone one without a name.
+const RefusalRow& row_of(Refusal code);
+
+// Refused for how the arm would swing: from rest, and more slowly, the same may pass.
+bool may_swing_less(Refusal code);
+
+const char* refusal_action_name(RefusalAction action);
+
+// The table as it stands in docs/reference/refusals.md.
+std::string markdown_of(std::span<const RefusalRow> rows);
+
+}  // namespace liana::verify

@@ -1,0 +1,83 @@
+// The objects one drive is asked and told at boot, in order (docs/reference/drives.md).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/drives/canopen/drive_expectation.hpp"
+
+namespace liana::canopen {
+
+// When what was found is right.
+enum class BootRule : std::uint8_t {
+  kEqual,      // in the bits of the mask
+  kAtLeast,    // as an unsigned number
+  kAnyTarget,  // transmission type of an RPDO: at SYNC (0 to 240) or at once (254, 255)
+  kPair,       // it and the object before it: the same ratio
+  kRange,      // it and the object before it: signed limits that leave room, or two zeros, which are none
+};
+
+// One object: read and compared, or written and read back.
+struct BootObject {
+  std::uint16_t index = 0;
+  std::uint8_t sub = 0;
+  std::uint8_t bytes = 4;  // 1, 2 or 4
+  bool write = false;
+  bool read_back = true;
+  bool may_be_missing = false;        // a drive without this object is right too
+  bool ends_list_if_missing = false;  // then the following objects with the same name are not asked for
+  std::uint32_t value = 0;            // expected, or to be written
+  std::uint32_t mask = 0xFFFFFFFF;    // bits that are compared
+  std::uint32_t keep = 0;             // bits that stay as the drive has them: it is read before it is written
+  BootRule rule = BootRule::kEqual;
+  std::uint32_t before = 0;    // kPair: expected of the object before it; kRange: least position, `value` the most
+  std::size_t needs_from = 0;  // it is not written where one of the objects from here ...
+  std::size_t needs_to = 0;    // ... to before here was refused
+  std::string name;            // as CiA 301/402 call it
+};
+
+class BootPlan {
+ public:
+  explicit BootPlan(const DriveExpectation& drive);
+  std::span<const BootObject> objects() const noexcept { return objects_; }
+  // Whether `found` is right for object number `at`, when `before` was found in the object before it (nothing: then a
+  // pair is not judged).
+  bool accepts(std::size_t at, std::uint32_t found, std::optional<std::uint32_t> before) const noexcept;
+  // Which sub-index is to blame when accepts() says no: of two that are judged together it may be the first.
+  std::uint8_t sub_to_blame(std::size_t at, std::uint32_t found) const noexcept;
+  // Object number `at` was read and is right: where any serial number was, it is expected from now on.
+  void keep(std::size_t at, std::uint32_t found) noexcept;
+  // 0x1018:4 that the drive has to say; 0: any, or it has none.
+  std::uint32_t serial() const noexcept { return serial_; }
+  // Objects that say which drive this is: one that fails here is not written to.
+  std::size_t identity_end() const noexcept { return identity_end_; }
+
+ private:
+  BootObject* expect(std::uint16_t index, std::uint8_t sub, std::uint32_t value, const char* name,
+                     std::uint32_t mask = 0xFFFFFFFF);
+  void expect_factor(std::uint16_t index, const config::Factor& factor, const char* first, const char* second);
+  void expect_at_least(std::uint16_t index, double value, const char* name);
+  BootObject* write(std::uint16_t index, std::uint8_t sub, std::uint8_t bytes, std::uint32_t value, const char* name);
+  BootObject* add(BootObject object);
+  void check_identity(const DriveExpectation& drive);
+  void check_mechanics(const DriveExpectation& drive);
+  void map_pdo(std::uint16_t communication, std::uint32_t cob_id, std::span<const std::uint32_t> entries);
+  void write_mapping(std::uint16_t mapping, std::size_t disabled_at, std::span<const std::uint32_t> entries);
+  void disable_other_pdos();
+  void start_up_writes();
+  void set_motion(const DriveExpectation& drive);
+  void check_limits(const DriveExpectation& drive);
+  void set_heartbeats(const DriveExpectation& drive);
+
+  config::DriveType type_;
+  std::uint16_t rpdo_deadline_ms_ = 0;
+  std::vector<BootObject> objects_;
+  std::size_t serial_at_ = 0;
+  std::size_t identity_end_ = 0;
+  std::uint32_t serial_ = 0;
+};
+
+}  // namespace liana::canopen

@@ -1,0 +1,86 @@
+#include "host/drives/canopen/boot_transfer.hpp"
+
+#include <array>
+
+#include "host/drives/canopen/messages.hpp"
+
+namespace liana::canopen {
+namespace {
+
+constexpr int kAttempts = 3;  // each of its requests may be lost twice
+
+}  // namespace
+
+void BootTransfer::begin(const BootPlan& plan, std::size_t at, bool look_only, SdoClient& sdo) noexcept {
+  object_ = &plan.objects()[at];
+  at_ = at;
+  writes_ = object_->write && !look_only;
+  value_ = object_->value;
+  found_.reset();
+  abort_code_ = 0;
+  enter(writes_ && object_->keep == 0 ? Stage::kWrite : Stage::kLook, sdo);
+}
+
+void BootTransfer::enter(Stage stage, SdoClient& sdo) noexcept {
+  stage_ = stage;
+  attempts_ = 0;
+  request(sdo);
+}
+
+void BootTransfer::request(SdoClient& sdo) noexcept {
+  if (stage_ != Stage::kWrite) return sdo.start_upload(object_->index, object_->sub);
+  std::array<std::uint8_t, 4> bytes{};
+  put_u32(bytes.data(), 4, value_);
+  sdo.start_download(object_->index, object_->sub, {bytes.data(), object_->bytes});
+}
+
+TransferEnd BootTransfer::advance(const BootPlan& plan, std::optional<std::uint32_t> before, SdoClient& sdo) noexcept {
+  switch (sdo.status()) {
+    case SdoStatus::kTimeout:
+      if (++attempts_ >= kAttempts) return TransferEnd::kSilent;
+      request(sdo);
+      return TransferEnd::kNotYet;
+    case SdoStatus::kAborted:
+      return refused(sdo);
+    case SdoStatus::kDone:
+      if (stage_ != Stage::kWrite) return read(plan, before, sdo);
+      if (!object_->read_back) return TransferEnd::kRight;
+      enter(Stage::kReadBack, sdo);
+      return TransferEnd::kNotYet;
+    case SdoStatus::kIdle:
+    case SdoStatus::kBusy:
+      break;
+  }
+  return TransferEnd::kNotYet;
+}
+
+// What cannot be written may have the value already: a constant of the drive, or set by its maker's tool.
+TransferEnd BootTransfer::refused(SdoClient& sdo) noexcept {
+  const bool missing = sdo.abort_code() == kAbortNoObject || sdo.abort_code() == kAbortNoSubIndex;
+  if (missing && object_->may_be_missing) return TransferEnd::kMissing;
+  if (stage_ != Stage::kReadRefused) abort_code_ = sdo.abort_code();
+  if (missing || stage_ != Stage::kWrite) return TransferEnd::kAborted;
+  enter(Stage::kReadRefused, sdo);
+  return TransferEnd::kNotYet;
+}
+
+TransferEnd BootTransfer::read(const BootPlan& plan, std::optional<std::uint32_t> before, SdoClient& sdo) noexcept {
+  found_ = sdo.value();
+  const bool right = plan.accepts(at_, *found_, before);
+  switch (stage_) {
+    case Stage::kReadRefused:
+      return right ? TransferEnd::kRight : TransferEnd::kAborted;
+    case Stage::kLook:
+      if (object_->write && !writes_) return TransferEnd::kRight;
+      if (right || !writes_) break;
+      value_ = object_->value | (*found_ & object_->keep);
+      enter(Stage::kWrite, sdo);
+      return TransferEnd::kNotYet;
+    case Stage::kReadBack:
+    case Stage::kWrite:
+      break;
+  }
+  return right ? TransferEnd::kRight : TransferEnd::kWrong;
+}
+
+}  // namespace liana::canopen

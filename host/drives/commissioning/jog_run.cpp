@@ -1,0 +1,153 @@
+#include "host/drives/commissioning/jog_run.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+#include "firmware_like/drive/pdo.hpp"
+#include "host/drives/canopen/messages.hpp"
+
+namespace liana::desk {
+namespace {
+
+constexpr double kTell_s = 0.1;
+constexpr std::uint16_t kNeverHeard = 0xFFFF;  // ticks
+
+}  // namespace
+
+JogRun::JogRun(Desk& desk, const canopen::DriveExpectation& drive)
+    : desk_(desk),
+      drive_(drive),
+      node_(drive, canopen::boot_timing(desk.rate_hz(), drive.type.times)),
+      heartbeat_(drive.heartbeat_ms, desk.rate_hz()),
+      sdo_(drive.node, static_cast<std::uint32_t>(desk.ticks(kAnswer_s))) {}
+
+JogRun::~JogRun() {
+  const auto nothing = [](const bus::ReceivedFrame&) {};
+  const auto reset = [this] {
+    desk_.bus().send(drive_.bus, canopen::nmt_frame(canopen::kNmtResetCommunication, drive_.node));
+  };
+  try {
+    desk_.exchange(Desk::Tick::kQuiet, nothing, reset);
+    desk_.exchange(Desk::Tick::kQuiet, nothing, [] {});  // it is on the wire before the bus is closed
+  } catch (const std::runtime_error&) {                  // the bus has gone, and with it the heartbeat
+  }
+}
+
+const canopen::BootNode& JogRun::boot() {
+  using canopen::NodePhase;
+  const auto take = [this](const bus::ReceivedFrame& received) {
+    if (is_from_drive(received, canopen::FrameKind::kSdoResponse)) node_.on_sdo_response(received.frame);
+    if (is_from_drive(received, canopen::FrameKind::kHeartbeat) && received.frame.length == 1)
+      node_.on_heartbeat(received.frame.data[0]);
+  };
+  const auto send = [this] {
+    heartbeat_.step(desk_.bus());
+    node_.allow_start();
+    bus::CanFrame frame;
+    if (node_.step(frame)) node_.sent(desk_.bus().send(drive_.bus, frame) == bus::SendResult::kOk);
+  };
+  while (node_.phase() != NodePhase::kOperational && node_.phase() != NodePhase::kFailed) {
+    desk_.refuse_when_interrupted();
+    desk_.exchange(Desk::Tick::kQuiet, take, send);
+  }
+  return node_;
+}
+
+bool JogRun::is_from_drive(const bus::ReceivedFrame& received, canopen::FrameKind kind) const {
+  const canopen::FrameRoute from = canopen::route(received.frame.id);
+  return received.bus == drive_.bus && from.node == drive_.node && from.kind == kind;
+}
+
+void JogRun::on_frame(const bus::ReceivedFrame& received) {
+  const bus::CanFrame& frame = received.frame;
+  if (is_from_drive(received, canopen::FrameKind::kTpdo1)) on_report(frame);
+  if (is_from_drive(received, canopen::FrameKind::kEmergency)) on_emergency(frame);
+  if (is_from_drive(received, canopen::FrameKind::kSdoResponse)) sdo_.on_response(frame);
+  if (is_from_drive(received, canopen::FrameKind::kHeartbeat) && frame.length == 1) {
+    seen_.heartbeat_age_ticks = 0;
+    seen_.operational = (frame.data[0] & 0x7F) == canopen::kStateOperational ? 1 : 0;
+  }
+}
+
+void JogRun::on_report(const bus::CanFrame& frame) {
+  Tpdo1 report;
+  if (!decode_tpdo1({frame.data.data(), frame.length}, report)) return;
+  seen_.statusword = report.statusword;
+  seen_.position_counts = report.position_counts;
+  seen_.torque_permille = report.torque_permille;
+  seen_.feedback_age_ticks = 0;
+  most_torque_permille_ = std::max(most_torque_permille_, std::abs(std::int32_t{report.torque_permille}));
+}
+
+void JogRun::on_emergency(const bus::CanFrame& frame) {
+  if (frame.length != 8) return;
+  const auto code = static_cast<std::uint16_t>(canopen::get_u32(frame.data.data(), 2));
+  if (code == 0) return;  // an error that has gone
+  seen_.emergency_code = code;
+  if (first_emergency_ == 0) first_emergency_ = code;
+}
+
+// SYNC, what came since, the command.
+void JogRun::cycle(Jog& jog) {
+  for (std::uint16_t* age : {&seen_.feedback_age_ticks, &seen_.heartbeat_age_ticks})
+    if (*age < kNeverHeard) ++*age;
+  seen_.emergency_code = 0;
+  const auto send = [&] {
+    heartbeat_.step(desk_.bus());
+    bus::CanFrame command{rpdo1_cob_id(drive_.node), kRpdo1Bytes, {}, 0};
+    const std::array<std::uint8_t, kRpdo1Bytes> data = encode_rpdo1(jog.step(seen_));
+    std::copy(data.begin(), data.end(), command.data.begin());
+    const bool knows_place = seen_.feedback_age_ticks != kNeverHeard;  // before, there is no target
+    if (knows_place) desk_.bus().send(drive_.bus, command);
+    sdo_.tick();
+    bus::CanFrame request;
+    if (sdo_.take_request(request)) desk_.bus().send(drive_.bus, request);
+  };
+  desk_.exchange(
+      Desk::Tick::kCyclic, [this](const bus::ReceivedFrame& received) { on_frame(received); }, send);
+}
+
+void JogRun::ask_current() {
+  using canopen::SdoStatus;
+  if (sdo_.status() == SdoStatus::kDone) current_permille_ = static_cast<std::int16_t>(sdo_.value());
+  if (sdo_.status() == SdoStatus::kAborted) has_current_ = false;
+  if (has_current_ && sdo_.status() != SdoStatus::kBusy) sdo_.start_upload(0x6078, 0);
+}
+
+// A drive in Fault without an emergency message, or from before: 603F has its code.
+void JogRun::ask_error_code(Jog& jog) {
+  while (sdo_.status() == canopen::SdoStatus::kBusy) cycle(jog);
+  sdo_.start_upload(0x603F, 0);
+  do cycle(jog);
+  while (sdo_.status() == canopen::SdoStatus::kBusy);
+  if (sdo_.status() == canopen::SdoStatus::kDone) first_emergency_ = static_cast<std::uint16_t>(sdo_.value());
+}
+
+JogOutcome JogRun::jog(const JogRequest& request, const std::function<void(const JogSample&)>& tell) {
+  Jog jog(request, desk_.rate_hz());
+  seen_ = {};
+  seen_.heartbeat_age_ticks = 0;
+  seen_.operational = 1;  // as its last heartbeat said
+  first_emergency_ = 0;
+  const std::uint64_t tell_ticks = desk_.ticks(kTell_s);
+  bool has_stopped = false;
+  for (std::uint64_t tick = 0; !jog.is_over(); ++tick) {
+    cycle(jog);
+    if (desk_.is_interrupted() && !has_stopped) jog.interrupt();
+    has_stopped = desk_.is_interrupted();
+    if (tick % tell_ticks != 0) continue;
+    ask_current();
+    if (seen_.feedback_age_ticks == 0)
+      tell({static_cast<double>(tick) / desk_.rate_hz(), seen_, jog.moved_counts(), current_permille_});
+  }
+  const bool is_off = jog.is_off();
+  const bool has_fault = jog.end() == JogEnd::kFault || jog.end() == JogEnd::kFaultBefore;
+  if (has_fault && first_emergency_ == 0) ask_error_code(jog);
+  return {jog.end(),          is_off,
+          jog.was_enabled(),  jog.start_counts(),
+          jog.moved_counts(), most_torque_permille_,
+          seen_.statusword,   first_emergency_};
+}
+
+}  // namespace liana::desk

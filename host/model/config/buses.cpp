@@ -1,0 +1,177 @@
+// Buses: checks of the table and what follows from it (period, load).
+#include <cmath>
+#include <map>
+
+#include "host/model/config/canonical.hpp"
+#include "host/model/config/config.hpp"
+#include "host/model/config/drive_types_of_buses.hpp"
+#include "host/model/config/field.hpp"
+
+namespace liana::config {
+namespace {
+
+constexpr double kMicrosecondsPerSecond = 1e6;
+constexpr std::size_t kMaxBuses = 8;
+constexpr double kSdoPairsPerSecond = 20.0;  // as host/drives/bus/bus_load.hpp has it
+constexpr std::int64_t kMasterNode = 127;    // docs/reference/drives.md
+
+BusConfig read_bus(const Field& field, std::map<std::int32_t, std::string>& owner) {
+  field.only({"name", "bitrate", "nodes", "wrist_sensor", "adapter"});
+  BusConfig bus;
+  bus.name = field.at("name").name(11);  // 12 bytes with the final zero, docs/reference/bus-protocol.md
+  bus.bitrate = static_cast<std::int32_t>(field.at("bitrate").integer(10000, 1000000));
+  const Field nodes = field.at("nodes");
+  const std::size_t count = nodes.size(1, cable::kMaxCables, "list the node ids of the drives on this bus");
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto node = static_cast<std::int32_t>(nodes.element(i).integer(1, kMasterNode - 1));
+    if (!owner.emplace(node, bus.name).second)
+      nodes.element(i).refuse("each node id once", "it is already on bus " + owner[node]);
+    bus.nodes.push_back(node);
+  }
+  for (const auto& [key, place] : {std::pair{"wrist_sensor", &bus.wrist_sensor}, std::pair{"adapter", &bus.adapter}}) {
+    if (!field.json().contains(key)) continue;
+    *place = static_cast<std::int32_t>(field.at(key).integer(1, kMasterNode - 1));
+    if (!owner.emplace(*place, bus.name).second)
+      field.at(key).refuse("a node id that nobody else has", "it is already on bus " + owner[*place]);
+  }
+  return bus;
+}
+
+// A serial arm has one wrist, and pushes into one adapter.
+void check_sensors(const Field& table, const BusesConfig& buses) {
+  std::int32_t wrists = 0, adapters = 0;
+  for (const BusConfig& bus : buses.buses) {
+    wrists += bus.wrist_sensor != 0;
+    adapters += bus.adapter != 0;
+  }
+  if (wrists > 1 || adapters > 1)
+    table.at("buses").refuse("one wrist_sensor and one adapter in all", "leave the others out");
+}
+
+void check_timing(const Field& table, const BusesConfig& buses) {
+  const Field rate = table.at("rate_hz");
+  const double period_us = kMicrosecondsPerSecond / buses.rate_hz;
+  const bool whole = std::fabs(period_us - std::round(period_us)) < 1e-6;
+  if (!whole || interpolation_period(static_cast<std::int32_t>(std::lround(period_us))).value == 0) {
+    rate.refuse("rates whose period is 1 to 255 times a power of ten seconds (100, 125, 200, 250, 500, 1000 Hz)",
+                "object 60C2 of the drives cannot express this period");
+  }
+  const double ticks = buses.command_interval_s * buses.rate_hz;
+  if (std::round(ticks) < 1.0 || std::fabs(ticks - std::round(ticks)) > 1e-9) {
+    table.at("command_interval_s")
+        .refuse("whole multiples of the period, " + canonical_number(1.0 / buses.rate_hz) + " s",
+                "change it or rate_hz");
+  }
+}
+
+void check_load(const Field& table, const BusesConfig& buses) {
+  for (std::size_t i = 0; i < buses.buses.size(); ++i) {
+    const double load = worst_case_load(buses, i);
+    if (load <= buses.max_load) continue;
+    const std::string percent = canonical_number(std::round(load * 1000) / 10);
+    table.at("buses").element(i).at("nodes").refuse(
+        "a worst-case load up to " + canonical_number(100 * buses.max_load) + " %, here " + percent + " %",
+        "lower rate_hz, raise bitrate or use more buses");
+  }
+}
+
+Machine read_machine(const Field& field) {
+  field.only({"mips", "tick_share"});
+  return {field.at("mips").number({1, 1e6}), field.at("tick_share").number({0, 1, true})};
+}
+
+// Bits of a classical CAN frame with 11-bit identifier, worst stuffing, interframe space included (can-utils'
+// constants).
+constexpr double worst_frame_bits(int bytes) { return 55.0 + 10.0 * bytes; }
+
+}  // namespace
+
+std::int32_t BusesConfig::period_us() const {
+  return static_cast<std::int32_t>(std::lround(kMicrosecondsPerSecond / rate_hz));
+}
+
+std::int32_t BusesConfig::interval_ticks() const {
+  return static_cast<std::int32_t>(std::lround(command_interval_s * rate_hz));
+}
+
+std::int32_t BusesConfig::bus_of_node(std::int32_t node) const {
+  for (std::size_t i = 0; i < buses.size(); ++i) {
+    for (const std::int32_t each : buses[i].nodes) {
+      if (each == node) return static_cast<std::int32_t>(i);
+    }
+  }
+  return -1;
+}
+
+InterpolationPeriod interpolation_period(std::int32_t period_us) {
+  InterpolationPeriod period{0, -6};
+  std::int32_t value = period_us;
+  while (value > 0 && value % 10 == 0) {
+    value /= 10;
+    ++period.exponent;
+  }
+  if (value > 0 && value <= 255) period.value = static_cast<std::uint8_t>(value);
+  return period;
+}
+
+std::int32_t torque_drives(const BusesConfig& buses, std::size_t bus) {
+  std::int32_t count = 0;
+  const std::map<std::int32_t, DriveType> types = drive_types(buses);
+  for (const std::int32_t node : buses.buses[bus].nodes) {
+    const auto named = types.find(node);
+    if (named != types.end() && named->second.is_cst) ++count;
+  }
+  return count;
+}
+
+// A torque drive's command is two bytes longer, and it has a TPDO2. The sensor has two frames a tick, the adapter one
+// every fourth tick, and it is told as often.
+double worst_extra_bits_per_s(const BusConfig& bus, double rate_hz, std::int32_t torque_drives) {
+  double tick_bits = torque_drives * (worst_frame_bits(8) - worst_frame_bits(6) + worst_frame_bits(4));
+  if (bus.wrist_sensor != 0) tick_bits += 2.0 * worst_frame_bits(8);
+  if (bus.adapter != 0) tick_bits += (worst_frame_bits(8) + worst_frame_bits(2)) / 4.0;
+  return tick_bits * rate_hz;
+}
+
+double worst_case_load(const BusesConfig& buses, std::size_t bus) {
+  const BusConfig& own = buses.buses[bus];
+  const auto nodes = static_cast<double>(own.nodes.size());
+  const double others = (own.wrist_sensor != 0) + (own.adapter != 0);
+  const double tick_bits = worst_frame_bits(0) + nodes * (worst_frame_bits(6) + worst_frame_bits(8));
+  const double heartbeat_bits = (nodes + others + 1.0) * worst_frame_bits(1);
+  const double sdo_bits = 2.0 * worst_frame_bits(8);  // request and response
+  const double bits_per_second = tick_bits * buses.rate_hz + heartbeat_bits * 1000.0 / buses.heartbeat_ms +
+                                 sdo_bits * kSdoPairsPerSecond +
+                                 worst_extra_bits_per_s(own, buses.rate_hz, torque_drives(buses, bus));
+  return bits_per_second / buses.buses[bus].bitrate;
+}
+
+BusesConfig parse_buses(const std::string& text, const std::string& file) {
+  const Json json = parse_json(text, file);
+  const Field table(json, file, "");
+  check_kind(table, "buses");
+  table.only({"format", "kind", "name", "backend", "rate_hz", "command_interval_s", "buses", "heartbeat_ms", "max_load",
+              "machine", "drives", "drive_types"});
+  BusesConfig out;
+  out.name = table.at("name").name(40);
+  out.backend = table.at("backend").choice({"embedded", "socketcan"});
+  out.rate_hz = table.at("rate_hz").number({10, 1000});
+  out.command_interval_s = table.at("command_interval_s").number({0.001, 0.1});
+  out.heartbeat_ms = static_cast<std::int32_t>(table.at("heartbeat_ms").integer(10, 1000));
+  out.max_load = table.at("max_load").number({0, 0.9, true});
+  if (json.contains("machine")) out.machine = read_machine(table.at("machine"));
+  const Field list = table.at("buses");
+  const std::size_t count = list.size(1, kMaxBuses, "describe each CAN bus");
+  std::map<std::int32_t, std::string> owner;
+  for (std::size_t i = 0; i < count; ++i) out.buses.push_back(read_bus(list.element(i), owner));
+  check_drive_types(table, out);
+  check_sensors(table, out);
+  check_timing(table, out);
+  out.canonical_json = canonical_json(json);
+  check_load(table, out);
+  return out;
+}
+
+BusesConfig load_buses(const std::string& path) { return parse_buses(read_text_file(path), path); }
+
+}  // namespace liana::config

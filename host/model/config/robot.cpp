@@ -1,0 +1,67 @@
+// Robots: the table put together, alone and with the buses that carry its drives.
+#include "host/model/config/canonical.hpp"
+#include "host/model/config/drive_type.hpp"
+#include "host/model/config/error_budget.hpp"
+#include "host/model/config/robot_parts.hpp"
+#include "host/model/config/serial_robot.hpp"
+
+namespace liana::config {
+namespace {
+
+// The robot without what the buses decide (tick, T_c).
+RobotConfig read_robot(const Json& json, const std::string& file, const std::string& physics) {
+  const Field table(json, file, "");
+  check_kind(table, "robot", ", or serial for an arm of joints with their own drives");
+  table.only({"format", "kind", "name", "segments", "module", "joint", "cables", "tension", "drives", "limits",
+              "named_poses_deg", "start_pose", "fixture_poses"});
+  RobotConfig out;
+  out.name = table.at("name").name(40);
+  read_arm(table, out);
+  read_cables(table, physics, out);
+  read_drives(table, out);
+  read_limits(table.at("limits"), out.table.limits);
+  read_named_poses(table.at("named_poses_deg"), out);
+  out.start_pose = read_start_pose(table, out.named_poses_deg);
+  out.fixture_poses = read_fixture_poses(table, out.named_poses_deg);
+  out.canonical_json = canonical_json(json);
+  return out;
+}
+
+}  // namespace
+
+RobotConfig parse_robot(const std::string& text, const std::string& file, const std::string& physics,
+                        const BusesConfig& buses) {
+  RobotConfig out = read_robot(parse_json(text, file), file, physics);
+  check_nodes(out.name, out.table.cable_count(), file, buses);
+  out.machine = buses.machine;
+  out.table.tick_s = buses.tick_s();
+  out.table.interval_ticks = buses.interval_ticks();
+  return out;
+}
+
+RobotConfig parse_robot_alone(const std::string& text, const std::string& file) {
+  return read_robot(parse_json(text, file), file, "nominal");
+}
+
+RobotConfig load_robot(const std::string& path, const std::string& physics, const BusesConfig& buses) {
+  return parse_robot(read_text_file(path), path, physics, buses);
+}
+
+std::string check_table(const std::string& kind, const Json& table, const std::string& file) {
+  const std::string text = table.dump();
+  if (kind == "robot" && kind_of(table) == "serial") return check_serial_robot(table, file);
+  if (kind == "robot") return read_robot(table, file, "nominal").canonical_json;
+  if (kind == "scene") return parse_scene(text, file).canonical_json;
+  if (kind == "buses") return parse_buses(text, file).canonical_json;
+  if (kind == "drive") {
+    parse_drive_type(table, file);
+    return canonical_json(table);
+  }
+  if (kind == "budget") {
+    parse_error_budget(table, file);
+    return canonical_json(table);
+  }
+  throw std::runtime_error("kind: " + kind + ": allowed robot, scene, buses, drive, budget: use one of these words");
+}
+
+}  // namespace liana::config

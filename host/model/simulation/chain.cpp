@@ -1,0 +1,95 @@
+#include "host/model/simulation/chain.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace liana::simulate {
+
+namespace {
+
+using Index = std::size_t;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// Turn of one universal joint: pitch about z before yaw about y in modules 1, 3, ..., the other way round in 2, 4, ...
+struct Turns {
+  Matrix3d pitch_first, yaw_first;
+};
+
+Turns turns_of(double pitch_rad, double yaw_rad) {
+  const double ca = std::cos(pitch_rad), sa = std::sin(pitch_rad), cb = std::cos(yaw_rad), sb = std::sin(yaw_rad);
+  Matrix3d pitch, yaw;
+  pitch << ca, -sa, 0, sa, ca, 0, 0, 0, 1;
+  yaw << cb, 0, sb, 0, 1, 0, -sb, 0, cb;
+  return {pitch * yaw, yaw * pitch};
+}
+
+bool is_pitch_first(std::int32_t module) { return module % 2 == 0; }
+
+// Per theta what all its joints so far do to a point p: sum of axes x (p - joint) = axes x p - moments.
+struct JointSums {
+  algebra::SpaceColumns axes, moments;
+
+  void add(Eigen::Index theta, const Vector3d& axis, const Vector3d& joint_m) {
+    axes.col(theta) += axis;
+    moments.col(theta) += axis.cross(joint_m);
+  }
+};
+
+// Six rows a link: velocity of its centre and rate of turn about its own axes, each times the root of what resists it.
+using LinkRows = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, kMaxTheta>;
+
+LinkRows link_rows(const ArmModel& model, const SegmentTable& segment, const JointSums& sums, Eigen::Index thetas,
+                   const Matrix3d& rotation, const Vector3d& centre_m) {
+  const double m_kg = segment.module_mass_kg, r_m = model.link_radius_m, l_m = segment.module_length_m;
+  const double along = std::sqrt(0.5 * m_kg * r_m * r_m);
+  const double across = std::sqrt(m_kg * (3.0 * r_m * r_m + l_m * l_m) / 12.0);
+  LinkRows rows(6, thetas);
+  for (Eigen::Index i = 0; i < thetas; ++i) {
+    const Vector3d axis = sums.axes.col(i);
+    rows.col(i).head<3>() = std::sqrt(m_kg) * (axis.cross(centre_m) - sums.moments.col(i));
+    rows.col(i).tail<3>() = Vector3d(along, across, across).cwiseProduct(rotation.transpose() * axis);
+  }
+  return rows;
+}
+
+}  // namespace
+
+void place(const ArmModel& model, const ThetaVector& theta_rad, Chain& chain) {
+  Index link = 0;
+  chain.point_m[0].setZero();
+  chain.rotation[0].setIdentity();
+  for (Index m = 0; m < static_cast<Index>(model.table.segment_count); ++m) {
+    const SegmentTable& segment = model.table.segment[m];
+    const Turns turns = turns_of(theta_rad[2 * m], theta_rad[2 * m + 1]);
+    for (std::int32_t k = 0; k < segment.modules; ++k, ++link) {
+      chain.rotation[link + 1] = chain.rotation[link] * (is_pitch_first(k) ? turns.pitch_first : turns.yaw_first);
+      chain.point_m[link + 1] = chain.point_m[link] + segment.module_length_m * chain.rotation[link + 1].col(0);
+    }
+  }
+  chain.links = static_cast<std::int32_t>(link);
+}
+
+algebra::ThetaMatrix mass_matrix(const ArmModel& model, const Chain& chain) {
+  const Eigen::Index thetas = algebra::theta_count(model.table);
+  algebra::ThetaMatrix mass = algebra::ThetaMatrix::Zero(thetas, thetas);
+  JointSums sums{algebra::SpaceColumns::Zero(3, thetas), algebra::SpaceColumns::Zero(3, thetas)};
+  Index link = 0;
+  for (Index m = 0; m < static_cast<Index>(model.table.segment_count); ++m) {
+    const SegmentTable& segment = model.table.segment[m];
+    const Eigen::Index pitch = static_cast<Eigen::Index>(2 * m), moved = pitch + 2;
+    for (std::int32_t k = 0; k < segment.modules; ++k, ++link) {
+      // The first axis is the parent's, the second one the link's own.
+      const Matrix3d &before = chain.rotation[link], &after = chain.rotation[link + 1];
+      const Vector3d& joint_m = chain.point_m[link];
+      sums.add(pitch, is_pitch_first(k) ? before.col(2) : after.col(2), joint_m);
+      sums.add(pitch + 1, is_pitch_first(k) ? after.col(1) : before.col(1), joint_m);
+      const Vector3d centre_m = 0.5 * (joint_m + chain.point_m[link + 1]);
+      const LinkRows rows = link_rows(model, segment, sums, moved, after, centre_m);
+      mass.topLeftCorner(moved, moved) += rows.transpose().lazyProduct(rows);
+    }
+  }
+  return mass;
+}
+
+}  // namespace liana::simulate

@@ -1,0 +1,160 @@
+#include "host/operator/terminal/view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <numbers>
+
+#include "host/base/json/json.hpp"
+
+namespace liana::teleop {
+namespace {
+
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 1, 2)))
+#endif
+std::string
+text_of(const char* format, ...) {
+  char text[512];
+  va_list words;
+  va_start(words, format);
+  std::vsnprintf(text, sizeof text, format, words);
+  va_end(words);
+  return text;
+}
+
+std::vector<double> numbers(const Json& state, const char* name) {
+  std::vector<double> found;
+  const Json& field = state.member_or_null(name);
+  if (!field.is_array()) return found;
+  for (const Json& number : field) {
+    if (number.is_number()) found.push_back(number.get<double>());
+  }
+  return found;
+}
+
+const Json& object(const Json& state, const char* name) {
+  static const Json none = Json::object();
+  const Json& field = state.member_or_null(name);
+  return field.is_object() ? field : none;
+}
+
+std::string owner_of(const Json& state, const std::string& name) {
+  const std::string owner = state.value("owner", "");
+  if (owner.empty()) return "nobody owns motion: t takes it";
+  return owner == name ? "motion is yours" : "motion belongs to " + owner;
+}
+
+std::string what_next(const Json& state, const Shown& shown) {
+  const std::string phase = state.value("state", "");
+  if (phase == "ENABLED") return shown.is_jogging ? "moving" : state.value("at_rest", false) ? "at rest" : "";
+  if (phase == "DISABLED") return object(state, "stop").empty() ? "n enables" : "c clears the stop";
+  if (phase == "FAULT") return "c clears what is over";
+  return "wait";
+}
+
+std::string tip_line(const Json& state) {
+  const std::vector<double> at = numbers(state, "measured_cp"), asked = numbers(state, "setpoint_cp");
+  if (at.size() != 7) return "tip         not known yet";
+  std::string text = text_of("tip         x %8.4f  y %8.4f  z %8.4f m", at[0], at[1], at[2]);
+  if (asked.size() == 7)
+    text += text_of("   %5.1f mm from where it is asked to be",
+                    1e3 * std::hypot(asked[0] - at[0], asked[1] - at[1], asked[2] - at[2]));
+  return text;
+}
+
+std::string clearance_line(const Json& state) {
+  const Json& clearance = object(state, "clearance");
+  if (clearance.empty()) return "clearance   nothing can be claimed";
+  return text_of("clearance   %.1f mm to %s (bound %.1f mm), %s", 1e3 * clearance.value("distance_m", 0.0),
+                 clearance.value("body", "").c_str(), 1e3 * clearance.value("bound_m", 0.0),
+                 clearance.value("level", "").c_str());
+}
+
+std::string force_line(const Json& state) {
+  std::string text;
+  if (const std::vector<double> tension_N = numbers(state, "tension_N"); !tension_N.empty()) {
+    const auto [least, most] = std::minmax_element(tension_N.begin(), tension_N.end());
+    text = text_of("cables      %.0f to %.0f N", *least, *most);
+  }
+  const Json& contact = object(state, "contact");
+  if (const std::vector<double> push_N = numbers(contact, "force_N"); push_N.size() == 3)
+    text += text_of("   push at the tip %.1f N", std::hypot(push_N[0], push_N[1], push_N[2]));
+  if (contact.value("on_body", false)) text += "   touches the body";
+  if (const int segment = contact.value("segment", 0); segment > 0) text += text_of(" at segment %d", segment);
+  return text;
+}
+
+// What stands in the way, the gravest first.
+std::vector<std::string> trouble_lines(const Json& state) {
+  std::vector<std::string> lines;
+  if (const Json& stop = object(state, "stop"); !stop.empty())
+    lines.push_back("STOPPED     by " + stop.value("by", "") + ": " + stop.value("reason", ""));
+  if (const Json& faults = state.member_or_null("faults"); faults.is_array()) {
+    for (const Json& fault : faults)
+      lines.push_back(text_of("FAULT       %d %s of %d  ", fault.value("number", 0), fault.value("name", "").c_str(),
+                              fault.value("index", -1)) +
+                      fault.value("remedy", ""));
+  }
+  if (const Json& verdict = object(state, "verdict"); verdict.value("code", 0) != 0)
+    lines.push_back("REFUSED     " + verdict.value("text", "") + ": " + verdict.value("remedy", ""));
+  return lines;
+}
+
+std::string limits_line(const Json& state) {
+  std::string text;
+  if (const Json& limits = state.member_or_null("limits"); limits.is_array()) {
+    for (const Json& limit : limits) text += (text.empty() ? "" : ", ") + limit.get<std::string>();
+  }
+  const std::string outcome = object(state, "ik").value("outcome", "");
+  return "limits      " + (text.empty() ? "none" : text) + (outcome.empty() ? "" : "   inverse kinematics " + outcome);
+}
+
+// Bytes of UTF-8 that go on a letter do not count.
+std::string cut(const std::string& line, std::size_t columns) {
+  std::size_t letters = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if ((static_cast<unsigned char>(line[i]) & 0xC0U) == 0x80U) continue;
+    if (letters++ == columns) return line.substr(0, i);
+  }
+  return line;
+}
+
+// Texts that came over the wire move no cursor.
+void make_printable(std::string& line) {
+  for (char& letter : line) {
+    if (static_cast<unsigned char>(letter) < 0x20U || letter == 0x7F) letter = ' ';
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> view_of(const Json& state, const Shown& shown, std::size_t columns) {
+  std::vector<std::string> lines = {
+      text_of("%s  %s  %s  %s  %.1f s", shown.robot.c_str(), state.value("state", "no state yet").c_str(),
+              owner_of(state, shown.name).c_str(), what_next(state, shown).c_str(), state.value("time_s", 0.0)),
+      text_of("speed       %.0f mm/s, %.1f deg/s, along the %s axes", 1e3 * shown.speed.tip_m_s,
+              kDegPerRad * shown.speed.turn_rad_s, shown.speed.in_tip ? "tip's" : "base's"),
+      "",
+      tip_line(state),
+      clearance_line(state),
+      force_line(state),
+      limits_line(state),
+  };
+  for (std::string& line : trouble_lines(state)) lines.push_back(std::move(line));
+  lines.insert(lines.end(),
+               {"", "said        " + shown.said, "",
+                "w s  a d  e q   tip along x, y, z (arrows too)   j l  i k  u o   turn it   f   axes of base or tip",
+                "h hold   r retract   + - speed   t take motion   n enable   b disable   c clear   x end",
+                "SPACE or ESCAPE: emergency stop"});
+  for (std::string& line : lines) {
+    make_printable(line);
+    line = cut(line, columns);
+  }
+  return lines;
+}
+
+}  // namespace liana::teleop

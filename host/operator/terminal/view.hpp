@@ -1,0 +1,25 @@
+// The lines of the terminal view.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/base/json/json_fwd.hpp"
+#include "host/operator/terminal/jog.hpp"
+
+namespace liana::teleop {
+
+// What a session knows beside lianad's state.
+struct Shown {
+  std::string name;   // ours, as owner of motion
+  std::string robot;  // name of its table
+  JogSpeed speed;
+  bool is_jogging = false;
+  std::string said;  // what became of what was asked last
+};
+
+// `state` as in docs/reference/api.md, or an empty object before the first. Lines are cut at `columns`, and end in no
+// newline.
+std::vector<std::string> view_of(const Json& state, const Shown& shown, std::size_t columns);
+
+}  // namespace liana::teleop

@@ -1,0 +1,51 @@
+#include "host/planning/planner/check/way_check.hpp"
+
+#include <algorithm>
+
+#include "host/planning/planner/check/plan_check.hpp"
+#include "host/planning/planner/text.hpp"
+
+namespace liana::plan {
+namespace {
+
+constexpr double kRounding_m = 1e-6;  // of points that became degrees in between
+
+struct Allowed {
+  double clearance_m;
+  double self_m;
+};
+
+std::string refusal(const config::RobotConfig& robot, const config::SceneConfig& scene,
+                    const std::vector<ThetaVector>& way, const Allowed& allowed) {
+  const PlanCheck check = check_plan(robot, scene, way, plain_tip(robot.table, way.back()));
+  const TensionLimits& tension = robot.table.tension;
+  if (check.min_clearance_m < allowed.clearance_m - kRounding_m) {
+    return text("link %d %s; allowed are %.2f mm", static_cast<int>(check.nearest_link),
+                distance_text(check.min_clearance_m, "'" + check.nearest + "'").c_str(), 1000.0 * allowed.clearance_m);
+  }
+  if (check.self.clearance_m < allowed.self_m - kRounding_m)
+    return text("%s; allowed are %.2f mm", nearest_text(check.self).c_str(), 1000.0 * allowed.self_m);
+  if (check.min_tension_N < tension.floor_motor_N || check.max_tension_N > tension.ceiling_free_N) {
+    return text("cables would be pulled with %.0f to %.0f N; allowed are %.0f to %.0f N", check.min_tension_N,
+                check.max_tension_N, tension.floor_motor_N, tension.ceiling_free_N);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string refusal_of_way(const config::RobotConfig& robot, const config::SceneConfig& scene,
+                           const std::vector<ThetaVector>& points, double margin_m, double off_m) {
+  const Allowed allowed{margin_m, std::max(kSelfMargin_m, 2.0 * off_m)};
+  const std::string lead = refusal(robot, scene, {points[0], points[1]}, {2.0 * off_m, allowed.self_m});
+  if (!lead.empty()) return "between where the arm stands and point 1 " + lead;
+  const std::string whole = refusal(robot, scene, {points.begin() + 1, points.end()}, allowed);
+  if (whole.empty()) return {};
+  for (std::size_t k = 1; k + 1 < points.size(); ++k) {
+    const std::string piece = refusal(robot, scene, {points[k], points[k + 1]}, allowed);
+    if (!piece.empty()) return text("between points %d and %d ", static_cast<int>(k), static_cast<int>(k + 1)) + piece;
+  }
+  return whole;
+}
+
+}  // namespace liana::plan

@@ -1,0 +1,18 @@
+// A way that the arm is about to go, point by point, put to the independent check (plan_check.hpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/model/config/config.hpp"
+
+namespace liana::plan {
+
+// Why the arm must not go straight in theta from each of these points [rad] to the next: the first piece of the way
+// that comes nearer to an obstacle than `margin_m`, or to the arm itself than kSelfMargin_m and twice `off_m`, which is
+// how far the arm may leave the way, or where the tension plan leaves its limits. Empty: it may. Point 0 is where the
+// arm stands; on the way to point 1 twice `off_m` will do. Cost: about 5 ms a point past a slit.
+std::string refusal_of_way(const config::RobotConfig& robot, const config::SceneConfig& scene,
+                           const std::vector<cable::ThetaVector>& points_rad, double margin_m, double off_m);
+
+}  // namespace liana::plan

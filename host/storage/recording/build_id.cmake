@@ -1,0 +1,11 @@
+# Writes OUTPUT: build_id() with one hash over all files in CORE_DIR.
+file(GLOB_RECURSE files ${CORE_DIR}/*.hpp ${CORE_DIR}/*.cpp)
+list(SORT files)
+set(hashes "")
+foreach(f ${files})
+  file(SHA256 ${f} h)
+  string(APPEND hashes ${h})
+endforeach()
+string(SHA256 core "${hashes}")
+string(SUBSTRING ${core} 0 16 core)
+file(WRITE ${OUTPUT} "#include \"host/storage/recording/build_id.hpp\"\n\nnamespace liana::record {\nstd::string build_id() { return \"core-${core} ${COMPILER}\"; }\n}  // namespace liana::record\n")

@@ -1,0 +1,93 @@
+#include "host/control/server/homing.hpp"
+
+#include <gtest/gtest.h>
+
+#include "host/drives/calibration/fixture.hpp"
+#include "tests/host/control/verification/sim_arm.hpp"
+
+namespace liana::daemon {
+
+using namespace cable;
+namespace {
+
+// An arm in its fixture, as its drives report it.
+class HomingOfAnArm : public ::testing::Test {
+ protected:
+  HomingOfAnArm() {
+    robot_.table = verify::SimArm().table();
+    robot_.named_poses_deg["fixture"] = {12, -9, 7, -8, 12, -3, 12, -10, -12, -2};
+    cable::CableVector tension_N{};
+    tension_N.fill(30.0);
+    const cable::CableVector out_m =
+        calibration::beyond_zero_m(robot_.table, calibration::named_pose_rad(robot_, "fixture"), tension_N);
+    for (std::size_t i = 0; i < 15; ++i) {
+      const cable::DriveTable& drive = robot_.table.drive[i];
+      DriveFeedback& report = report_.inputs.drive[i];
+      report.feedback_age_ticks = 0;
+      report.position_counts =
+          static_cast<std::int32_t>(drive.zero_counts + out_m[i] / (drive.direction * drive.metres_per_count));
+      report.torque_permille = static_cast<std::int16_t>(30.0 / drive.newtons_per_permille);
+    }
+    report_.outputs.homed = 1;
+  }
+  // Drive 4 reports so much more.
+  void turn(double change_m) {
+    const cable::DriveTable& drive = robot_.table.drive[4];
+    report_.inputs.drive[4].position_counts +=
+        static_cast<std::int32_t>(change_m / (drive.direction * drive.metres_per_count));
+  }
+
+  config::RobotConfig robot_;
+  control::ArmReport<cable::CableArm> report_;
+  cable::EstimatorState estimator_;
+};
+
+// req:C2
+TEST_F(HomingOfAnArm, NeedsEveryDriveToHaveBeenHeard) {
+  Homing homing(robot_, "");
+  report_.inputs.drive[7].feedback_age_ticks = 0xFFFF;
+  homing.look(report_, estimator_);
+  EXPECT_FALSE(homing.is_homed());
+  report_.inputs.drive[7].feedback_age_ticks = 0;
+  homing.look(report_, estimator_);
+  EXPECT_TRUE(homing.is_homed());
+}
+
+TEST_F(HomingOfAnArm, NamesTheCablesThatContradictEachOtherTheWorstFirst) {
+  Homing homing(robot_, "");
+  report_.outputs.homed = 0;
+  estimator_.residual_m[1] = 0.004;
+  estimator_.residual_m[9] = -0.012;
+  estimator_.residual_m[6] = 0.001;
+  homing.look(report_, estimator_);
+  EXPECT_EQ(
+      homing.why_not().find(
+          "cables 9 to 11 (segment 4) contradict each other by 12.0 mm, cables 0 to 2 (segment 1) contradict each "
+          "other by 4.0 mm; allowed 1.5 mm"),
+      0u)
+      << homing.why_not();
+}
+
+TEST_F(HomingOfAnArm, IsRefusedUntilThePoseFitsOnceThenTheArmMayLeaveIt) {
+  Homing homing(robot_, "fixture");
+  turn(0.004);
+  homing.look(report_, estimator_);
+  EXPECT_NE(homing.why_not().find("drive 4 (node 5) is off by +4.0 mm"), std::string::npos) << homing.why_not();
+  turn(-0.004);
+  report_.outputs.homed = 0;
+  homing.look(report_, estimator_);
+  EXPECT_FALSE(homing.is_homed());
+  turn(0.004);
+  report_.outputs.homed = 1;
+  homing.look(report_, estimator_);
+  EXPECT_FALSE(homing.is_homed()) << "the pose fitted, but only while the angles had not settled";
+  turn(-0.004);
+  homing.look(report_, estimator_);
+  EXPECT_TRUE(homing.is_homed());
+  turn(0.1);
+  homing.look(report_, estimator_);
+  EXPECT_TRUE(homing.is_homed());
+}
+
+}  // namespace
+}  // namespace liana::daemon

@@ -1,0 +1,115 @@
+// Setpoints that are repeated, overtaken, too old or too far away, and owners that stand still.
+#include "host/control/server/setpoint_stream.hpp"
+
+#include <gtest/gtest.h>
+
+#include "host/api/server/request_check.hpp"
+#include "host/api/server/request_error.hpp"
+#include "tests/host/api/server/robots.hpp"
+
+namespace liana::daemon {
+namespace {
+
+class Stream : public testing::Test {
+ protected:
+  // "" or the refusal of {op, goal at x m, fields} at `now_s`; accepted ones are noted.
+  std::string send(const char* op, double x_m, double now_s, Json fields = Json::object()) {
+    fields["op"] = op;
+    fields["goal"] = Json{x_m, 0, 0, 1, 0, 0, 0};
+    const api::Arguments setpoint = api::checked(api::row_of(fields), fields, bounds_);
+    try {
+      stream_.check(api::row_of(fields), setpoint, now_s, tip_);
+      stream_.note(api::row_of(fields), setpoint, now_s);
+    } catch (const api::RequestError& error) {
+      return error.code() + ": " + error.what();
+    }
+    return "";
+  }
+  std::string servo(double x_m, double now_s, Json fields = Json::object()) {
+    return send("servo_cp", x_m, now_s, std::move(fields));
+  }
+
+  api::RequestBounds bounds_ = api::request_bounds(api::zhu2022_json());
+  SetpointStream stream_{bounds_};
+  Pose tip_{{1, 0, 0}, {1, 0, 0, 0}};
+};
+
+TEST_F(Stream, SequencesGrowOverAllSetpointsOfAnOwner) {
+  EXPECT_EQ(servo(1, 0, {{"sequence", 5}}), "");
+  EXPECT_EQ(servo(1, 0, {{"sequence", 5}}),
+            "refused: sequence = 5: allowed 6 and more, as the owner's last one was 5: give every setpoint a greater "
+            "number");
+  EXPECT_EQ(servo(1, 0, {{"sequence", 4}}).substr(0, 8), "refused:");
+  EXPECT_EQ(servo(1, 0), "") << "a setpoint may have none";
+  EXPECT_EQ(send("move_cp", 1, 0, {{"sequence", 9}}), "");
+  EXPECT_EQ(servo(1, 0, {{"sequence", 8}}).substr(0, 8), "refused:");
+  stream_.restart();
+  EXPECT_EQ(servo(1, 0, {{"sequence", 1}}), "") << "another owner counts anew";
+}
+
+TEST_F(Stream, ARefusedSetpointUsesNoNumberUp) {
+  EXPECT_NE(servo(2, 0, {{"sequence", 1}}), "") << "it jumps";
+  EXPECT_EQ(servo(1, 0, {{"sequence", 1}}), "");
+}
+
+// req:A12 req:A13
+TEST_F(Stream, ASetpointThatWaitedOnItsWayLongerThanItLivesIsRefused) {
+  const auto at = [&](double clock_s, double now_s) { return servo(1, now_s, {{"time_s", clock_s}, {"ttl_s", 0.2}}); };
+  EXPECT_EQ(at(1000.0, 5.0), "") << "whatever the two clocks show";
+  EXPECT_EQ(at(1000.1, 5.3), "") << "0.2 s later than it could be";
+  EXPECT_EQ(at(1000.2, 5.5).substr(0, 8), "refused:");
+  EXPECT_NE(at(1000.2, 5.5).find("its ttl_s"), std::string::npos);
+  EXPECT_EQ(at(1000.6, 5.6), "");
+  EXPECT_EQ(at(1000.5, 5.6).substr(0, 26), "refused: time_s = 1000.5: ") << "the clock goes back";
+}
+
+TEST_F(Stream, ClocksThatRunApartSlowlyMakeNoSetpointOld) {
+  for (int second = 0; second < 36000; second += 5)
+    ASSERT_EQ(servo(1, second, {{"time_s", 100.0 + 0.9999 * second}, {"ttl_s", 0.05}}), "") << second;
+}
+
+TEST_F(Stream, AGoalMayBeAsFarFromTheOneBeforeAsTheTipComesInHalfASecond) {
+  const std::string said = servo(1.06, 0);
+  EXPECT_EQ(said.substr(0, 20), "out_of_range: goal =") << "the first is compared with the commanded tip";
+  EXPECT_NE(said.find("from where the tip is commanded: allowed 0 to 0.05 m in one servo_cp: use move_cp"),
+            std::string::npos)
+      << said;
+  for (int i = 1; i <= 10; ++i) EXPECT_EQ(servo(1 + 0.049 * i, 0), "") << "far away in small steps";
+  EXPECT_NE(servo(1.6, 0).find("from the goal before it"), std::string::npos);
+  EXPECT_EQ(servo(1.04, 0), "") << "back to where the tip is may always be asked for";
+  stream_.end();
+  EXPECT_NE(servo(1.08, 0), "") << "the next stream begins at the tip";
+  EXPECT_EQ(send("move_cp", 1.5, 0), "") << "a move plans its own way";
+}
+
+TEST_F(Stream, ATurnIsBoundedToo) {
+  tip_.quaternion = {0.9961946980917455, 0.08715574274765817, 0, 0};  // 10 deg about x
+  EXPECT_EQ(servo(1, 0), "");
+  stream_.end();
+  tip_.quaternion = {0.9945218953682733, 0.10452846326765347, 0, 0};  // 12 deg
+  EXPECT_NE(servo(1, 0).find("deg from where the tip is commanded: allowed 0 to 10 deg"), std::string::npos);
+}
+
+TEST_F(Stream, AnOwnerStandsStillWhenItsTimeToLiveIsOverAndItsGoalIsNotReached) {
+  EXPECT_FALSE(stream_.overdue(1e9, tip_)) << "nobody streams";
+  servo(1.02, 10.0, {{"ttl_s", 0.2}});
+  EXPECT_FALSE(stream_.overdue(10.2, tip_));
+  EXPECT_EQ(stream_.overdue(10.22, tip_), 0.2);
+  EXPECT_FALSE(stream_.overdue(10.24, tip_)) << "told once";
+  servo(1.02, 10.0, {{"ttl_s", 0.2}});
+  servo(1.02, 10.1, {{"ttl_s", 0.2}});
+  EXPECT_FALSE(stream_.overdue(10.3, tip_)) << "the next one came";
+}
+
+TEST_F(Stream, NobodyIsMissedAtTheGoalAfterAMoveOrWithoutATimeToLive) {
+  servo(1.0, 10.0, {{"ttl_s", 0.2}});
+  EXPECT_FALSE(stream_.overdue(11.0, tip_)) << "the tip is there";
+  servo(1.02, 10.0, {{"ttl_s", 0.2}});
+  send("move_cp", 1.3, 10.1);
+  EXPECT_FALSE(stream_.overdue(11.0, tip_)) << "a move needs nobody";
+  servo(1.02, 10.0);
+  EXPECT_FALSE(stream_.overdue(11.0, tip_));
+}
+
+}  // namespace
+}  // namespace liana::daemon

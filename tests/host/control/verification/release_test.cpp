@@ -1,0 +1,84 @@
+// Only the release step makes telecommands, and only with both verdicts.
+#include "host/control/verification/release_step.hpp"
+
+#include <gtest/gtest.h>
+
+#include <type_traits>
+
+namespace liana::verify {
+
+namespace {
+
+static_assert(!std::is_constructible_v<cable::Telecommand, std::uint64_t, std::uint64_t, std::uint64_t, std::uint32_t,
+                                       const cable::Setpoint&>,
+              "nobody but Release can make a telecommand");
+static_assert(!std::is_constructible_v<Candidate<cable::CableArm>, const cable::Telecommand&>,
+              "nobody but ReleaseStep can make a candidate");
+static_assert(!std::is_constructible_v<Candidate<cable::CableArm>>);
+static_assert(!std::is_constructible_v<cable::Telecommand, const Candidate<cable::CableArm>&>);
+static_assert(std::is_default_constructible_v<cable::Telecommand>, "an empty one, which commands nothing");
+
+ExecutionVerdict execution(std::uint64_t sequence, Refusal code = Refusal::kNone) {
+  ExecutionVerdict verdict;
+  verdict.sequence = sequence;
+  verdict.code = code;
+  return verdict;
+}
+SimulationVerdict simulation(std::uint64_t sequence, Refusal code = Refusal::kNone) {
+  SimulationVerdict verdict;
+  verdict.sequence = sequence;
+  verdict.code = code;
+  return verdict;
+}
+cable::Setpoint hold() {
+  cable::Setpoint setpoint;
+  setpoint.kind = CommandKind::kHold;
+  return setpoint;
+}
+
+// req:A20 req:C6 req:C10
+TEST(ReleaseStep, BothVerdictsReleaseWhatWasJudged) {
+  ReleaseStep<cable::CableArm> release;
+  const Candidate<cable::CableArm> candidate = release.candidate(hold(), 7, 100, 5);
+  const auto telecommand = release.release(candidate, execution(1), simulation(1));
+  ASSERT_TRUE(telecommand);
+  EXPECT_EQ(telecommand->sequence(), 1u);
+  EXPECT_EQ(telecommand->first_tick(), 100u);
+  EXPECT_EQ(telecommand->expiry_tick(), 105u);
+  EXPECT_EQ(telecommand->owner(), 7u);
+  EXPECT_EQ(telecommand->setpoint().kind, CommandKind::kHold);
+}
+
+// req:A20 req:C12
+TEST(ReleaseStep, OneRefusalIsEnough) {
+  ReleaseStep<cable::CableArm> release;
+  const Candidate<cable::CableArm> candidate = release.candidate(hold(), 7, 100, 5);
+  EXPECT_FALSE(release.release(candidate, execution(1, Refusal::kGate), simulation(1)));
+  EXPECT_FALSE(release.release(candidate, execution(1), simulation(1, Refusal::kTipSpeed)));
+}
+
+// req:A20 req:C6
+TEST(ReleaseStep, VerdictsOnOtherCandidatesDoNotCount) {
+  ReleaseStep<cable::CableArm> release;
+  const Candidate<cable::CableArm> old = release.candidate(hold(), 7, 100, 5);
+  const Candidate<cable::CableArm> candidate = release.candidate(hold(), 7, 105, 5);
+  EXPECT_FALSE(release.release(candidate, execution(1), simulation(2)));
+  EXPECT_FALSE(release.release(candidate, execution(2), simulation(1)));
+  EXPECT_FALSE(release.release(old, execution(1), simulation(1))) << "a newer candidate exists";
+}
+
+TEST(ReleaseStep, NothingIsReleasedTwice) {
+  ReleaseStep<cable::CableArm> release;
+  const Candidate<cable::CableArm> candidate = release.candidate(hold(), 7, 100, 5);
+  EXPECT_TRUE(release.release(candidate, execution(1), simulation(1)));
+  EXPECT_FALSE(release.release(candidate, execution(1), simulation(1)));
+}
+
+TEST(ReleaseStep, AnEmptyVerdictIsNoVerdict) {
+  ReleaseStep<cable::CableArm> release;
+  const Candidate<cable::CableArm> candidate = release.candidate(hold(), 7, 100, 5);
+  EXPECT_FALSE(release.release(candidate, ExecutionVerdict{}, SimulationVerdict{}));
+}
+
+}  // namespace
+}  // namespace liana::verify

@@ -1,0 +1,142 @@
+// What both verification ends refuse of a serial arm: just outside each limit, and not just inside it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "firmware_like/math/braking.hpp"
+#include "host/control/verification/verify.hpp"
+#include "tests/firmware_like/micro_arm.hpp"
+
+namespace liana::verify {
+namespace {
+
+using serial::SerialArm;
+using Change = std::function<void(serial::Outputs&)>;
+
+// Its third joint's range is not symmetric, so that a limit on the angle alone would be the wrong one.
+serial::RobotTable uneven_table() {
+  serial::RobotTable table = serial::micro::table();
+  table.joint[2].low_rad = -0.2;
+  table.joint[2].high_rad = 1.0;
+  table.torque.most_travel_m = 0.2;
+  table.torque.most_aside_m = 0.03;
+  table.torque.most_force_N = 60.0;
+  return table;
+}
+const serial::RobotTable kUnevenTable = uneven_table();
+
+struct JudgedTwice {
+  Refusal execution, simulation;
+  std::string text;
+};
+
+// A prediction of five quiet ticks and a stop of three, with one tick changed.
+JudgedTwice judge_twice(const Change& change, std::size_t at) {
+  ReleaseStep<SerialArm> release;
+  serial::Setpoint setpoint;
+  setpoint.kind = CommandKind::kTip;
+  const Candidate<SerialArm> candidate = release.candidate(setpoint, 1, 100, 5);
+  Prediction<SerialArm> prediction;
+  prediction.command_ticks = 5;
+  prediction.comes_to_rest = true;
+  prediction.ticks.resize(8);
+  for (serial::Outputs& outputs : prediction.ticks) outputs.active_sequence = candidate.sequence();
+  change(prediction.ticks[at]);
+  const ExecutionVerdict execution = judge_execution<SerialArm>(kUnevenTable, candidate, prediction);
+  const SimulationVerdict simulation = judge_motion<SerialArm>(kUnevenTable, candidate, prediction);
+  return {execution.code, simulation.code, execution.text + simulation.text};
+}
+
+constexpr double kOver = 1.00001;  // more than rounding is granted
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+struct Row {
+  const char* why;
+  Change refused, passed;  // just outside and just inside
+  Refusal code;
+  const char* words;  // that the refusal has to hold
+};
+
+const double kRate = kUnevenTable.joint[4].rate_rad_s, kWay = kTargetSpeedMargin * kRate * kUnevenTable.tick_s;
+
+// Changes a tick to one of a push.
+Change pushing(const std::function<void(serial::PushReport&)>& change) {
+  return [change](serial::Outputs& outputs) {
+    outputs.push.phase = serial::PushPhase::kPressing;
+    change(outputs.push);
+  };
+}
+
+const Row kRows[] = {
+    {"214: a push farther along its axis than the table has it, and a millimetre to stop in",
+     pushing([](serial::PushReport& p) { p.travel_m = -0.2011; }),
+     pushing([](serial::PushReport& p) { p.travel_m = 0.2009; }), Refusal::kPushTube,
+     "way of the push along its axis = "},
+    {"214: beside it", pushing([](serial::PushReport& p) { p.aside_m = 0.0311; }),
+     pushing([](serial::PushReport& p) { p.aside_m = 0.0309; }), Refusal::kPushTube, "beside its axis"},
+    {"214: with more force", pushing([](serial::PushReport& p) { p.set_N = 60.0 * kOver; }),
+     pushing([](serial::PushReport& p) { p.set_N = 60.0; }), Refusal::kPushTube, "set force of the push = 60"},
+    {"107: a joint told to go further in one tick than its rate allows would be refused by the gate",
+     [](serial::Outputs& o) { o.joint_command_rad[4] = kWay * kOver; },
+     [](serial::Outputs& o) { o.joint_command_rad[4] = kWay; }, Refusal::kJointTravel, "travel per tick of joint 5 = "},
+    {"107: backwards, too", [](serial::Outputs& o) { o.joint_command_rad[4] = -kWay * kOver; },
+     [](serial::Outputs& o) { o.joint_command_rad[4] = -kWay; }, Refusal::kJointTravel, "joint 5"},
+    {"202: the limiter may turn a joint at its rate and no faster",
+     [](serial::Outputs& o) { o.joint_rate_rad_s[4] = -kRate * kOver; },
+     [](serial::Outputs& o) { o.joint_rate_rad_s[4] = -kRate; }, Refusal::kJointRate, "rate of joint 5 = "},
+    {"203: near a station the tip is slow; 5 % are granted while the IK catches up",
+     [](serial::Outputs& o) { o.tip_speed_m_s = 1.06 * kUnevenTable.tip.speed_m_s; },
+     [](serial::Outputs& o) { o.tip_speed_m_s = 1.04 * kUnevenTable.tip.speed_m_s; }, Refusal::kTipSpeed, "tip speed"},
+    {"203: and turns slowly", [](serial::Outputs& o) { o.tip_rate_rad_s = 1.06 * kUnevenTable.tip.rate_rad_s; },
+     [](serial::Outputs& o) { o.tip_rate_rad_s = 1.04 * kUnevenTable.tip.rate_rad_s; }, Refusal::kTipSpeed,
+     "tip turn rate"},
+    {"205: a number that is none compares with nothing, and must not pass for it",
+     [](serial::Outputs& o) { o.tip_speed_m_s = kNone; }, [](serial::Outputs&) {}, Refusal::kNotFinite, "not a finite"},
+    {"205: of a joint as well", [](serial::Outputs& o) { o.joint_rate_rad_s[6] = kNone; }, [](serial::Outputs&) {},
+     Refusal::kNotFinite, "joint 7"},
+    {"206: a tip that falls behind its target by more than 5 mm cannot get there",
+     [](serial::Outputs& o) { o.ik_position_error_m = 0.0051; },
+     [](serial::Outputs& o) { o.ik_position_error_m = 0.0049; }, Refusal::kUnreachable, "distance of the tip"},
+    {"206: or by more than 0.01 rad of attitude", [](serial::Outputs& o) { o.ik_attitude_error_rad = 0.0101; },
+     [](serial::Outputs& o) { o.ik_attitude_error_rad = 0.0099; }, Refusal::kUnreachable, "angle of the tip"},
+};
+
+// req:C8
+TEST(VerifyASerialArm, EveryLimitRefusesWhatIsJustOutsideAndPassesWhatIsJustInside) {
+  for (const Row& row : kRows) {
+    const JudgedTwice out = judge_twice(row.refused, 2), in = judge_twice(row.passed, 2);
+    EXPECT_EQ(row.code, out.execution != Refusal::kNone ? out.execution : out.simulation) << row.why;
+    EXPECT_NE(out.text.find(row.words), std::string::npos) << row.why << ": " << out.text;
+    EXPECT_EQ(in.execution, Refusal::kNone) << row.why << ": " << in.text;
+    EXPECT_EQ(in.simulation, Refusal::kNone) << row.why << ": " << in.text;
+  }
+}
+
+TEST(VerifyASerialArm, TheStopAfterTheCommandIsJudgedByTheSameLimits) {
+  for (const Row& row : kRows) {
+    const JudgedTwice out = judge_twice(row.refused, 7);
+    EXPECT_EQ(row.code, out.execution != Refusal::kNone ? out.execution : out.simulation) << row.why;
+  }
+}
+
+// 201: where a range is not symmetric, both its ends count, not the larger one.
+TEST(VerifyASerialArm, AJointStaysBetweenTheTwoEndsOfItsRange) {
+  const auto at = [](double joint_rad) {
+    return judge_twice([&](serial::Outputs& o) { o.joint_command_rad[2] = joint_rad; }, 2).simulation;
+  };
+  EXPECT_EQ(at(1.0), Refusal::kNone);
+  EXPECT_EQ(at(1.0 + 1e-5), Refusal::kJointAngle);
+  EXPECT_EQ(at(-0.2), Refusal::kNone);
+  EXPECT_EQ(at(-0.2 - 1e-5), Refusal::kJointAngle);
+  EXPECT_EQ(at(-0.9), Refusal::kJointAngle) << "inside the larger end's distance from zero";
+}
+
+TEST(VerifyASerialArm, AJointThatTheArmHasNotIsNotJudged) {
+  EXPECT_EQ(judge_twice([](serial::Outputs& o) { o.joint_command_rad[7] = 100.0; }, 2).simulation, Refusal::kNone);
+}
+
+}  // namespace
+}  // namespace liana::verify

@@ -1,0 +1,134 @@
+// Each check of the execution end refuses what is just outside its limit and passes what is just inside.
+#include "host/control/verification/verify.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "tests/firmware_like/zhu2022.hpp"
+
+namespace liana::verify {
+
+namespace {
+
+const cable::RobotTable kTable = cable::zhu2022::table();
+
+struct Judged {
+  Refusal execution;
+  std::string text;
+};
+
+// A prediction of five quiet ticks and a stop, with `change` applied to one tick of the command (2) and one of the stop
+// (6).
+Judged judge(const std::function<void(cable::Outputs&)>& change, std::size_t at = 2, bool comes_to_rest = true) {
+  ReleaseStep<cable::CableArm> release;
+  cable::Setpoint setpoint;
+  setpoint.kind = CommandKind::kTip;
+  const Candidate<cable::CableArm> candidate = release.candidate(setpoint, 1, 100, 5);
+  Prediction<cable::CableArm> prediction;
+  prediction.command_ticks = 5;
+  prediction.comes_to_rest = comes_to_rest;
+  prediction.ticks.resize(8);
+  for (cable::Outputs& outputs : prediction.ticks) {
+    outputs.active_sequence = candidate.sequence();
+    outputs.tension_plan_N.fill(40.0);
+  }
+  change(prediction.ticks[at]);
+  const ExecutionVerdict execution = judge_execution<cable::CableArm>(kTable, candidate, prediction);
+  return {execution.code, execution.text};
+}
+
+// req:C10
+TEST(Verify, AQuietMotionPasses) {
+  const Judged judged = judge([](cable::Outputs&) {});
+  EXPECT_EQ(judged.execution, Refusal::kNone);
+}
+
+// req:C8
+TEST(Verify, ASpeedJustOverTheLimitIsRefusedAndJustUnderPasses) {
+  const double rate = kTable.limits.theta_rate_rad_s;
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_rate_rad_s[4] = rate * 1.00001; }).execution, Refusal::kJointRate);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_rate_rad_s[4] = -rate * 1.00001; }).execution, Refusal::kJointRate);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_rate_rad_s[4] = rate; }).execution, Refusal::kNone);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.tip_speed_m_s = kTable.limits.tip_speed_m_s * 1.06; }).execution,
+            Refusal::kTipSpeed);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.tip_speed_m_s = kTable.limits.tip_speed_m_s; }).execution, Refusal::kNone);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.tip_rate_rad_s = kTable.limits.tip_rate_rad_s * 1.06; }).execution,
+            Refusal::kTipSpeed);
+}
+
+TEST(Verify, TheStopAfterTheCommandIsJudgedToo) {
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.tip_speed_m_s = 1.0; }, 7).execution, Refusal::kTipSpeed);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.limits = kLimitGate; }, 7).execution, Refusal::kGate);
+  EXPECT_EQ(judge([](cable::Outputs&) {}, 2, false).execution, Refusal::kNoRest);
+}
+
+// req:C8
+TEST(Verify, JointAnglesAreBounded) {
+  const double limit = kTable.segment[4].theta_limit_rad;
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_command_rad[9] = limit + 1e-4; }).execution, Refusal::kJointAngle);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_command_rad[9] = -limit; }).execution, Refusal::kNone);
+}
+
+// req:C11
+TEST(Verify, WhatTheControllerWouldNotDoIsRefused) {
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.faults.count = 1; }).execution, Refusal::kTwinFault);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.faults.dropped = 1; }).execution, Refusal::kTwinFault);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.limits = kLimitGate; }).execution, Refusal::kGate);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.active_sequence = 0; }).execution, Refusal::kNotAccepted);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.active_sequence = 0; }, 6).execution, Refusal::kNone)
+      << "after its expiry nothing need be in force";
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.limits = kLimitTipSpeed; }).execution, Refusal::kNone)
+      << "limits that act are no refusal";
+}
+
+// req:C11
+TEST(Verify, AFaultThatWouldBeLatchedIsNamedWithItsDrive) {
+  const Judged judged = judge([](cable::Outputs& o) {
+    o.faults.count = 1;
+    o.faults.fault[0] = {.number = FaultNumber::kTensionScatters, .index = 3};
+  });
+  EXPECT_EQ(judged.text, "the controller would latch fault 5007 tension_scatters, drive or bus 4");
+}
+
+// req:C11
+TEST(Verify, TensionAndCableSpeedStayWithinTheirLimits) {
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.tension_plan_N[7] = kTable.tension.ceiling_free_N + 0.1; }).execution,
+            Refusal::kTension);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.tension_plan_N[7] = kTable.tension.floor_motor_N - 0.1; }).execution,
+            Refusal::kTension);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.tension_plan_N[7] = kTable.tension.floor_motor_N; }).execution,
+            Refusal::kNone);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.tension_plan_N[20] = 0.0; }).execution, Refusal::kNone)
+      << "there is no cable 21";
+  const double most_m = kTable.limits.cable_speed_m_s * kTable.tick_s;
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.payout_command_m[0] = most_m; }).execution, Refusal::kNone);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.payout_command_m[0] = 1.3 * most_m; }).execution, Refusal::kCableSpeed);
+}
+
+TEST(Verify, NotANumberNeverPasses) {
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.tip_speed_m_s = std::nan(""); }).execution, Refusal::kNotFinite);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.theta_command_rad[0] = std::nan(""); }).execution, Refusal::kNotFinite);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.tension_plan_N[0] = HUGE_VAL; }).execution, Refusal::kNotFinite);
+}
+
+TEST(Verify, ARefusalNamesWhatWhereAndTheLimit) {
+  const std::string text = judge([](cable::Outputs& o) { o.theta_command_rad[9] = 1.0; }).text;
+  EXPECT_NE(text.find("theta 10 = "), std::string::npos) << text;
+  EXPECT_NE(text.find("allowed 20 deg"), std::string::npos) << text;
+}
+
+// req:C11
+TEST(Verify, AVerdictAfterTheIntervalBeganIsTooSlow) {
+  ReleaseStep<cable::CableArm> release;
+  const Candidate<cable::CableArm> candidate = release.candidate(cable::Setpoint{}, 1, 100, 5);
+  ExecutionVerdict verdict;
+  judge_time(candidate.first_tick(), 99, verdict);
+  EXPECT_TRUE(verdict.passed());
+  judge_time(candidate.first_tick(), 100, verdict);
+  EXPECT_EQ(verdict.code, Refusal::kTooSlow);
+}
+
+}  // namespace
+}  // namespace liana::verify

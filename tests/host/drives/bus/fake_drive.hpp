@@ -1,0 +1,53 @@
+// Drives as far as the boot sees them: NMT, heartbeat, an object dictionary behind an expedited SDO server. Written for
+// the tests alone.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "host/drives/bus/can_frame.hpp"
+#include "host/drives/canopen/drive_expectation.hpp"
+
+namespace liana::test {
+
+class FakeDrive {
+ public:
+  explicit FakeDrive(const canopen::DriveExpectation& is);
+
+  // What the drive answers.
+  std::vector<bus::CanFrame> receive(const bus::CanFrame& frame);
+  // The heartbeat, if the drive has been told to send one.
+  std::vector<bus::CanFrame> heartbeat() const;
+
+  // Object index << 8 | sub.
+  static constexpr std::uint32_t key(std::uint32_t index, std::uint32_t sub) { return index << 8 | sub; }
+  struct Object {
+    int bytes = 4;
+    std::uint32_t value = 0;
+  };
+  std::map<std::uint32_t, Object> objects;
+  std::map<std::uint32_t, std::uint32_t> aborts;  // objects that answer with this code
+  std::set<std::uint32_t> stubborn;               // objects that accept writes and ignore them
+  std::set<std::uint32_t> read_only;              // objects that refuse writes
+  std::vector<std::uint32_t> writes;              // in order
+  std::uint8_t node;
+  bool dead = false;            // says nothing at all
+  std::uint32_t deaf_from = 0;  // does not answer SDO for this object
+  int lost_answers = 0;         // so many SDO answers get lost
+  bool never_operational = false;
+  int restarts = 0;  // boots again at so many writes of 0x6060
+  std::uint8_t state = 0x7F;
+  int reset_ticks = 0;   // from a reset to the boot-up message; deaf meanwhile
+  int answer_ticks = 0;  // from an SDO request to its answer
+
+ private:
+  bus::CanFrame boot_up() const;
+  std::vector<bus::CanFrame> answer_sdo(const bus::CanFrame& request);
+};
+
+// An expectation with every field set.
+canopen::DriveExpectation expectation(int bus, std::uint8_t node);
+
+}  // namespace liana::test

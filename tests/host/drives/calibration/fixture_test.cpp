@@ -1,0 +1,93 @@
+#include "host/drives/calibration/fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "tests/host/model/config/tables.hpp"
+
+namespace liana::calibration {
+
+using namespace cable;
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+// The arm in its fixture; every drive reports its own cable.
+class Fixture : public ::testing::Test {
+ protected:
+  Fixture() {
+    robot_ = config::nominal_zhu2022();
+    tension_N_.fill(30.0);
+    reported_m_ = beyond_zero_m(robot_.table, named_pose_rad(robot_, "fixture"), tension_N_);
+  }
+  std::string said() const { return contradiction(robot_, "fixture", reported_m_, tension_N_); }
+  std::string refusal(const std::string& pose) const {
+    try {
+      check_tells_apart(robot_, pose);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  config::RobotConfig robot_;
+  CableVector tension_N_{}, reported_m_{};
+};
+
+TEST_F(Fixture, AnArmThatLiesInItContradictsNothing) { EXPECT_EQ(said(), ""); }
+
+TEST_F(Fixture, EveryPairOfExchangedCablesIsNamed) {
+  for (std::size_t a = 0; a < 15; ++a) {
+    for (std::size_t b = a + 1; b < 15; ++b) {
+      std::swap(reported_m_[a], reported_m_[b]);
+      EXPECT_NE(
+          said().find("drives " + std::to_string(a) + " and " + std::to_string(b) + " read what the other one should"),
+          std::string::npos)
+          << said();
+      std::swap(reported_m_[a], reported_m_[b]);
+    }
+  }
+}
+
+// Fixtures are never exact: 0.05 degrees at every angle alarm nobody, and hide no exchange.
+TEST_F(Fixture, APoseThatIsALittleOffAlarmsNobodyAndHidesNoPair) {
+  ThetaVector theta_rad = named_pose_rad(robot_, "fixture");
+  for (std::size_t i = 0; i < 10; ++i) theta_rad[i] += (i % 3 == 0 ? -0.05 : 0.05) * kDegree;
+  reported_m_ = beyond_zero_m(robot_.table, theta_rad, tension_N_);
+  EXPECT_EQ(said(), "");
+  for (std::size_t a = 0; a < 15; ++a) {
+    for (std::size_t b = a + 1; b < 15; ++b) {
+      std::swap(reported_m_[a], reported_m_[b]);
+      EXPECT_NE(said(), "") << a << " and " << b;
+      std::swap(reported_m_[a], reported_m_[b]);
+    }
+  }
+}
+
+TEST_F(Fixture, ACableThatIsOffByMoreThanTheToleranceIsNamedAndAccusesNoOther) {
+  reported_m_[6] += 0.9 * kFixtureTolerance_m;
+  EXPECT_EQ(said(), "");
+  reported_m_[6] += 0.2 * kFixtureTolerance_m;
+  EXPECT_NE(said().find("drive 6 (node 7) is off by +3.3 mm, allowed 3 mm"), std::string::npos) << said();
+  EXPECT_EQ(said().find("exchanged"), std::string::npos) << said();
+}
+
+TEST_F(Fixture, AnotherPoseIsRefusedWithTheFarthestThree) {
+  reported_m_ = beyond_zero_m(robot_.table, named_pose_rad(robot_, "prepare"), tension_N_);
+  const std::string text = said();
+  EXPECT_NE(text.find("does not lie in pose fixture"), std::string::npos) << text;
+  EXPECT_EQ(std::count(text.begin(), text.end(), '('), 3) << text;
+  EXPECT_NE(text.find(" and 12 more"), std::string::npos) << text;
+}
+
+TEST_F(Fixture, APoseInWhichAnExchangeWouldGoUnnoticedIsRefused) {
+  EXPECT_EQ(refusal("fixture"), "");
+  EXPECT_NE(refusal("zero").find("cables 0 and 1 are only 0.0 mm apart"), std::string::npos) << refusal("zero");
+  EXPECT_NE(refusal("prepare").find("cables 1 and 2 are only"), std::string::npos) << refusal("prepare");
+  EXPECT_NE(refusal("nowhere").find("allowed are the named poses of robot zhu2022"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace liana::calibration

@@ -1,0 +1,250 @@
+// The SDO client against scripted answers.
+#include "host/drives/canopen/sdo_client.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace liana::canopen {
+namespace {
+
+constexpr std::uint8_t kNode = 5;
+constexpr std::uint32_t kTimeoutTicks = 4;
+
+bus::CanFrame response(std::initializer_list<int> bytes) {
+  bus::CanFrame frame;
+  frame.id = 0x580 + kNode;
+  frame.length = 8;
+  std::size_t at = 0;
+  for (const int byte : bytes) frame.data[at++] = static_cast<std::uint8_t>(byte);
+  return frame;
+}
+
+// The request that is waiting; its data.
+std::vector<int> request_of(SdoClient& client) {
+  bus::CanFrame frame;
+  if (!client.take_request(frame)) return {};
+  EXPECT_EQ(frame.id, 0x600U + kNode);
+  EXPECT_EQ(frame.length, 8);
+  return {frame.data.begin(), frame.data.end()};
+}
+
+TEST(SdoClient, ReadsExpeditedValuesOfOneToFourBytes) {
+  const int commands[] = {0x4F, 0x4B, 0x47, 0x43};
+  const std::uint32_t values[] = {0x11, 0x2211, 0x332211, 0x44332211};
+  for (int bytes = 1; bytes <= 4; ++bytes) {
+    SdoClient client(kNode, kTimeoutTicks);
+    client.start_upload(0x1018, 2);
+    EXPECT_EQ(request_of(client), (std::vector<int>{0x40, 0x18, 0x10, 2, 0, 0, 0, 0}));
+    client.on_response(response({commands[bytes - 1], 0x18, 0x10, 2, 0x11, 0x22, 0x33, 0x44}));
+    EXPECT_EQ(client.status(), SdoStatus::kDone);
+    EXPECT_EQ(client.data().size(), static_cast<std::size_t>(bytes));
+    EXPECT_EQ(client.value(), values[bytes - 1]);
+  }
+}
+
+TEST(SdoClient, WritesExpeditedValuesOfOneToFourBytes) {
+  const int commands[] = {0x2F, 0x2B, 0x27, 0x23};
+  const std::uint8_t bytes[] = {1, 2, 3, 4};
+  for (std::size_t count = 1; count <= 4; ++count) {
+    SdoClient client(kNode, kTimeoutTicks);
+    client.start_download(0x6065, 0, {bytes, count});
+    std::vector<int> expected{commands[count - 1], 0x65, 0x60, 0, 0, 0, 0, 0};
+    std::copy_n(bytes, count, expected.begin() + 4);
+    EXPECT_EQ(request_of(client), expected);
+    client.on_response(response({0x60, 0x65, 0x60, 0}));
+    EXPECT_EQ(client.status(), SdoStatus::kDone);
+  }
+}
+
+TEST(SdoClient, ReadsASegmentedString) {
+  SdoClient client(kNode, kTimeoutTicks);
+  client.start_upload(0x1008, 0);
+  request_of(client);
+  client.on_response(response({0x41, 0x08, 0x10, 0, 10, 0, 0, 0}));
+  EXPECT_EQ(request_of(client), (std::vector<int>{0x60, 0, 0, 0, 0, 0, 0, 0}));
+  client.on_response(response({0x00, 'a', 'b', 'c', 'd', 'e', 'f', 'g'}));
+  EXPECT_EQ(request_of(client), (std::vector<int>{0x70, 0, 0, 0, 0, 0, 0, 0}));
+  client.on_response(response({0x10 | (4 << 1) | 1, 'h', 'i', 'j'}));
+  EXPECT_EQ(client.status(), SdoStatus::kDone);
+  EXPECT_EQ(std::string(client.data().begin(), client.data().end()), "abcdefghij");
+}
+
+TEST(SdoClient, WritesSegmentsOfSevenBytesAndMarksTheLast) {
+  std::vector<std::uint8_t> bytes(16);
+  std::iota(bytes.begin(), bytes.end(), std::uint8_t{1});
+  SdoClient client(kNode, kTimeoutTicks);
+  client.start_download(0x2000, 1, bytes);
+  EXPECT_EQ(request_of(client), (std::vector<int>{0x21, 0x00, 0x20, 1, 16, 0, 0, 0}));
+  client.on_response(response({0x60, 0x00, 0x20, 1}));
+  EXPECT_EQ(request_of(client), (std::vector<int>{0x00, 1, 2, 3, 4, 5, 6, 7}));
+  client.on_response(response({0x20}));
+  EXPECT_EQ(request_of(client), (std::vector<int>{0x10, 8, 9, 10, 11, 12, 13, 14}));
+  client.on_response(response({0x30}));
+  EXPECT_EQ(request_of(client), (std::vector<int>{0x00 | (5 << 1) | 1, 15, 16, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(client.status(), SdoStatus::kBusy);
+  client.on_response(response({0x20}));
+  EXPECT_EQ(client.status(), SdoStatus::kDone);
+}
+
+TEST(SdoClient, ReportsTheAbortCodeOfTheServer) {
+  SdoClient client(kNode, kTimeoutTicks);
+  client.start_upload(0x9999, 0);
+  request_of(client);
+  client.on_response(response({0x80, 0x99, 0x99, 0, 0x00, 0x00, 0x02, 0x06}));
+  EXPECT_EQ(client.status(), SdoStatus::kAborted);
+  EXPECT_EQ(client.abort_code(), kAbortNoObject);
+  EXPECT_STREQ(abort_text(client.abort_code()), "object does not exist");
+  EXPECT_STREQ(abort_text(0x12345678), "unknown abort code");
+}
+
+void pass(SdoClient& client, std::uint32_t ticks) {
+  for (std::uint32_t i = 0; i < ticks; ++i) client.tick();
+}
+
+TEST(SdoClient, GivesUpAfterItsTicksAndTellsTheServer) {
+  SdoClient client(kNode, kTimeoutTicks);
+  client.start_upload(0x1000, 0);
+  request_of(client);
+  pass(client, kTimeoutTicks - 1);
+  EXPECT_EQ(client.status(), SdoStatus::kBusy);
+  client.tick();
+  EXPECT_EQ(client.status(), SdoStatus::kTimeout);
+  client.start_upload(0x1000, 0);
+  EXPECT_EQ(request_of(client), (std::vector<int>{0x80, 0x00, 0x10, 0, 0x00, 0x00, 0x04, 0x05}))
+      << "the abort goes out even when the next transfer begins at once";
+  EXPECT_EQ(request_of(client)[0], 0x40);
+  EXPECT_TRUE(request_of(client).empty());
+}
+
+TEST(SdoClient, ARequestThatTheBusNeverTakesTimesOutToo) {
+  SdoClient client(kNode, kTimeoutTicks);
+  client.start_upload(0x1000, 0);
+  pass(client, kTimeoutTicks);
+  EXPECT_EQ(client.status(), SdoStatus::kTimeout);
+  EXPECT_TRUE(request_of(client).empty()) << "the server knows nothing of it: there is nothing to abort";
+}
+
+TEST(SdoClient, NoStrayKeepsATransferAliveBeyondItsTime) {
+  const std::initializer_list<int> strays[] = {
+      {0x43, 0x01, 0x10, 0, 1, 2, 3, 4},          // an answer to a read of another object
+      {0x80, 0x01, 0x10, 0, 0, 0, 2, 6},          // another object's abort
+      {0x60, 0x00, 0x10, 0},                      // a write of this object by somebody else
+      {0x00, 'a', 'b', 'c', 'd', 'e', 'f', 'g'},  // segments of another tool's transfer, both ways
+      {0x10, 0x00, 0x10, 0, 'd', 'e', 'f', 'g'},
+      {0x20, 0x00, 0x10, 0},
+      {0xC1, 0x00, 0x10, 0, 9, 9, 9, 9},  // block transfer
+  };
+  for (const auto& stray : strays) {
+    SdoClient client(kNode, kTimeoutTicks);
+    client.start_upload(0x1000, 0);
+    request_of(client);
+    for (std::uint32_t i = 1; i < kTimeoutTicks; ++i) {
+      client.on_response(response(stray));
+      client.tick();
+      ASSERT_EQ(client.status(), SdoStatus::kBusy) << "of command byte " << *stray.begin();
+    }
+    client.on_response(response(stray));
+    client.tick();
+    EXPECT_EQ(client.status(), SdoStatus::kTimeout) << "of command byte " << *stray.begin();
+  }
+}
+
+TEST(SdoClient, ASecondAnswerToAWriteIsNotTakenForThatOfItsReadBack) {
+  const std::uint8_t value[] = {7};
+  for (const int late : {0x60, 0x80}) {
+    SdoClient client(kNode, kTimeoutTicks);
+    client.start_download(0x6060, 0, value);
+    request_of(client);
+    pass(client, kTimeoutTicks);
+    client.start_download(0x6060, 0, value);
+    request_of(client);                                   // the abort
+    request_of(client);                                   // the write again
+    client.on_response(response({0x60, 0x60, 0x60, 0}));  // the first one's answer
+    ASSERT_EQ(client.status(), SdoStatus::kDone);
+    client.start_upload(0x6060, 0);
+    request_of(client);
+    client.on_response(response({late, 0x60, 0x60, 0, 0x22, 0, 0, 0x08}));  // the second one's
+    EXPECT_EQ(client.status(), SdoStatus::kBusy) << "of command byte " << late;
+    client.on_response(response({0x4F, 0x60, 0x60, 0, 7}));
+    EXPECT_EQ(client.status(), SdoStatus::kDone);
+    EXPECT_EQ(client.value(), 7U);
+  }
+}
+
+TEST(SdoClient, AnAbortIsTakenForALateOneOnlyAsOftenAsOneIsOwed) {
+  const std::uint8_t value[] = {7};
+  SdoClient client(kNode, kTimeoutTicks);
+  client.start_download(0x6060, 0, value);
+  request_of(client);
+  pass(client, kTimeoutTicks);
+  request_of(client);  // the abort
+  client.start_upload(0x6060, 0);
+  request_of(client);
+  client.on_response(response({0x80, 0x60, 0x60, 0, 0x01, 0x00, 0x01, 0x06}));
+  EXPECT_EQ(client.status(), SdoStatus::kBusy) << "the answer to the write that was given up";
+  client.on_response(response({0x80, 0x60, 0x60, 0, 0x01, 0x00, 0x01, 0x06}));
+  EXPECT_EQ(client.status(), SdoStatus::kAborted);
+}
+
+TEST(SdoClient, SegmentsWithoutDataDoNotGoOnForEver) {
+  SdoClient client(kNode, kTimeoutTicks);
+  client.start_upload(0x1008, 0);
+  request_of(client);
+  client.on_response(response({0x40, 0x08, 0x10, 0}));
+  request_of(client);
+  client.on_response(response({7 << 1}));
+  EXPECT_EQ(client.status(), SdoStatus::kAborted);
+  EXPECT_EQ(client.abort_code(), kAbortCommand);
+}
+
+TEST(SdoClient, AbortsWhenTheToggleBitDoesNotAlternate) {
+  SdoClient client(kNode, kTimeoutTicks);
+  client.start_upload(0x1008, 0);
+  request_of(client);
+  client.on_response(response({0x41, 0x08, 0x10, 0, 20, 0, 0, 0}));
+  request_of(client);
+  client.on_response(response({0x10, 'a', 'b', 'c', 'd', 'e', 'f', 'g'}));
+  EXPECT_EQ(client.status(), SdoStatus::kAborted);
+  EXPECT_EQ(client.abort_code(), kAbortToggle);
+  EXPECT_EQ(request_of(client)[0], 0x80);
+}
+
+TEST(SdoClient, RefusesObjectsLongerThanItsBufferBothWays) {
+  SdoClient client(kNode, kTimeoutTicks);
+  client.start_upload(0x1008, 0);
+  request_of(client);
+  client.on_response(response({0x41, 0x08, 0x10, 0, 65, 0, 0, 0}));
+  EXPECT_EQ(client.abort_code(), kAbortMemory);
+  client.start_upload(0x1008, 0);
+  EXPECT_EQ(request_of(client)[0], 0x80);
+  request_of(client);
+  client.on_response(response({0x40, 0x08, 0x10, 0}));  // size not announced
+  for (int i = 0; i < 10; ++i) {
+    request_of(client);
+    client.on_response(response({i % 2 == 0 ? 0x00 : 0x10, 1, 2, 3, 4, 5, 6, 7}));
+  }
+  EXPECT_EQ(client.status(), SdoStatus::kAborted);
+  EXPECT_EQ(client.abort_code(), kAbortMemory);
+  const std::vector<std::uint8_t> long_object(65);
+  client.start_download(0x2000, 0, long_object);
+  EXPECT_EQ(client.status(), SdoStatus::kAborted);
+}
+
+TEST(SdoClient, IgnoresAnswersToAnotherObjectAndAnswersNobodyAskedFor) {
+  SdoClient client(kNode, kTimeoutTicks);
+  client.on_response(response({0x43, 0x00, 0x10, 0, 1, 2, 3, 4}));
+  EXPECT_EQ(client.status(), SdoStatus::kIdle);
+  client.start_upload(0x1000, 0);
+  request_of(client);
+  client.on_response(response({0x43, 0x01, 0x10, 0, 1, 2, 3, 4}));
+  client.on_response(response({0x80, 0x01, 0x10, 0, 0, 0, 2, 6}));
+  EXPECT_EQ(client.status(), SdoStatus::kBusy);
+  client.on_response(response({0x43, 0x00, 0x10, 0, 1, 2, 3, 4}));
+  EXPECT_EQ(client.value(), 0x04030201U);
+}
+
+}  // namespace
+}  // namespace liana::canopen

@@ -1,0 +1,209 @@
+// Heartbeats both ways, emergencies, frame routing, and what is expected of the drives of a table.
+#include <gtest/gtest.h>
+
+#include "host/drives/canopen/cob_id.hpp"
+#include "host/drives/canopen/emergency.hpp"
+#include "host/drives/canopen/heartbeat.hpp"
+#include "host/drives/canopen/master.hpp"
+#include "tests/host/drives/bus/quiet_bus.hpp"
+
+namespace liana::canopen {
+namespace {
+
+// Keeps what is sent.
+class RecordingBus final : public test::QuietBus {
+ public:
+  RecordingBus() : QuietBus(2) {}
+  bus::SendResult send(int bus, const bus::CanFrame& frame) noexcept override {
+    sent.push_back({bus, frame});
+    return bus::SendResult::kOk;
+  }
+  std::vector<bus::ReceivedFrame> sent;
+};
+
+TEST(Heartbeat, TheMasterSendsOnEveryBusEvery100Milliseconds) {
+  RecordingBus bus;
+  HeartbeatProducer producer(100, 250);
+  std::vector<int> ticks;
+  for (int tick = 0; tick < 80; ++tick) {
+    const std::size_t before = bus.sent.size();
+    producer.step(bus);
+    if (bus.sent.size() == before) continue;
+    ASSERT_EQ(bus.sent.size(), before + 2);
+    EXPECT_EQ(bus.sent[before].bus, 0);
+    EXPECT_EQ(bus.sent[before + 1].bus, 1);
+    EXPECT_EQ(bus.sent[before].frame.id, 0x77FU);
+    EXPECT_EQ(bus.sent[before].frame.length, 1);
+    EXPECT_EQ(bus.sent[before].frame.data[0], 0x05);
+    ticks.push_back(tick);
+  }
+  EXPECT_EQ(ticks, (std::vector<int>{0, 25, 50, 75}));
+}
+
+TEST(Heartbeat, ADriveIsLostWhenItsLastHeartbeatIsOlderThanTheLimit) {
+  HeartbeatMonitor monitor(300, 250);
+  EXPECT_TRUE(monitor.lost(1)) << "never heard";
+  monitor.on_heartbeat(1, 0x05);
+  EXPECT_EQ(monitor.state(1), 0x05);
+  for (int tick = 0; tick < 75; ++tick) monitor.step();
+  EXPECT_EQ(monitor.age_ticks(1), 75U);
+  EXPECT_FALSE(monitor.lost(1));
+  monitor.step();
+  EXPECT_TRUE(monitor.lost(1));
+  monitor.on_heartbeat(1, 0x05);
+  EXPECT_FALSE(monitor.lost(1));
+  EXPECT_TRUE(monitor.lost(2));
+}
+
+TEST(Heartbeat, BootUpMessagesAreCountedSoThatARestartShows) {
+  HeartbeatMonitor monitor(300, 250);
+  monitor.on_heartbeat(4, 0x00);
+  monitor.on_heartbeat(4, 0x05);
+  monitor.on_heartbeat(4, 0x00);
+  EXPECT_EQ(monitor.boot_ups(4), 2U);
+  EXPECT_EQ(monitor.boot_ups(5), 0U);
+}
+
+bus::CanFrame emergency_frame(std::uint16_t code) {
+  return {0x083, 8, {static_cast<std::uint8_t>(code), static_cast<std::uint8_t>(code >> 8), 0x11, 1, 2, 3, 4, 5}, 0};
+}
+
+TEST(Emergencies, AreKeptInOrderWithCodeRegisterAndVendorBytes) {
+  EmergencyLog log;
+  log.on_frame(1, 3, emergency_frame(0x8130), 70);
+  log.on_frame(1, 3, emergency_frame(0x0000), 80);
+  Emergency emergency;
+  ASSERT_TRUE(log.take(emergency));
+  EXPECT_EQ(emergency.bus, 1);
+  EXPECT_EQ(emergency.node, 3);
+  EXPECT_EQ(emergency.code, 0x8130);
+  EXPECT_EQ(emergency.error_register, 0x11);
+  EXPECT_EQ(emergency.vendor, (std::array<std::uint8_t, 5>{1, 2, 3, 4, 5}));
+  EXPECT_EQ(emergency.tick, 70U);
+  ASSERT_TRUE(log.take(emergency));
+  EXPECT_EQ(emergency.code, 0);
+  EXPECT_FALSE(log.take(emergency));
+  EXPECT_EQ(log.last_code(3), 0);
+}
+
+TEST(Emergencies, TheOldestIsDroppedAndCountedWhenNobodyFetchesThem) {
+  EmergencyLog log;
+  for (std::uint16_t i = 0; i < 70; ++i) log.on_frame(0, 1, emergency_frame(i), i);
+  EXPECT_EQ(log.dropped(), 6U);
+  Emergency emergency;
+  ASSERT_TRUE(log.take(emergency));
+  EXPECT_EQ(emergency.tick, 6U);
+  EXPECT_EQ(log.last_code(1), 69);
+}
+
+TEST(Emergencies, HaveATextForTheCodeOrItsClass) {
+  EXPECT_STREQ(emergency_text(0x8130), "heartbeat of the master lost");
+  EXPECT_STREQ(emergency_text(0x8250), "RPDO deadline missed");
+  EXPECT_STREQ(emergency_text(0x3210), "voltage");
+  EXPECT_STREQ(emergency_text(0xFF01), "device specific");
+  EXPECT_STREQ(emergency_text(0), "no error");
+  EXPECT_STREQ(emergency_text(0xA000), "unknown");
+}
+
+TEST(Routing, EveryIdentifierOfThePredefinedSetFindsItsKindAndNode) {
+  const auto check = [](std::uint32_t id, FrameKind kind, int node) {
+    EXPECT_EQ(route(id).kind, kind) << std::hex << id;
+    EXPECT_EQ(route(id).node, node) << std::hex << id;
+  };
+  check(0x000, FrameKind::kNmt, 0);
+  check(0x080, FrameKind::kSync, 0);
+  check(0x08F, FrameKind::kEmergency, 15);
+  check(0x181, FrameKind::kTpdo1, 1);
+  check(0x20F, FrameKind::kRpdo1, 15);
+  check(0x582, FrameKind::kSdoResponse, 2);
+  check(0x602, FrameKind::kSdoRequest, 2);
+  check(0x77F, FrameKind::kHeartbeat, 127);
+  check(0x100, FrameKind::kOther, 0);
+  check(0x281, FrameKind::kOther, 0);
+  check(0x180, FrameKind::kOther, 0);
+  check(0x181 | bus::kCanExtendedFlag, FrameKind::kOther, 0);
+  check(0x181 | bus::kCanRemoteFlag, FrameKind::kOther, 0);
+}
+
+config::BusesConfig buses_at(double rate_hz) {
+  config::BusesConfig buses;
+  buses.name = "test";
+  buses.rate_hz = rate_hz;
+  buses.heartbeat_ms = 100;
+  buses.buses = {{"can0", 1000000, {1, 3}}, {"can1", 1000000, {2}}};
+  return buses;
+}
+
+config::RobotConfig robot_with_three_cables() {
+  config::RobotConfig robot;
+  robot.name = "test";
+  robot.table.segment_count = 1;
+  robot.table.segment[0].cables = 3;
+  robot.table.cable_EA_N = 1e5;
+  robot.table.tick_s = 0.004;
+  robot.table.limits.cable_speed_m_s = 0.01;
+  for (auto& drive : robot.table.drive) drive.metres_per_count = 1e-6;
+  robot.identity = {0x4C49, 1, 2};
+  robot.rated_torque_Nm = 9;
+  robot.counts_per_turn = 65536;
+  robot.gear = 4.5;
+  robot.drive_serials = {1001, 1002, 1003};
+  return robot;
+}
+
+TEST(Expectations, FollowFromRobotAndBusTable) {
+  const auto drives = drive_expectations(robot_with_three_cables(), buses_at(250));
+  ASSERT_EQ(drives.size(), 3U);
+  EXPECT_EQ(drives[1].node, 2);
+  EXPECT_EQ(drives[1].bus, 1);
+  EXPECT_EQ(drives[2].bus, 0);
+  EXPECT_EQ(drives[2].serial, 1003U);
+  config::RobotConfig unknown = robot_with_three_cables();
+  unknown.drive_serials.clear();
+  EXPECT_EQ(drive_expectations(unknown, buses_at(250))[2].serial, std::nullopt);
+  EXPECT_EQ(drives[0].rated_torque_mNm, 9000U);
+  EXPECT_EQ(drives[0].gear_motor_turns, 9U);
+  EXPECT_EQ(drives[0].gear_drum_turns, 2U);
+  EXPECT_EQ(drives[0].rpdo_deadline_ms, 12);
+  EXPECT_EQ(drives[0].master_timeout_ms, 300);
+  EXPECT_EQ(drives[0].following_window_counts, 5000U);
+  EXPECT_EQ(drives[0].period.value, 4);
+  EXPECT_EQ(drives[0].period.exponent, -3);
+  EXPECT_NEAR(drives[0].demand.counts_per_s, 10000, 1e-6);
+  EXPECT_EQ(drive_expectations(robot_with_three_cables(), buses_at(800))[0].rpdo_deadline_ms, 4)
+      << "3.75 ms, rounded up";
+}
+
+TEST(Expectations, ADriveOnNoBusIsNamed) {
+  config::BusesConfig buses = buses_at(250);
+  buses.buses.pop_back();
+  try {
+    drive_expectations(robot_with_three_cables(), buses);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("node 2"), std::string::npos);
+  }
+}
+
+TEST(Master, TakesItsOwnFramesAndLeavesProcessDataToTheCaller) {
+  Master master(drive_expectations(robot_with_three_cables(), buses_at(250)), buses_at(250));
+  EXPECT_TRUE(master.on_frame(0, bus::CanFrame{0x701, 1, {0x05}, 0}, 1));
+  EXPECT_TRUE(master.on_frame(0, bus::CanFrame{0x581, 8, {}, 0}, 1));
+  EXPECT_TRUE(master.on_frame(0, emergency_frame(0x8130), 1));
+  EXPECT_FALSE(master.on_frame(0, bus::CanFrame{0x181, 8, {}, 0}, 1));
+  EXPECT_EQ(master.heartbeats().state(1), 0x05);
+  EXPECT_EQ(master.emergencies().last_code(3), 0x8130);
+}
+
+TEST(Master, CommandsAllDrivesOfAllBuses) {
+  RecordingBus bus;
+  Master::command_all(bus, kNmtStop);
+  ASSERT_EQ(bus.sent.size(), 2U);
+  EXPECT_EQ(bus.sent[1].bus, 1);
+  EXPECT_EQ(bus.sent[1].frame.id, 0U);
+  EXPECT_EQ(bus.sent[1].frame.data[0], kNmtStop);
+  EXPECT_EQ(bus.sent[1].frame.data[1], 0);
+}
+
+}  // namespace
+}  // namespace liana::canopen

@@ -1,0 +1,100 @@
+#include "host/model/config/config.hpp"
+#include "tests/host/model/config/tables.hpp"
+
+namespace liana::config {
+namespace {
+
+TEST(Buses, KnowPeriodIntervalAndTheBusOfANode) {
+  const BusesConfig buses = parse_buses(good_table("buses", "embedded").dump(), "b");
+  EXPECT_EQ(buses.period_us(), 4000);
+  EXPECT_EQ(buses.interval_ticks(), 5);
+  EXPECT_EQ(buses.bus_of_node(8), 0);
+  EXPECT_EQ(buses.bus_of_node(9), 1);
+  EXPECT_EQ(buses.bus_of_node(16), -1);
+}
+
+// SYNC 55, RPDO 115, TPDO 135, heartbeat 65 bits at worst stuffing; 20 SDO pairs a second of 2 x 135 bits.
+TEST(Buses, WorstCaseLoadIsTheSumOfTheLongestFrames) {
+  const BusesConfig two = parse_buses(good_table("buses", "embedded").dump(), "b");
+  EXPECT_NEAR(worst_case_load(two, 0), ((55 + 8 * 250) * 250 + 9 * 65 * 10 + 5400) / 1e6, 1e-12);
+  const BusesConfig fast = parse_buses(good_table("buses", "embedded_500").dump(), "b");
+  EXPECT_EQ(fast.interval_ticks(), 10);
+  EXPECT_NEAR(worst_case_load(fast, 0), ((55 + 4 * 250) * 500 + 5 * 65 * 10 + 5400) / 1e6, 1e-12);
+  const BusesConfig one = parse_buses(good_table("buses", "embedded_single").dump(), "b");
+  EXPECT_NEAR(worst_case_load(one, 0), ((55 + 15 * 250) * 100 + 16 * 65 * 10 + 5400) / 1e6, 1e-12);
+}
+
+// A torque drive has 135 bits of RPDO, 135 and 95 of TPDOs; the wrist sensor 2 x 135 a tick, the adapter 135 and 75
+// every fourth.
+TEST(Buses, TorqueDrivesAndSensorsAreInTheWorstCaseLoad) {
+  const BusesConfig buses = parse_buses(good_table("buses", "embedded_payload").dump(), "b");
+  EXPECT_EQ(torque_drives(buses, 0), 4);
+  EXPECT_EQ(torque_drives(buses, 1), 3);
+  EXPECT_EQ(buses.buses[1].wrist_sensor, 0x20);
+  EXPECT_EQ(buses.buses[1].adapter, 0x30);
+  EXPECT_NEAR(worst_case_load(buses, 0), ((55 + 4 * 365) * 250 + 5 * 65 * 10 + 5400) / 1e6, 1e-12);  // 38.7 %
+  EXPECT_NEAR(worst_case_load(buses, 1), ((55 + 3 * 365 + 270 + 52.5) * 250 + 6 * 65 * 10 + 5400) / 1e6, 1e-12);
+  EXPECT_NEAR(worst_case_load(buses, 1), 0.377, 0.001);
+}
+
+TEST(Buses, ASensorHasANodeOfItsOwnAndThereIsOneOfEach) {
+  const Json good = good_table("buses", "embedded_payload");
+  const auto parse = [](const std::string& text) { parse_buses(text, "given.json"); };
+  expect_refused(good, {"/buses/1/wrist_sensor", 5, "buses[2].wrist_sensor", "already on bus can1"}, parse);
+  expect_refused(good, {"/buses/1/adapter", 32, "buses[2].adapter", "already on bus can1"}, parse);
+  expect_refused(good, {"/buses/1/adapter", 127, "buses[2].adapter", "1 to 126"}, parse);
+  expect_refused(good, {"/buses/0/adapter", 50, "buses", "one wrist_sensor and one adapter"}, parse);
+}
+
+TEST(Buses, PeriodIsWhatObject60C2Holds) {
+  const auto expect = [](std::int32_t period_us, int value, int exponent) {
+    const InterpolationPeriod period = interpolation_period(period_us);
+    EXPECT_EQ(period.value, value) << period_us;
+    if (value != 0) {
+      EXPECT_EQ(period.exponent, exponent) << period_us;
+    }
+  };
+  expect(4000, 4, -3);
+  expect(10000, 1, -2);
+  expect(2000, 2, -3);
+  expect(2500, 25, -4);
+  expect(6667, 0, 0);  // 150 Hz
+}
+
+TEST(Buses, MaySayWhatMachineThereIs) {
+  Json table = good_table("buses", "embedded");
+  EXPECT_EQ(parse_buses(table.dump(), "b").machine.mips, 500.0);
+  table["machine"] = {{"mips", 1200}, {"tick_share", 0.5}};
+  EXPECT_EQ(parse_buses(table.dump(), "b").machine.mips, 1200.0);
+  EXPECT_EQ(parse_buses(table.dump(), "b").machine.tick_share, 0.5);
+  table["machine"] = {{"mips", 0}, {"tick_share", 0.5}};
+  EXPECT_THROW(parse_buses(table.dump(), "b"), std::runtime_error);
+}
+
+TEST(Buses, AreRefusedWithFileFieldValueRangeAndAdvice) {
+  const Json good = good_table("buses", "embedded");
+  const std::vector<Spoiled> cases = {{"/kind", "bus", "kind", "allowed buses"},
+                                      {"/backend", "serial", "backend", "embedded, socketcan"},
+                                      {"/rate_hz", 150, "rate_hz", "60C2"},
+                                      {"/rate_hz", 5000, "rate_hz", "10 to 1000"},
+                                      {"/rate_hz", 500, "buses[1].nodes", "use more buses"},
+                                      {"/command_interval_s", 0.018, "command_interval_s", "whole multiples"},
+                                      {"/command_interval_s", 0.001, "command_interval_s", "whole multiples"},
+                                      {"/buses", Json::array(), "buses", "1 to 8 entries"},
+                                      {"/buses/0/bitrate", 2000000, "buses[1].bitrate", "10000 to 1000000"},
+                                      {"/buses/0/bitrate", 250000, "buses[1].nodes", "worst-case load"},
+                                      {"/buses/0/name", "a-very-long-interface", "buses[1].name", "1 to 11 letters"},
+                                      {"/buses/0/nodes/0", 127, "buses[1].nodes[1]", "1 to 126"},
+                                      {"/buses/1/nodes/0", 8, "buses[2].nodes[1]", "already on bus can0"},
+                                      {"/buses/0/nodes/1", 1, "buses[1].nodes[2]", "each node id once"},
+                                      {"/buses/0/nodes", nullptr, "buses[1].nodes", "missing"},
+                                      {"/heartbeat_ms", 5, "heartbeat_ms", "10 to 1000"},
+                                      {"/max_load", 1.2, "max_load", "up to 0.9"},
+                                      {"/extra", 1, "extra", "no such field"}};
+  for (const Spoiled& spoiled : cases) {
+    expect_refused(good, spoiled, [](const std::string& text) { parse_buses(text, "given.json"); });
+  }
+}
+
+}  // namespace
+}  // namespace liana::config

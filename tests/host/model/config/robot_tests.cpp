@@ -1,0 +1,146 @@
+#include <cmath>
+#include <functional>
+
+#include "host/model/config/config.hpp"
+#include "host/model/config/serial_robot.hpp"
+#include "tests/host/model/config/tables.hpp"
+
+namespace liana::config {
+namespace {
+
+BusesConfig buses() { return parse_buses(good_table("buses", "embedded").dump(), "b"); }
+
+// Mission, A1 and A9.
+// req:A2 req:A5
+TEST(Robot, BecomesTheTableTheCoreReads) {
+  const RobotConfig robot = parse_robot(good_table("robot", "zhu2022").dump(), "r", "nominal", buses());
+  EXPECT_EQ(robot.table.theta_count(), 10);
+  EXPECT_EQ(robot.table.cable_count(), 15);
+  EXPECT_DOUBLE_EQ(robot.table.segment[4].theta_limit_rad, 20 * kDeg);
+  EXPECT_DOUBLE_EQ(robot.table.segment[1].cable_phase_rad[2], 264 * kDeg);
+  EXPECT_DOUBLE_EQ(robot.table.drive[1].metres_per_count, 2 * 3.14159265358979323846 * 0.015 / 65536);
+  EXPECT_EQ(robot.table.drive[1].direction, -1);
+  EXPECT_DOUBLE_EQ(robot.table.drive[0].newtons_per_permille, 0.6);
+  EXPECT_DOUBLE_EQ(robot.table.tick_s, 0.004);
+  EXPECT_EQ(robot.table.interval_ticks, 5);
+  EXPECT_EQ(robot.identity.vendor, 0x4C49u);
+  EXPECT_EQ(robot.named_poses_deg.at("prepare")[0], -8.5);
+}
+
+TEST(Robot, PhysicsNameChoosesTheFrictionTheCoreIsTold) {
+  const std::string text = good_table("robot", "zhu2022").dump();
+  EXPECT_EQ(parse_robot(text, "r", "nominal", buses()).table.friction_mu, 0.05);
+  EXPECT_EQ(parse_robot(text, "r", "ideal", buses()).table.friction_mu, 0.0);
+  EXPECT_EQ(parse_robot(text, "r", "worn", buses()).table.friction_mu, 0.10);
+  EXPECT_THROW(parse_robot(text, "r", "rusty", buses()), std::runtime_error);
+}
+
+TEST(Robot, IsRefusedWithFileFieldValueRangeAndAdvice) {
+  const Json good = good_table("robot", "zhu2022");
+  const auto nine = Json(std::vector<Json>(9, good["segments"][0]));
+  const std::vector<Spoiled> cases = {
+      {"/format", 2, "format", "1 to 1"},
+      {"/kind", "scene", "kind", "allowed robot"},
+      {"/name", "a b", "name", "choose another name"},
+      {"/colour", "red", "colour", "no such field"},
+      {"/module/radius_m", -0.03, "module.radius_m", "0.001 to 0.5"},
+      {"/module/mass_kg", 1e-300, "module.mass_kg", "0.001 to 100"},
+      {"/segments", nine, "segments", "kMaxSegments"},  // compiled capacity, by name
+      {"/segments/0/modules", 17, "segments[1].modules", "1 to 16"},
+      {"/segments/2/module_length_m", "long", "segments[3].module_length_m", "a number"},
+      {"/segments/2/modules", 2.5, "segments[3].modules", "whole numbers"},
+      {"/segments/4/theta_limit_deg", nullptr, "segments[5].theta_limit_deg", "add the field"},
+      {"/cables/phase_deg/0", {0, 10, 20}, "cables.phase_deg[1]", "they can only pull"},
+      {"/cables/phase_deg/0", {0, 120}, "cables.phase_deg[1]", "3 or 4 cables"},
+      {"/cables/phase_deg/0", {0, 72, 144, 216, 288}, "cables.phase_deg[1]", "3 to 4 entries"},
+      {"/cables/hole_radius_m", 0.04, "cables.hole_radius_m", "0.001 to 0.03"},
+      {"/cables/face_offset_m", 0.05, "cables.face_offset_m", "1e-04 to 0.049"},
+      {"/cables/friction_mu/worn", 0.9, "cables.friction_mu.worn", "0 to 0.5"},
+      {"/cables/EA_N", true, "cables.EA_N", "a number"},
+      {"/tension/floor_motor_N", 50, "tension.plan_N", "over 50"},
+      {"/tension/hard_limit_N", 300, "tension.hard_limit_N", "over 400"},
+      {"/drives/rated_torque_Nm", 8, "drives.rated_torque_Nm", "at least 9"},
+      {"/drives/direction/3", 0, "drives.direction[4]", "1 or -1"},
+      {"/drives/zero_counts", {1, 2, 3}, "drives.zero_counts", "one entry per cable"},
+      {"/drives/serials", {1, 2, 3}, "drives.serials", "one entry per drive"},
+      {"/drives/serials", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 2}, "drives.serials[15]", "no other drive"},
+      {"/drives/serials", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 0}, "drives.serials[15]", "1 to"},
+      {"/drives/identity/vendor", -1, "drives.identity.vendor", "0 to 4294967295"},
+      {"/limits/tip_speed_slit_m_s", 0.2, "limits.tip_speed_slit_m_s", "1e-04 to 0.1"},
+      {"/limits/tip_lag_s", 0.2, "limits.tip_lag_s", "0.25 to 5: raise tip_accel_m_s2 and tip_jerk_m_s3"},
+      {"/limits/tip_lag_s", -1, "limits.tip_lag_s", "over 0, up to 5"},
+      {"/limits/tip_angular_accel_deg_s2", 20, "limits.tip_lag_s", "0.51 to 5: raise tip_angular_accel_deg_s2"},
+      {"/limits/theta_rate_deg_s", 0, "limits.theta_rate_deg_s", "0.001 to 90"},
+      {"/limits/theta_accel_deg_s2", 1e-12, "limits.theta_accel_deg_s2", "0.001 to 1000"},
+      {"/drives/gear", 1e-9, "drives.gear", "0.01 to 1000"},
+      {"/drives/drum_radius_m", 1e-9, "drives.drum_radius_m", "0.001 to 0.5"},
+      {"/named_poses_deg/zero", nullptr, "named_poses_deg.zero", "missing"},
+      {"/named_poses_deg/prepare/3", 20.5, "named_poses_deg.prepare[4]", "-20 to 20"},
+      {"/named_poses_deg/prepare", {0, 0}, "named_poses_deg.prepare", "10 entries"}};
+  for (const Spoiled& spoiled : cases) {
+    expect_refused(good, spoiled, [](const std::string& text) { parse_robot(text, "given.json", "nominal", buses()); });
+  }
+}
+
+TEST(Robot, ATableThatSaysNothingOfTheTipsLagHasThatOfSpeedAndAcceleration) {
+  Json table = good_table("robot", "zhu2022");
+  EXPECT_EQ(parse_robot(table.dump(), "r", "nominal", buses()).table.limits.tip_lag_s, 0.25);
+  table["limits"].erase("tip_lag_s");
+  EXPECT_EQ(parse_robot(table.dump(), "r", "nominal", buses()).table.limits.tip_lag_s, 0.0);
+}
+
+TEST(Robot, NeedsEveryDriveOnABusAndNoOther) {
+  Json table = good_table("buses", "embedded");
+  table["buses"][1]["nodes"] = {9, 10, 11, 12, 13, 14};
+  const std::string robot = good_table("robot", "zhu2022").dump();
+  EXPECT_THROW(parse_robot(robot, "r", "nominal", parse_buses(table.dump(), "b")), std::runtime_error);
+  table["buses"][1]["nodes"] = {9, 10, 11, 12, 13, 14, 15, 16};
+  EXPECT_THROW(parse_robot(robot, "r", "nominal", parse_buses(table.dump(), "b")), std::runtime_error);
+}
+
+// Of every table the same reader; its entries count from 1, as in Lua.
+TEST(Robot, ANumberThatNoDoubleHoldsIsRefusedWithFileFieldAndItself) {
+  struct Row {
+    const char* kind;
+    const char* name;
+    std::string field;
+    std::function<void(const std::string&)> read;
+  };
+  const Row rows[] = {
+      {"robot", "zhu2022", "limits", [](const std::string& text) { parse_robot(text, "f", "nominal", buses()); }},
+      {"robot", "micro", "named_poses_deg", [](const std::string& text) { parse_serial_robot(text, "f"); }},
+      {"scene", "panel_slit", "slit", [](const std::string& text) { parse_scene(text, "f"); }},
+      {"buses", "embedded", "buses", [](const std::string& text) { parse_buses(text, "f"); }},
+  };
+  for (const Row& row : rows) {
+    for (const std::string number : {"1e400", "-1e400"}) {
+      Json table = good_table(row.kind, row.name);
+      table[row.field] = {{"a", {0, "HERE"}}};
+      std::string text = table.dump();
+      text.replace(text.find("\"HERE\""), 6, number);
+      try {
+        row.read(text);
+        ADD_FAILURE() << row.name << " was accepted";
+      } catch (const std::runtime_error& error) {
+        EXPECT_EQ(error.what(),
+                  "f: " + row.field + ".a[2]: " + number + ": allowed -1.797e308 to 1.797e308: correct the number");
+      }
+    }
+  }
+}
+
+TEST(Robot, TextThatIsNoJsonIsRefusedWithItsFile) {
+  try {
+    parse_robot("{", "given.json", "nominal", buses());
+    FAIL() << "accepted";
+  } catch (const std::runtime_error& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("given.json: not JSON"));
+  }
+}
+
+TEST(Robot, AMissingFileIsNamed) {
+  EXPECT_THROW(load_robot("/nonexistent/robot.json", "nominal", buses()), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace liana::config

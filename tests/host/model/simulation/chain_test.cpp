@@ -1,0 +1,112 @@
+// The simulation's kinematics, inertia and cables, held against the core's closed forms and the bench's physics, with
+// neither of which they share anything.
+#include "host/model/simulation/chain.hpp"
+
+#include <gtest/gtest.h>
+
+#include "firmware_like/cable/arm/cables.hpp"
+#include "hil/arm/cable_geometry.hpp"
+#include "hil/arm/chain.hpp"
+#include "host/model/config/config.hpp"
+#include "host/model/simulation/cable_paths.hpp"
+#include "tests/host/model/simulation/simulated_arm.hpp"
+
+namespace liana::simulate {
+namespace {
+
+using zhu2022::Random;
+
+const std::vector<RobotTable>& tables() {
+  static const std::vector<RobotTable> both = {zhu2022::table(), zhu2022::uneven_table()};
+  return both;
+}
+
+// req:A35
+TEST(Chain, LinksAreWhereTheCoresClosedFormHasThem) {
+  Random random(1);
+  for (const RobotTable& table : tables()) {
+    for (int i = 0; i < 50; ++i) {
+      const ThetaVector theta_rad = random.theta(table, 20.0);
+      Chain chain;
+      place(model_of(table), theta_rad, chain);
+      const LinkPoints core = link_points(table, theta_rad);
+      ASSERT_EQ(chain.links + 1, core.count);
+      for (std::size_t k = 0; k < static_cast<std::size_t>(core.count); ++k)
+        EXPECT_LT((chain.point_m[k] - algebra::view(core.point_in_base[k])).norm(), 1e-12) << "point " << k;
+    }
+  }
+}
+
+// req:A4
+TEST(Chain, TheReducedMassMatrixIsThatOfEightyHinges) {
+  const auto robot = bench::load_robot(CLOSED_LOOP_DATA "/robot.json");
+  bench::Chain hinges(robot, bench::load_scene(CLOSED_LOOP_DATA "/scene.json"));
+  Random random(2);
+  for (int i = 0; i < 10; ++i) {
+    const ThetaVector theta_rad = random.theta(zhu2022::table(), 20.0);
+    Chain chain;
+    place(zhu2022_model(), theta_rad, chain);
+    const algebra::ThetaMatrix mass = mass_matrix(zhu2022_model(), chain);
+    bench::Theta at{};
+    std::copy_n(theta_rad.begin(), at.size(), at.begin());
+    bench::ThetaMatrix reference{};
+    hinges.place(at);
+    hinges.inertia(reference);
+    for (std::size_t a = 0; a < zhu2022::kThetas; ++a) {
+      for (std::size_t b = 0; b < zhu2022::kThetas; ++b)
+        EXPECT_NEAR(mass(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)), reference[a][b],
+                    1e-6 * mass(0, 0));
+    }
+  }
+}
+
+TEST(CablePaths, LengthsChangeWithTheAnglesAsTheCoreSays) {
+  Random random(3);
+  for (const RobotTable& table : tables()) {
+    const CableLayout layout = cable_layout(table);
+    for (int i = 0; i < 50; ++i) {
+      const ThetaVector theta_rad = random.theta(table, 20.0);
+      const CablePaths paths = cable_paths(model_of(table), theta_rad);
+      const CableGeometry core = cable_geometry(table, layout, arm_trig(table, theta_rad));
+      for (std::size_t c = 0; c < static_cast<std::size_t>(table.cable_count()); ++c) {
+        const auto row = static_cast<Eigen::Index>(c);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(table.theta_count()); ++k)
+          EXPECT_NEAR(paths.jacobian_m_rad(row, static_cast<Eigen::Index>(k)), core.jacobian_m_rad[c][k], 1e-12);
+        EXPECT_NEAR(paths.stiffness_N_per_m[row], table.cable_EA_N / (core.length_m[c] + table.lead_m), 1e-3);
+      }
+    }
+  }
+}
+
+TEST(CablePaths, WrapRoundTheHolesAsTheBenchsDo) {
+  const auto robot = bench::load_robot(CLOSED_LOOP_DATA "/robot.json");
+  bench::CablePaths reference(robot, robot.hole_radius_m);
+  Random random(5);
+  for (int i = 0; i < 20; ++i) {
+    const ThetaVector theta_rad = random.theta(zhu2022::table(), 20.0);
+    const CablePaths paths = cable_paths(zhu2022_model(), theta_rad);
+    bench::Theta at{};
+    std::copy_n(theta_rad.begin(), at.size(), at.begin());
+    reference.update(at);
+    for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
+      double wrap_rad = 0.0;
+      for (std::size_t m = 0; m <= reference.last_segment(c); ++m) wrap_rad += reference.path(c, m).wrap_rad;
+      EXPECT_NEAR(paths.wrap_rad[static_cast<Eigen::Index>(c)], wrap_rad, 1e-6);
+    }
+  }
+}
+
+TEST(CablePaths, BalancedTensionsHoldTheArmStillAndStayTaut) {
+  Random random(4);
+  for (int i = 0; i < 100; ++i) {
+    const CablePaths paths = cable_paths(zhu2022_model(), random.theta(zhu2022::table(), 20.0));
+    const CableColumn tension_N = balanced_tensions(paths, CableColumn::Constant(15, 40.0), 20.0);
+    const algebra::ThetaColumn torque_Nm = paths.jacobian_m_rad.transpose() * tension_N;
+    EXPECT_LT(torque_Nm.cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_GE(tension_N.minCoeff(), 19.9);
+    EXPECT_LE(tension_N.maxCoeff(), 150.0);
+  }
+}
+
+}  // namespace
+}  // namespace liana::simulate

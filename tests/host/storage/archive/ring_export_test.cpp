@@ -1,0 +1,87 @@
+// Any window that is cut out of the ring is a recording that replays bit by bit, also where its Outputs are gone
+// (req:A25).
+#include <filesystem>
+
+#include "host/storage/archive/export.hpp"
+#include "host/storage/archive/ledger.hpp"
+#include "host/storage/archive/ring.hpp"
+#include "host/storage/recording/replay.hpp"
+#include "tests/host/storage/archive/archive_folder.hpp"
+#include "tests/host/storage/archive/ring_ticks.hpp"
+
+namespace liana::archive {
+namespace {
+
+constexpr std::uint64_t kGapBegins = 20000, kGapEnds = 20050;
+
+// 100 s of ticks, images every 4 s of which the ring keeps every fifth, Outputs of the last 6 s, a gap of 50 ticks.
+class RingExport : public ArchiveFolder {
+ protected:
+  RingExport() {
+    Ledger ledger(folder_);
+    ledger.begin(life());
+    ledger.finish();
+    Ring ring(folder_, 1, life(), limits(), [](const Gap&) {});
+    for (ring.take(ticks_.start()); ticks_.next_tick() < 100 * kSecond;) {
+      if (ticks_.next_tick() % 1000 == 0) ring.take(ticks_.image());
+      const std::uint64_t tick = ticks_.next_tick();
+      const std::string packet = ticks_.next();
+      if (tick < kGapBegins || tick >= kGapEnds) ring.take(packet);
+    }
+    ring.finish();
+  }
+  static RingLimits limits() {
+    return {.inputs_file_s = 30.0, .outputs_file_s = 2.0, .image_s = 20.0, .full_s = 6.0, .leave_bytes = 0};
+  }
+  TicksWritten cut(Span span) const { return write_ticks(Reader(folder_), span, cut_); }
+
+  const std::string cut_ = folder_ + "/cut";
+  RingTicks ticks_;
+};
+
+TEST_F(RingExport, AMinuteAgoOutputsAreMadeAgainAndReplayFindsNoTickThatDiffers) {
+  const TicksWritten written = cut({12345, 15432});
+  EXPECT_EQ(written.ticks, 15432u - 12345u + 1);
+  EXPECT_EQ(written.made_again, written.ticks);
+  EXPECT_EQ(written.left_out + written.differing, 0u);
+  const record::ReplayResult replayed = record::replay(cut_);
+  EXPECT_EQ(replayed.ticks, written.ticks);
+  EXPECT_EQ(replayed.differing_ticks, 0u);
+  EXPECT_EQ(replayed.missing_ticks, 0u);
+  EXPECT_TRUE(replayed.complete);
+}
+
+TEST_F(RingExport, TheNewestTicksHaveTheirOwnOutputsAndReplayLikewise) {
+  const TicksWritten written = cut({98 * kSecond, kAll.last});
+  EXPECT_EQ(written.ticks, 2 * kSecond);
+  EXPECT_EQ(written.made_again, 0u);
+  const record::ReplayResult replayed = record::replay(cut_);
+  EXPECT_EQ(replayed.ticks, written.ticks);
+  EXPECT_EQ(replayed.differing_ticks + replayed.missing_ticks, 0u);
+}
+
+TEST_F(RingExport, TheBeginOfTheRunReplaysFromTheStart) {
+  EXPECT_EQ(cut({0, 2000}).ticks, 2001u - 40u);
+  const record::ReplayResult replayed = record::replay(cut_);
+  EXPECT_EQ(replayed.ticks, 2001u - 40u);
+  EXPECT_EQ(replayed.differing_ticks, 0u);
+}
+
+TEST_F(RingExport, AfterAGapItGoesOnAtTheNextImageAndSaysWhatIsLeftOut) {
+  const TicksWritten written = cut({19000, 22000});
+  EXPECT_EQ(written.left_out, 21000u - kGapEnds);
+  EXPECT_EQ(written.ticks, kGapBegins - 19000 + 22001 - 21000);
+  const record::ReplayResult replayed = record::replay(cut_);
+  EXPECT_EQ(replayed.ticks, written.ticks);
+  EXPECT_EQ(replayed.differing_ticks + replayed.missing_ticks, 0u);
+}
+
+TEST_F(RingExport, WhatIsNotThereOrWouldBeOverwrittenIsRefused) {
+  EXPECT_THROW(cut({200 * kSecond, 201 * kSecond}), std::runtime_error);
+  EXPECT_FALSE(std::filesystem::exists(cut_));
+  cut({1000, 1100});
+  EXPECT_THROW(cut({1000, 1100}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace liana::archive
