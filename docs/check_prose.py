@@ -49,7 +49,7 @@ def sentences(text):
         plain = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", paragraph)
         plain = re.sub(r"`[^`]*`", "code", plain)
         plain = re.sub(r"\b(e\.g|i\.e|Fig|eq|no|vs|approx)\.", r"\1", plain)
-        for sentence in re.split(r"(?<=[.!?:;])[\"')*_]*\s+", plain):
+        for sentence in re.split(r"(?<=[.!?])[\"')*_]*\s+", plain):
             if words_of(sentence):
                 yield sentence
 
