@@ -29,7 +29,7 @@ TEST(Scene, APayloadAndItsAdapterAreBothThereOrNeither) {
       parse_scene(scene.dump(), "s");
       FAIL() << "without " << lacks;
     } catch (const std::runtime_error& error) {
-      EXPECT_NE(std::string(error.what()).find("both or neither: add " + lacks), std::string::npos) << error.what();
+      EXPECT_TRUE(names(error.what(), {"payload", "adapter", "add " + lacks}));
     }
   }
 }
@@ -111,17 +111,19 @@ TEST(Scene, HasFixturesOfThreeKinds) {
 TEST(Scene, RefusesFixturesByFileFieldValueAndRange) {
   const Json good = Json::parse(kFixtures);
   for (const Spoiled& spoiled :
-       {Spoiled{"/fixtures/0/kind", "wall", "fixtures[1].kind", ""},
-        Spoiled{"/fixtures/0/depth_m", 0, "fixtures[1].depth_m", "over 0, up to 100"},
-        Spoiled{"/fixtures/1/half_gap_m", -1, "fixtures[2].half_gap_m", "over 0, up to 10"},
-        Spoiled{"/fixtures/1/half_gap_m", nullptr, "fixtures[2].half_gap_m", ""},
-        Spoiled{"/fixtures/0/yaw_deg", Json::parse("[5,-5]"), "fixtures[1].yaw_deg", "the lower angle first"},
-        Spoiled{"/fixtures/1/yaw_deg", Json::parse("[-5,5]"), "fixtures[2].yaw_deg", ""},
-        Spoiled{"/fixtures/2/radius_m", nullptr, "fixtures[3].radius_m", ""},
-        Spoiled{"/fixtures/2/opening_deg", 81, "fixtures[3].opening_deg", "0 to 80"},
-        Spoiled{"/fixtures/2/name", "middle", "fixtures[3].name", "rename one of the two"},
-        Spoiled{"/fixtures/0/frame/quaternion_wxyz", Json::parse("[1,1,0,0]"), "fixtures[1].frame.quaternion_wxyz",
-                "unit length"}}) {
+       {Spoiled{"/fixtures/0/kind", "wall", "fixtures[1].kind", {}},
+        Spoiled{"/fixtures/0/depth_m", 0, "fixtures[1].depth_m", {"0", "100"}},
+        Spoiled{"/fixtures/1/half_gap_m", -1, "fixtures[2].half_gap_m", {"0", "10"}},
+        Spoiled{"/fixtures/1/half_gap_m", nullptr, "fixtures[2].half_gap_m", {}},
+        Spoiled{"/fixtures/0/yaw_deg", Json::parse("[5,-5]"), "fixtures[1].yaw_deg", {"5", "-5"}},
+        Spoiled{"/fixtures/1/yaw_deg", Json::parse("[-5,5]"), "fixtures[2].yaw_deg", {}},
+        Spoiled{"/fixtures/2/radius_m", nullptr, "fixtures[3].radius_m", {}},
+        Spoiled{"/fixtures/2/opening_deg", 81, "fixtures[3].opening_deg", {"0", "80"}},
+        Spoiled{"/fixtures/2/name", "middle", "fixtures[3].name", {"middle"}},
+        Spoiled{"/fixtures/0/frame/quaternion_wxyz",
+                Json::parse("[1,1,0,0]"),
+                "fixtures[1].frame.quaternion_wxyz",
+                {"length"}}}) {
     expect_refused(good, spoiled, [](const std::string& text) { parse_scene(text, "given.json"); });
   }
 }
@@ -159,27 +161,25 @@ TEST(Scene, TwoBodiesOfOneNameAreRefusedAndThePiecesOfAChainAreOne) {
     parse_scene(table.dump(), "s");
     FAIL() << "was taken";
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("convex[2].name: \"tank\": allowed a name that no other body"),
-              std::string::npos)
-        << error.what();
+    EXPECT_TRUE(names(error.what(), {"s", "convex[2].name", "tank"}));
   }
 }
 
 TEST(Scene, ConvexBodiesAreRefusedWithFieldValueRangeAndAdvice) {
   const Json flat = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
   const std::vector<Spoiled> cases = {
-      {"/convex", 5, "convex", "a list"},
-      {"/convex/0/name", nullptr, "convex[1].name", "missing"},
-      {"/convex/0/points_m", {{0, 0, 0}, {1, 0, 0}}, "convex[1].points_m", "4 to 256"},
-      {"/convex/0/points_m", flat, "convex[1].points_m", "one plane"},
-      {"/convex/0/points_m/2", {0, 1}, "convex[1].points_m[3]", "exactly 3 numbers"},
-      {"/convex/0/points_m", nullptr, "convex[1].name", "one of points_m, cylinder, chain"},
-      {"/convex/0/chain", {1}, "convex[1].name", "one of points_m, cylinder, chain"},
-      {"/convex/1/cylinder/to_m", {1, 0, 0}, "convex[2].cylinder.to_m", "another point"},
-      {"/convex/1/cylinder/radius_m", 0, "convex[2].cylinder.radius_m", "1e-04 to 100"},
-      {"/convex/2/chain/points_m", {{0, 0, 0}}, "convex[3].chain.points_m", "2 to 64"},
-      {"/convex/2/chain/length", 1, "convex[3].chain.length", "no such field"},
-      {"/convex/2/stl", "a.stl", "convex[3].stl", "no such field"}};
+      {"/convex", 5, "convex", {"list"}},
+      {"/convex/0/name", nullptr, "convex[1].name", {}},
+      {"/convex/0/points_m", {{0, 0, 0}, {1, 0, 0}}, "convex[1].points_m", {"4", "256"}},
+      {"/convex/0/points_m", flat, "convex[1].points_m", {"plane"}},
+      {"/convex/0/points_m/2", {0, 1}, "convex[1].points_m[3]", {"3"}},
+      {"/convex/0/points_m", nullptr, "convex[1].name", {"points_m", "cylinder", "chain"}},
+      {"/convex/0/chain", {1}, "convex[1].name", {"points_m", "cylinder", "chain"}},
+      {"/convex/1/cylinder/to_m", {1, 0, 0}, "convex[2].cylinder.to_m", {"point"}},
+      {"/convex/1/cylinder/radius_m", 0, "convex[2].cylinder.radius_m", {"1e-04", "100"}},
+      {"/convex/2/chain/points_m", {{0, 0, 0}}, "convex[3].chain.points_m", {"2", "64"}},
+      {"/convex/2/chain/length", 1, "convex[3].chain.length", {}},
+      {"/convex/2/stl", "a.stl", "convex[3].stl", {}}};
   for (const Spoiled& spoiled : cases) {
     expect_refused(Json::parse(kConvex), spoiled, [](const std::string& text) { parse_scene(text, "given.json"); });
   }
@@ -188,28 +188,28 @@ TEST(Scene, ConvexBodiesAreRefusedWithFieldValueRangeAndAdvice) {
 TEST(Scene, IsRefusedWithFileFieldValueRangeAndAdvice) {
   const Json good = good_table("scene", "panel_slit");
   const std::vector<Spoiled> cases = {
-      {"/format", "1", "format", "a number"},
-      {"/sphere", 1, "sphere", "no such field"},
-      {"/spheres", "none", "spheres", "a list"},
-      {"/spheres/0/radius_m", 0.00009, "spheres[1].radius_m", "1e-04 to 100"},
-      {"/spheres/0/center_m", {1, 2}, "spheres[1].center_m", "exactly 3 numbers"},
-      {"/spheres/0/name", nullptr, "spheres[1].name", "missing"},
-      {"/boxes/0/half_extent_m/1", -0.01, "boxes[1].half_extent_m[2]", "1e-04 to 100"},
-      {"/boxes/1/rotation/0", {1, 0, 0.5}, "boxes[2].rotation", "orthonormal right-handed"},
-      {"/boxes/1/rotation", {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}}, "boxes[2].rotation", "orthonormal right-handed"},
-      {"/slit/normal", {0, 1, 0}, "slit.w_axis", "u x n"},
-      {"/slit/end_u_m", 1.0, "slit.end_u_m", "over 1.75"},
-      {"/slit/half_gap_m", 0, "slit.half_gap_m", "over 0"},
-      {"/slit/frame/quaternion_wxyz", {1, 0, 0, 0}, "slit.frame.quaternion_wxyz", "axes x = u"},
-      {"/slit/frame/position_m/0", 0.0, "slit.frame.position_m", "compute it"},
-      {"/rod/quaternion_wxyz", {1, 0, 0, 1}, "rod.quaternion_wxyz", "unit length"},
-      {"/camera/rate_hz", 0, "camera.rate_hz", "1 to 1000"},
-      {"/contact/friction", -0.2, "contact.friction", "0 to 2"},
-      {"/margins/shift_m", -0.001, "margins.shift_m", "0 to 0.1"},
-      {"/margins/turn_deg", 11, "margins.turn_deg", "0 to 10"},
-      {"/margins/slow_m", -0.001, "margins", "slow_m not below refuse_m"},
-      {"/margins/slowly_m", 0.001, "margins.slowly_m", "no such field"},
-      {"/camera", 5, "camera", "named fields"}};
+      {"/format", "1", "format", {"number"}},
+      {"/sphere", 1, "sphere", {}},
+      {"/spheres", "none", "spheres", {"list"}},
+      {"/spheres/0/radius_m", 0.00009, "spheres[1].radius_m", {"1e-04", "100"}},
+      {"/spheres/0/center_m", {1, 2}, "spheres[1].center_m", {"3"}},
+      {"/spheres/0/name", nullptr, "spheres[1].name", {}},
+      {"/boxes/0/half_extent_m/1", -0.01, "boxes[1].half_extent_m[2]", {"1e-04", "100"}},
+      {"/boxes/1/rotation/0", {1, 0, 0.5}, "boxes[2].rotation", {"orthonormal"}},
+      {"/boxes/1/rotation", {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}}, "boxes[2].rotation", {"orthonormal"}},
+      {"/slit/normal", {0, 1, 0}, "slit.w_axis", {"u", "n"}},
+      {"/slit/end_u_m", 1.0, "slit.end_u_m", {"1.75"}},
+      {"/slit/half_gap_m", 0, "slit.half_gap_m", {"0"}},
+      {"/slit/frame/quaternion_wxyz", {1, 0, 0, 0}, "slit.frame.quaternion_wxyz", {"axes"}},
+      {"/slit/frame/position_m/0", 0.0, "slit.frame.position_m", {}},
+      {"/rod/quaternion_wxyz", {1, 0, 0, 1}, "rod.quaternion_wxyz", {"length"}},
+      {"/camera/rate_hz", 0, "camera.rate_hz", {"1", "1000"}},
+      {"/contact/friction", -0.2, "contact.friction", {"0", "2"}},
+      {"/margins/shift_m", -0.001, "margins.shift_m", {"0", "0.1"}},
+      {"/margins/turn_deg", 11, "margins.turn_deg", {"0", "10"}},
+      {"/margins/slow_m", -0.001, "margins", {"slow_m", "refuse_m"}},
+      {"/margins/slowly_m", 0.001, "margins.slowly_m", {}},
+      {"/camera", 5, "camera", {"fields"}}};
   for (const Spoiled& spoiled : cases) {
     expect_refused(good, spoiled, [](const std::string& text) { parse_scene(text, "given.json"); });
   }
@@ -232,7 +232,7 @@ TEST(Scene, BodiesThatTogetherFillMoreThanAPacketAreRefusedWithTheBytes) {
     parse_scene(scene_of(9, 1.0 / 3.0), "own");
     FAIL() << "9 bodies of 256 points are larger than a packet";
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("allowed are 122880"), std::string::npos) << error.what();
+    EXPECT_TRUE(names(error.what(), {"own", "122880"}));
   }
 }
 

@@ -43,35 +43,35 @@ TEST(SerialRobot, IsRefusedWithFileFieldValueRangeAndAdvice) {
   Json short_joint = good["joints"][0];
   short_joint["a_m"] = short_joint["d_m"] = 0.001;
   const std::vector<Spoiled> cases = {
-      {"/format", 2, "format", "1 to 1"},
-      {"/joints", Json(std::vector<Json>(6, short_joint)), "joints", "10 mm long or more"},
-      {"/kind", "robot", "kind", "allowed serial"},
-      {"/colour", "red", "colour", "no such field"},
-      {"/joints", nine, "joints", "kMaxJoints"},  // compiled capacity, by name
-      {"/joints", five, "joints", "6 to 8"},
-      {"/joints/2/alpha_deg", 200, "joints[3].alpha_deg", "-180 to 180"},
-      {"/joints/2/a_m", "long", "joints[3].a_m", "a number"},
-      {"/joints/2/d_m", nullptr, "joints[3].d_m", "add the field"},
-      {"/joints/2/high_deg", -270, "joints[3].high_deg", "-269 to 720"},
-      {"/joints/6/rate_deg_s", 0, "joints[7].rate_deg_s", "0.001 to 360"},
-      {"/joints/6/wobble", 1, "joints[7].wobble", "no such field"},
-      {"/joints/3/stiffness_Nm_per_rad", 0, "joints[4].stiffness_Nm_per_rad", "1 to"},
-      {"/joints/3/stiffness_Nm_per_rad", nullptr, "joints[4]", "at every joint or at none"},
-      {"/joints/3/link", Json{{"mass_kg", 1}}, "joints[4]", "link at every joint or at none"},
-      {"/mass/boom_kg", -1, "mass.boom_kg", "0.01 to 100000"},
-      {"/mass/boom_radius_m", 0, "mass.boom_radius_m", "0.001 to 5"},
-      {"/friction/gear_damping_Nms_per_rad", -1, "friction.gear_damping_Nms_per_rad", "0 to"},
-      {"/drives/peak_torque_Nm", 149, "drives.peak_torque_Nm", "150 to 450"},
-      {"/friction/coulomb_Nm", -1, "friction.coulomb_Nm", "0 to"},
-      {"/drives/direction/3", 0, "drives.direction[4]", "1 or -1"},
-      {"/drives/zero_counts", {1, 2, 3}, "drives.zero_counts", "one entry per joint"},
-      {"/drives/gear", 1e-9, "drives.gear", "0.01 to 1000"},
-      {"/drives/serials", {1, 2, 3, 4, 5, 6, 2}, "drives.serials[7]", "no other drive"},
-      {"/drives/identity/vendor", -1, "drives.identity.vendor", "0 to 4294967295"},
-      {"/limits/tip_speed_m_s", 3, "limits.tip_speed_m_s", "1e-04 to 2"},
-      {"/limits/cable_speed_m_s", 3, "limits.cable_speed_m_s", "no such field"},
-      {"/named_poses_deg/prepare/3", 270.5, "named_poses_deg.prepare[4]", "-270 to 270"},
-      {"/named_poses_deg/prepare", {0, 0}, "named_poses_deg.prepare", "7 entries"}};
+      {"/format", 2, "format", {"1", "1"}},
+      {"/joints", Json(std::vector<Json>(6, short_joint)), "joints", {"10"}},
+      {"/kind", "robot", "kind", {"serial"}},
+      {"/colour", "red", "colour", {}},
+      {"/joints", nine, "joints", {"kMaxJoints"}},  // compiled capacity, by name
+      {"/joints", five, "joints", {"6", "8"}},
+      {"/joints/2/alpha_deg", 200, "joints[3].alpha_deg", {"-180", "180"}},
+      {"/joints/2/a_m", "long", "joints[3].a_m", {"number"}},
+      {"/joints/2/d_m", nullptr, "joints[3].d_m", {}},
+      {"/joints/2/high_deg", -270, "joints[3].high_deg", {"-269", "720"}},
+      {"/joints/6/rate_deg_s", 0, "joints[7].rate_deg_s", {"0.001", "360"}},
+      {"/joints/6/wobble", 1, "joints[7].wobble", {}},
+      {"/joints/3/stiffness_Nm_per_rad", 0, "joints[4].stiffness_Nm_per_rad", {"1"}},
+      {"/joints/3/stiffness_Nm_per_rad", nullptr, "joints[4]", {"stiffness_Nm_per_rad"}},
+      {"/joints/3/link", Json{{"mass_kg", 1}}, "joints[4]", {"link"}},
+      {"/mass/boom_kg", -1, "mass.boom_kg", {"0.01", "100000"}},
+      {"/mass/boom_radius_m", 0, "mass.boom_radius_m", {"0.001", "5"}},
+      {"/friction/gear_damping_Nms_per_rad", -1, "friction.gear_damping_Nms_per_rad", {"0"}},
+      {"/drives/peak_torque_Nm", 149, "drives.peak_torque_Nm", {"150", "450"}},
+      {"/friction/coulomb_Nm", -1, "friction.coulomb_Nm", {"0"}},
+      {"/drives/direction/3", 0, "drives.direction[4]", {"1", "-1"}},
+      {"/drives/zero_counts", {1, 2, 3}, "drives.zero_counts", {"3", "entries"}},
+      {"/drives/gear", 1e-9, "drives.gear", {"0.01", "1000"}},
+      {"/drives/serials", {1, 2, 3, 4, 5, 6, 2}, "drives.serials[7]", {"2"}},
+      {"/drives/identity/vendor", -1, "drives.identity.vendor", {"0", "4294967295"}},
+      {"/limits/tip_speed_m_s", 3, "limits.tip_speed_m_s", {"1e-04", "2"}},
+      {"/limits/cable_speed_m_s", 3, "limits.cable_speed_m_s", {}},
+      {"/named_poses_deg/prepare/3", 270.5, "named_poses_deg.prepare[4]", {"-270", "270"}},
+      {"/named_poses_deg/prepare", {0, 0}, "named_poses_deg.prepare", {"7"}}};
   for (const Spoiled& spoiled : cases) {
     expect_refused(good, spoiled,
                    [](const std::string& text) { parse_serial_robot(text, "given.json", micro_buses()); });
@@ -102,10 +102,10 @@ TEST(SerialRobot, LinksThatNoBodyCanBeAreRefused) {
   EXPECT_NO_THROW(parse(with_links({1, 1, 1, 0.4, 0.4, -0.4}).dump())) << "long along (1, -1, -1)";
   for (const std::vector<double>& inertia : impossible) {
     expect_refused(with_links({1, 1, 1, 0, 0, 0}),
-                   {"/joints/2/link/inertia_kgm2", inertia, "joints[3].link.inertia_kgm2", "principal moments"}, parse);
+                   {"/joints/2/link/inertia_kgm2", inertia, "joints[3].link.inertia_kgm2", {"moments"}}, parse);
   }
   Json both = with_links({1, 1, 1, 0, 0, 0});
-  expect_refused(both, {"/mass", Json{{"module_kg", 1}}, "mass", "leave one of them out"}, parse);
+  expect_refused(both, {"/mass", Json{{"module_kg", 1}}, "mass", {"module_kg"}}, parse);
 }
 
 TEST(SerialRobot, ABaseIsALockedArmThatSaysHowItGivesWay) {
@@ -113,13 +113,13 @@ TEST(SerialRobot, ABaseIsALockedArmThatSaysHowItGivesWay) {
   const auto parse = [](const std::string& text) { parse_serial_robot(text, "given.json"); };
   const Json macro = good["base"]["robot"];
   const std::vector<Spoiled> cases = {
-      {"/base/pose", "nowhere", "base.pose", "install"},
-      {"/base/damping_s", 1.5, "base.damping_s", "0 to 1"},
-      {"/base/robot/mass/boom_kg", 0, "base.robot.mass.boom_kg", "0.01 to"},
-      {"/base/robot/joints/2/stiffness_Nm_per_rad", nullptr, "base.robot.joints[3]", "at every joint or at none"},
-      {"/base/robot/kind", "robot", "base.robot.kind", "allowed serial"},
-      {"/base/robot/base", macro, "base.robot.base", "no base of a base"},
-      {"/base/wobble", 1, "base.wobble", "no such field"}};
+      {"/base/pose", "nowhere", "base.pose", {"install"}},
+      {"/base/damping_s", 1.5, "base.damping_s", {"0", "1"}},
+      {"/base/robot/mass/boom_kg", 0, "base.robot.mass.boom_kg", {"0.01"}},
+      {"/base/robot/joints/2/stiffness_Nm_per_rad", nullptr, "base.robot.joints[3]", {"stiffness_Nm_per_rad"}},
+      {"/base/robot/kind", "robot", "base.robot.kind", {"serial"}},
+      {"/base/robot/base", macro, "base.robot.base", {"base"}},
+      {"/base/wobble", 1, "base.wobble", {}}};
   for (const Spoiled& spoiled : cases) expect_refused(good, spoiled, parse);
 }
 
@@ -144,14 +144,14 @@ TEST(SerialRobot, TorqueDrivesAreRefusedByFieldWhereSomethingIsMissingOrOutOfRan
   const Json good = good_table("robot", "macro_micro");
   const auto parse = [](const std::string& text) { parse_serial_robot(text, "given.json"); };
   const std::vector<Spoiled> cases = {
-      {"/drives/mode", "speed", "drives.mode", "torque"},
-      {"/drives/mode", nullptr, "force_control", "drives.mode"},
-      {"/drives/position_gain_per_s", nullptr, "drives.position_gain_per_s", "add the field"},
-      {"/force_control", nullptr, "force_control", "add the field"},
-      {"/force_control/most_joint_Nm", 151, "force_control.most_joint_Nm", "1 to 150"},
-      {"/force_control/gains/mass_kg", Json{500, 600, 5000}, "force_control.gains.mass_kg[1]", "600 to 5000"},
-      {"/force_control/gains/mass_kg", Json{500, 50}, "force_control.gains.mass_kg", "least and the most"},
-      {"/force_control/gains/wobble", Json{1, 1, 1}, "force_control.gains.wobble", "no such field"}};
+      {"/drives/mode", "speed", "drives.mode", {"torque"}},
+      {"/drives/mode", nullptr, "force_control", {"drives.mode"}},
+      {"/drives/position_gain_per_s", nullptr, "drives.position_gain_per_s", {}},
+      {"/force_control", nullptr, "force_control", {}},
+      {"/force_control/most_joint_Nm", 151, "force_control.most_joint_Nm", {"1", "150"}},
+      {"/force_control/gains/mass_kg", Json{500, 600, 5000}, "force_control.gains.mass_kg[1]", {"600", "5000"}},
+      {"/force_control/gains/mass_kg", Json{500, 50}, "force_control.gains.mass_kg", {"least", "most"}},
+      {"/force_control/gains/wobble", Json{1, 1, 1}, "force_control.gains.wobble", {}}};
   for (const Spoiled& spoiled : cases) expect_refused(good, spoiled, parse);
 }
 
@@ -168,15 +168,14 @@ TEST(SerialRobot, ItsDrivesFollowWhatTheTypesOfItsBusesFollow) {
   EXPECT_EQ(on("macro_micro", "embedded_payload"), "accepted");
   EXPECT_EQ(on("macro_micro", "embedded_macro_micro"), "accepted");
   EXPECT_EQ(on("macro_micro_stiff", "embedded_macro_micro_stiff"), "accepted");
-  EXPECT_NE(on("macro_micro", "embedded_micro").find("node 1 of bus table embedded_micro is a cia402_csp"),
-            std::string::npos);
-  EXPECT_NE(on("micro", "embedded_payload").find("use buses whose drives follow positions"), std::string::npos);
+  EXPECT_TRUE(names(on("macro_micro", "embedded_micro"), {"node 1", "embedded_micro", "cia402_csp"}));
+  EXPECT_TRUE(names(on("micro", "embedded_payload"), {"node 1", "embedded_payload", "positions"}));
 }
 
 TEST(SerialRobot, CountsThatNoDriveCanHoldAreRefused) {
   Json table = good_table("robot", "micro");
   table["drives"]["counts_per_turn"] = 16777216;
-  expect_refused(table, {"/drives/gear", 1000, "drives.zero_counts[1]", "fewer counts per turn"},
+  expect_refused(table, {"/drives/gear", 1000, "drives.zero_counts[1]", {"counts"}},
                  [](const std::string& text) { parse_serial_robot(text, "given.json", micro_buses()); });
 }
 
