@@ -14,6 +14,7 @@
 #include "host/drives/bus/can_interface.hpp"
 #include "host/drives/canopen/master.hpp"
 #include "tests/host/drives/bus/fake_drive.hpp"
+#include "tests/message.hpp"
 
 namespace liana::bus {
 namespace {
@@ -122,24 +123,21 @@ TEST(SocketCan, BootsDrivesOnTwoInterfacesAndCollectsTheirFeedback) {
 
 TEST(SocketCan, AMissingInterfaceIsNamedTogetherWithThoseThatExist) {
   const std::string message = refusal_of("can77");
-  EXPECT_NE(message.find("can77: does not exist; this machine has "), std::string::npos) << message;
-  EXPECT_NE(message.find("vcan0, vcan1"), std::string::npos) << message;
+  EXPECT_TRUE(names(message, {"can77", "vcan0", "vcan1"}));
 }
 
-TEST(SocketCan, AnInterfaceThatIsNoCanOneIsRefused) {
-  EXPECT_NE(refusal_of("lo").find("is not a CAN interface"), std::string::npos);
-}
+TEST(SocketCan, AnInterfaceThatIsNoCanOneIsRefused) { EXPECT_TRUE(names(refusal_of("lo"), {"lo", "CAN interface"})); }
 
 TEST(SocketCan, AnInterfaceThatIsDownIsRefusedWithTheCommandThatHelps) {
   shell("ip link set vcan1 down");
-  EXPECT_NE(refusal_of("vcan1").find("ip link set vcan1 up"), std::string::npos);
+  EXPECT_TRUE(names(refusal_of("vcan1"), {"ip link set vcan1 up"}));
   shell("ip link set vcan1 up");
   EXPECT_EQ(refusal_of("vcan1"), "");
 }
 
 TEST(SocketCan, ATransmitQueueTooShortForATickIsRefused) {
   shell("ip link set vcan1 txqueuelen 10");
-  EXPECT_NE(refusal_of("vcan1").find("ip link set vcan1 txqueuelen 128"), std::string::npos);
+  EXPECT_TRUE(names(refusal_of("vcan1"), {"vcan1", "txqueuelen 128"}));
   shell("ip link set vcan1 txqueuelen 128");
   EXPECT_EQ(refusal_of("vcan1"), "");
 }

@@ -9,6 +9,7 @@
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/tables.hpp"
 #include "host/base/json/json.hpp"
+#include "tests/message.hpp"
 
 namespace liana::system {
 namespace {
@@ -29,17 +30,16 @@ TEST(MissionFaults, AreFilesBesideTheMissionAndAnUnknownNameIsToldAllThatThereAr
   EXPECT_TRUE(file.ends_with("missions/payload_install/faults/jam.json")) << file;
   EXPECT_TRUE(std::filesystem::exists(file));
   const std::string said = refusal_of(mission, "jamm");
-  EXPECT_TRUE(said.starts_with("--fault: 'jamm': no such fault of this mission; allowed: base_moving, ")) << said;
-  for (const char* name : {"target_lost", "jam", "no_capture", "early_capture", "sensor_failed", "base_moving",
-                           "lock_failed", "lying_capture", "stale_capture", "duplicate_capture", "lost_capture"})
-    EXPECT_NE(said.find(name), std::string::npos) << name;
-  EXPECT_NE(refusal_of(mission, "../../lab_search/way").find("no such fault"), std::string::npos);
+  EXPECT_TRUE(names(
+      said, {"--fault", "jamm", "target_lost", "jam", "no_capture", "early_capture", "sensor_failed", "base_moving",
+             "lock_failed", "lying_capture", "stale_capture", "duplicate_capture", "lost_capture"}));
+  EXPECT_TRUE(names(refusal_of(mission, "../../lab_search/way"), {"--fault", "../../lab_search/way", "jam"}));
 }
 
 TEST(MissionFaults, OfAMissionWithoutAnyAreRefused) {
-  EXPECT_NE(refusal_of(check_mission("slit_crossing", "zhu2022", "embedded"), "jam").find("has no faults of its own"),
-            std::string::npos);
-  EXPECT_NE(refusal_of(Json(), "jam").find("has no faults of its own"), std::string::npos);
+  EXPECT_TRUE(
+      names(refusal_of(check_mission("slit_crossing", "zhu2022", "embedded"), "jam"), {"--fault", "jam", "faults"}));
+  EXPECT_TRUE(names(refusal_of(Json(), "jam"), {"--fault", "jam", "faults"}));
 }
 
 }  // namespace

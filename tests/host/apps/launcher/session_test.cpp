@@ -14,6 +14,7 @@
 #include "host/apps/launcher/silence.hpp"
 #include "host/base/json/json.hpp"
 #include "host/base/net/socket.hpp"
+#include "tests/message.hpp"
 
 namespace liana::system {
 namespace {
@@ -135,17 +136,17 @@ TEST_F(Session, ADyingBenchEndsTheRunWithItsNameAndLastLines) {
   add_living("liana-mission");
   const RunEnd end = RunSession(plan_).run();
   EXPECT_EQ(end.outcome, "failed");
-  EXPECT_NE(end.message.find("liana-bench ended with code 3"), std::string::npos) << end.message;
+  EXPECT_TRUE(names(end.message, {"liana-bench", "code 3"}));
   EXPECT_NE(end.message.find("cable 7 tore"), std::string::npos) << end.message;
 }
 
 TEST_F(Session, OfABenchAndALianadThatFailAlikeTheBenchIsTheReasonWithItsOwnWords) {
   const FakeDaemon daemon(plan_.api_socket());
-  add("lianad", "sleep 0.3; echo 'lianad: the bus has ended' >&2; exit 1");
+  add("lianad", "sleep 0.3; echo 'lianad: no bus' >&2; exit 1");
   add("liana-bench", "sleep 0.2; echo 'liana-bench: cable 7 tore' >&2; echo goodbye; exit 1");
   add_living("liana-mission");
   const RunEnd end = RunSession(plan_).run();
-  EXPECT_EQ(end.message.substr(0, end.message.find('\n')), "liana-bench ended with code 1: cable 7 tore");
+  EXPECT_TRUE(names(end.message.substr(0, end.message.find('\n')), {"liana-bench", "code 1", "cable 7 tore"}));
 }
 
 TEST_F(Session, AProgramThatIsKilledEndsTheMissionToo) {
@@ -155,7 +156,7 @@ TEST_F(Session, AProgramThatIsKilledEndsTheMissionToo) {
   add_living("liana-mission");
   const RunEnd end = RunSession(plan_).run();
   EXPECT_EQ(end.outcome, "failed");
-  EXPECT_TRUE(end.message.starts_with("liana-operator was killed by signal 9")) << end.message;
+  EXPECT_TRUE(names(end.message, {"liana-operator", "signal 9"}));
   EXPECT_TRUE(daemon.saw("mission_control"));
 }
 
@@ -167,7 +168,7 @@ TEST_F(Session, AScriptsProcessThatStandsStillIsNamedAsItsRunner) {
   testing::internal::CaptureStderr();
   session.run();
   const std::string said = testing::internal::GetCapturedStderr();
-  EXPECT_NE(said.find("no state of the arm for 3 s: liana-mission (process "), std::string::npos) << said;
+  EXPECT_TRUE(names(said, {"3 s", "liana-mission"}));
 }
 
 TEST_F(Session, AKilledMissionRunnerFailsTheRun) {
@@ -176,7 +177,7 @@ TEST_F(Session, AKilledMissionRunnerFailsTheRun) {
   add("liana-mission", "kill -9 $$");
   const RunEnd end = RunSession(plan_).run();
   EXPECT_EQ(end.outcome, "failed");
-  EXPECT_NE(end.message.find("killed by signal 9"), std::string::npos) << end.message;
+  EXPECT_TRUE(names(end.message, {"mission runner", "signal 9"}));
 }
 
 TEST_F(Session, AProgramThatRefusesItsInputAtTheStartIsBadInput) {
@@ -204,9 +205,7 @@ TEST_F(Session, AnInterruptedRunSaysOnlyWhatIsKnownOfTheArm) {
   add("liana-mission", "kill -TERM " + std::to_string(getpid()) + "; exec sleep 60");
   const RunEnd end = RunSession(plan_).run();
   EXPECT_EQ(end.outcome, "aborted");
-  EXPECT_NE(end.message.find("lianad was gone before it confirmed the stop; the arm was last seen ENABLED, at 0.50 s"),
-            std::string::npos)
-      << end.message;
+  EXPECT_TRUE(names(end.message, {"lianad", "ENABLED", "0.50 s"}));
 }
 
 TEST_F(Session, CtrlCBecomesAStopOfTheArm) {
@@ -216,7 +215,7 @@ TEST_F(Session, CtrlCBecomesAStopOfTheArm) {
   const RunEnd end = RunSession(plan_).run();
   EXPECT_EQ(end.outcome, "aborted");
   EXPECT_TRUE(daemon.saw("stop"));
-  EXPECT_EQ(end.message, "interrupted: the arm was stopped and is DISABLED");
+  EXPECT_TRUE(names(end.message, {"interrupted", "DISABLED"}));
 }
 
 // A lianad that stands still, and what people see of it.
@@ -241,8 +240,7 @@ TEST_F(Session, SilenceIsSaidWithWhoStandsStill) {
   testing::internal::CaptureStderr();
   session.run();
   const std::string said = testing::internal::GetCapturedStderr();
-  EXPECT_NE(said.find("no state of the arm for 3 s: lianad (process "), std::string::npos) << said;
-  EXPECT_NE(said.find(") stopped; Ctrl-C ends the run"), std::string::npos) << said;
+  EXPECT_TRUE(names(said, {"3 s", "lianad", "stopped", "Ctrl-C"}));
 }
 
 TEST_F(Session, TheConsoleSaysSilenceToo) {
@@ -256,7 +254,7 @@ TEST_F(Session, TheConsoleSaysSilenceToo) {
     ASSERT_TRUE(session.go_on());
   }
   const std::string said = testing::internal::GetCapturedStderr();
-  EXPECT_NE(said.find("no state of the arm for 3 s: lianad (process "), std::string::npos) << said;
+  EXPECT_TRUE(names(said, {"3 s", "lianad"}));
 }
 
 TEST(Capture, AProgramThatPrintsWithoutEndIsKilled) {

@@ -4,6 +4,7 @@
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/start_pose.hpp"
 #include "host/apps/launcher/tables.hpp"
+#include "tests/message.hpp"
 
 namespace liana::system {
 namespace {
@@ -31,10 +32,9 @@ TEST(StartPose, IsANameOrAllAnglesWithinTheirRange) {
   EXPECT_EQ(start_pose_of(robot, "look").angles_deg, (std::vector<double>{-6, 3, 5, -5, 8, 4}));
   EXPECT_EQ(start_pose_of(robot, "1,-2.5,0,0,15,-15").angles_deg, (std::vector<double>{1, -2.5, 0, 0, 15, -15}));
   const auto refusal = [&](const char* given) { return refusal_of([&] { start_pose_of(robot, given); }); };
-  EXPECT_NE(refusal("nowhere").find("--start-pose: 'nowhere': allowed for robot three_segment_lab: deep, fixture_a"),
-            std::string::npos);
+  EXPECT_TRUE(names(refusal("nowhere"), {"--start-pose", "nowhere", "three_segment_lab", "deep", "fixture_a"}));
   for (const char* given : {"1,2,3", "1,2,3,4,5,6,7", "1,2,3,4,5,", "1,2,3,4,5,x", "nan,0,0,0,0,0", "15.01,0,0,0,0,0"})
-    EXPECT_NE(refusal(given).find("allowed for robot three_segment_lab"), std::string::npos) << given;
+    EXPECT_TRUE(names(refusal(given), {"--start-pose", "three_segment_lab"})) << given;
   EXPECT_NE(refusal("0,0,16,0,0,0").find("angle 3 in"), std::string::npos);
 }
 
@@ -43,7 +43,7 @@ TEST(StartPose, InsideABodyIsRefusedWithTheBodysNameAndTheLink) {
   const config::SceneConfig scene = scene_of("lab_box");
   EXPECT_EQ(refusal_of([&] { check_start_is_free(robot, scene, start_pose_of(robot, "")); }), "accepted");
   const std::string refusal = refusal_of([&] { check_start_is_free(robot, scene, start_pose_of(robot, "deep")); });
-  EXPECT_NE(refusal.find("mm inside body floor"), std::string::npos) << refusal;
+  EXPECT_TRUE(names(refusal, {"floor"}));
   EXPECT_NE(refusal.find("link "), std::string::npos) << refusal;
 }
 
@@ -54,8 +54,7 @@ TEST(StartPose, OfASerialArmInsideABodyOrItselfIsRefused) {
   EXPECT_EQ(refusal_of([&] { check_start_is_free(robot, scene, prepare); }), "accepted");
   scene.spheres.push_back({"ball", {0.0, 0.0, 0.2}, 0.1});
   const std::string in_ball = refusal_of([&] { check_start_is_free(robot, scene, prepare); });
-  EXPECT_NE(in_ball.find("at the start pose prepare link 1 stands 170.0 mm inside body ball"), std::string::npos)
-      << in_ball;
+  EXPECT_TRUE(names(in_ball, {"pose prepare", "link 1", "170.0 mm", "ball"}));
   const StartPose folded = start_pose_of(robot, "0,0,0,180,0,0,0");
   const std::string in_itself = refusal_of([&] { check_start_is_free(robot, scene_of("none"), folded); });
   EXPECT_NE(in_itself.find("inside link "), std::string::npos) << in_itself;

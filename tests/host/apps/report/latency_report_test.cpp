@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "host/base/json/json.hpp"
+#include "tests/message.hpp"
 
 namespace liana::report {
 namespace {
@@ -41,12 +42,12 @@ TEST(LatencyReport, HasWhatWasMeasuredAndHow) {
 
 TEST(LatencyReport, ComparesTheWorstWithThePeriodAndNamesWhatTheMachineLacks) {
   const std::string text = latency_text(report_of(measurement(0)));
-  EXPECT_NE(text.find("worst wake-up 2.5 % of the period of 4000 us, longest tick 1.2 %"), std::string::npos) << text;
-  EXPECT_NE(text.find("no deadline was missed"), std::string::npos) << text;
+  EXPECT_TRUE(names(text, {"2.5 %", "4000 us", "1.2 %"}));
+  EXPECT_TRUE(names(text, {"no deadline"}));
   EXPECT_NE(text.find("PREEMPT_RT kernel: 6.1\n    to do: boot it"), std::string::npos) << text;
   EXPECT_EQ(text.find("memory locking"), std::string::npos) << text;
   EXPECT_EQ(text.find("NOT ENABLED"), std::string::npos) << text;
-  EXPECT_NE(text.find("the arm moved for 88 % of the time"), std::string::npos) << text;
+  EXPECT_TRUE(names(text, {"moved", "88 %"}));
 }
 
 TEST(LatencyReport, SaysLoudlyWhenDeadlinesWereMissedOrTheArmWasOff) {
@@ -55,9 +56,9 @@ TEST(LatencyReport, SaysLoudlyWhenDeadlinesWereMissedOrTheArmWasOff) {
   const Json silent{{"number", 3002}, {"name", "drive_silent"}, {"text", "A drive sent nothing."}};
   measured.last_state["faults"] = {silent, silent};
   const std::string text = latency_text(report_of(measured));
-  EXPECT_NE(text.find("DEADLINES MISSED: 2 (woke up late 2,"), std::string::npos) << text;
+  EXPECT_TRUE(names(text, {"deadlines missed: 2"}));
   EXPECT_NE(text.find("NOT ENABLED"), std::string::npos) << text;
-  EXPECT_NE(text.find("fault 3002 (2 times) drive_silent"), std::string::npos) << text;
+  EXPECT_TRUE(names(text, {"fault 3002", "2 times", "drive_silent"}));
 }
 
 TEST(LatencyReport, BinsDoubleAndTheLargestHasTheLongestBar) {

@@ -11,7 +11,7 @@ namespace {
 TEST(DispatchLine, OfEveryStageReadsBackAsItWasWritten) {
   const std::vector<Dispatch> written{
       {.stage = Stage::kSetpoint, .tick = 5610, .command = 17, .number = 2, .subject = "mission"},
-      {.stage = Stage::kExecution, .tick = 5610, .command = 17, .share = 0.4125, .text = "cable 3: 0.413 of the limit"},
+      {.stage = Stage::kExecution, .tick = 5610, .command = 17, .share = 0.4125, .text = "cable 3: 0.413"},
       {.stage = Stage::kSimulation,
        .tick = 5610,
        .command = 17,

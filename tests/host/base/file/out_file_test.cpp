@@ -10,6 +10,8 @@
 #include <functional>
 #include <iterator>
 
+#include "tests/message.hpp"
+
 namespace liana::file {
 namespace {
 
@@ -25,20 +27,19 @@ std::string reason(const std::function<void()>& act) {
 }
 
 TEST(OutFile, AFullDiskIsSaidToBeFullWhateverElseFailedMeanwhile) {
-  const std::string full = "/dev/full: cannot be written: No space left on device";
-  EXPECT_EQ(reason([] {
-              OutFile out("/dev/full");
-              out.write("a line");
-              errno = ENOENT;
-              out.finish();
-            }),
-            full);
-  EXPECT_EQ(reason([] { OutFile("/dev/full").write(std::string(1 << 20, 'x')); }), full);
+  const Facts full{"/dev/full", "No space left"};
+  EXPECT_TRUE(names(reason([] {
+                      OutFile out("/dev/full");
+                      out.write("a line");
+                      errno = ENOENT;
+                      out.finish();
+                    }),
+                    full));
+  EXPECT_TRUE(names(reason([] { OutFile("/dev/full").write(std::string(1 << 20, 'x')); }), full));
 }
 
 TEST(OutFile, AFolderThatIsNotThereIsSaidToBeMissing) {
-  EXPECT_EQ(reason([] { OutFile("/no/such/folder/file"); }),
-            "/no/such/folder/file: cannot be made: No such file or directory");
+  EXPECT_TRUE(names(reason([] { OutFile("/no/such/folder/file"); }), {"/no/such/folder/file", "No such file"}));
 }
 
 class OutFileIn : public testing::Test {

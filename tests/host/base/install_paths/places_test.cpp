@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "tests/message.hpp"
+
 namespace liana::places {
 namespace {
 
@@ -62,11 +64,9 @@ TEST_F(Places, AFolderOfAnOptionComesBeforeTheSearchPath) {
 }
 
 TEST_F(Places, WhatIsNoFolderIsRefusedWithWhereItWasSaid) {
-  EXPECT_EQ(refusal_of([&] { search_first("--lua-dir", at("three")); }),
-            "--lua-dir: '" + at("three") + "': no such folder; give one that exists, or leave it out");
+  EXPECT_TRUE(names(refusal_of([&] { search_first("--lua-dir", at("three")); }), {"--lua-dir", at("three"), "folder"}));
   set_path(at("three"));
-  EXPECT_EQ(refusal_of([] { lua_folders(); }),
-            "LIANA_LUA_PATH: '" + at("three") + "': no such folder; give one that exists, or leave it out");
+  EXPECT_TRUE(names(refusal_of([] { lua_folders(); }), {"LIANA_LUA_PATH", at("three"), "folder"}));
 }
 
 TEST_F(Places, AFolderThatTheSearchPathCannotHoldIsRefused) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "host/base/json/number_error.hpp"
+#include "tests/message.hpp"
 
 namespace liana {
 namespace {
@@ -24,8 +25,7 @@ std::string nested(int levels, const char* open, const char* close) {
 
 TEST(JsonText, SyntaxErrorNamesLineColumnAndWhatWasExpected) {
   const std::string text = parse_refusal("{\n  \"a\": 1,\n  \"b\" x\n}");
-  EXPECT_TRUE(text.starts_with("parse error at line 3, column 7: ")) << text;
-  EXPECT_NE(text.find("expected ':'"), std::string::npos) << text;
+  EXPECT_TRUE(names(text, {"line 3", "column 7", "':'"}));
   try {
     (void)Json::parse("[1,2");
     FAIL() << "half an array was accepted";
@@ -70,7 +70,8 @@ TEST(JsonText, NumberThatNoDoubleHoldsIsRefusedWithItsPlaceAndItself) {
       EXPECT_EQ(error.place(1), row.place_from_1);
       EXPECT_EQ(error.text, row.number);
       EXPECT_EQ(error.what(), (row.place_from_0.empty() ? "" : row.place_from_0 + ": ") + error.complaint());
-      EXPECT_TRUE(error.complaint().starts_with(row.number + ": allowed -1.797e308 to 1.797e308: "));
+      EXPECT_TRUE(error.complaint().starts_with(row.number + ": "));
+      EXPECT_TRUE(names(error.complaint(), {"-1.797e308", "1.797e308"}));
     }
     EXPECT_TRUE(Json::parse_or_null(row.text).is_null());
   }

@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "host/base/json/json.hpp"
+#include "tests/message.hpp"
 
 namespace liana {
 namespace {
@@ -59,12 +60,11 @@ TEST(JsonValue, GivesWhatWasPutIn) {
 }
 
 TEST(JsonValue, ValueOfAnotherKindIsRefusedWithWhatWasFound) {
-  EXPECT_EQ(refusal_of([] { (void)Json("x").get<double>(); }), "\"x\" where a number belongs");
-  EXPECT_EQ(refusal_of([] { (void)Json(1).get<bool>(); }), "1 where true or false belongs");
-  EXPECT_EQ(refusal_of([] { (void)Json(true).get<int>(); }),
-            "true where a number from -2147483648 to 2147483647 belongs");
-  EXPECT_EQ(refusal_of([] { (void)Json(nullptr).get<std::string>(); }), "null where a text belongs");
-  EXPECT_EQ(refusal_of([] { (void)Json{1, 2}.get<std::array<int, 3>>(); }), "[1,2] where an array of 3 belongs");
+  EXPECT_TRUE(names(refusal_of([] { (void)Json("x").get<double>(); }), {"x", "number"}));
+  EXPECT_TRUE(names(refusal_of([] { (void)Json(1).get<bool>(); }), {"1", "true", "false"}));
+  EXPECT_TRUE(names(refusal_of([] { (void)Json(true).get<int>(); }), {"true", "number", "-2147483648", "2147483647"}));
+  EXPECT_TRUE(names(refusal_of([] { (void)Json(nullptr).get<std::string>(); }), {"null", "text"}));
+  EXPECT_TRUE(names(refusal_of([] { (void)Json{1, 2}.get<std::array<int, 3>>(); }), {"[1,2]", "array", "3"}));
   EXPECT_NE(refusal_of([] { (void)Json().get<std::vector<int>>(); }), "");
   EXPECT_NE(refusal_of([] { (void)Json{{"a", 1}}.get<std::vector<int>>(); }), "");
   EXPECT_LT(refusal_of([] { (void)Json(std::string(5000, 'x')).get<int>(); }).size(), 150u);
@@ -88,9 +88,9 @@ TEST(JsonValue, NumberOutsideTheWantedTypeIsRefusedNeverWrapped) {
 
 TEST(JsonValue, MissingMemberIsNamed) {
   const Json value{{"a", {{"b", 1}}}};
-  EXPECT_EQ(refusal_of([&] { (void)value["other"]; }), "member \"other\" is missing");
-  EXPECT_EQ(refusal_of([&] { (void)value["a"]["b"]["c"]; }), "1 where an object with member \"c\" belongs");
-  EXPECT_EQ(refusal_of([&] { (void)Json{1, 2}[2]; }), "entry 2 of an array of 2");
+  EXPECT_TRUE(names(refusal_of([&] { (void)value["other"]; }), {"other", "missing"}));
+  EXPECT_TRUE(names(refusal_of([&] { (void)value["a"]["b"]["c"]; }), {"1", "object", "c"}));
+  EXPECT_TRUE(names(refusal_of([&] { (void)Json{1, 2}[2]; }), {"entry 2", "array of 2"}));
   EXPECT_NE(refusal_of([&] { (void)value[0]; }), "");
   EXPECT_NE(refusal_of([&] { (void)Json::array().back(); }), "");
   EXPECT_NE(refusal_of([&] { (void)Json().front(); }), "");

@@ -15,6 +15,7 @@
 #include "host/api/server/request_error.hpp"
 #include "host/model/inverse_kinematics/goal_ik.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
+#include "tests/message.hpp"
 
 namespace liana::arbiter {
 
@@ -677,7 +678,7 @@ TEST_F(WayOut, EndsAndSaysWhyWhenTheArmDoesNotComeToRestOrIsNotEnabledAnyMoreOrI
   int intervals = 0;
   for (; arbiter_.is_busy() && intervals < 2000; ++intervals) next();
   EXPECT_EQ(intervals, 1001) << "20 s";
-  EXPECT_EQ(arbiter_.retract_state().reason, "the arm did not come to rest within 20 s");
+  EXPECT_TRUE(names(arbiter_.retract_state().reason, {"rest", "20 s"}));
   arbiter_.retract(now_, 0);
   arbiter_.hold();
   EXPECT_EQ(arbiter_.retract_state().reason, "held");
@@ -685,7 +686,7 @@ TEST_F(WayOut, EndsAndSaysWhyWhenTheArmDoesNotComeToRestOrIsNotEnabledAnyMoreOrI
   now_.state = OperatingState::kStopping;
   next();
   EXPECT_EQ(arbiter_.retract_state().phase, RetractPhase::kEnded);
-  EXPECT_EQ(arbiter_.retract_state().reason, "the arm is not enabled any more");
+  EXPECT_TRUE(names(arbiter_.retract_state().reason, {"enabled"}));
   EXPECT_FALSE(arbiter_.has_retracted());
   EXPECT_EQ(arbiter_.take_way_news().back().what, event::WayEvent::kEnds);
 }
@@ -756,7 +757,7 @@ TEST_F(WayOut, OfAnArmEnabledFarFromItIsGivenUpAndNobodyIsToldThatItIsBack) {
   wait_for_rest();
   follow();
   EXPECT_EQ(arbiter_.retract_state().phase, RetractPhase::kEnded) << "it went as far as it could, and says so";
-  EXPECT_NE(arbiter_.retract_state().reason.find("does not lead farther back"), std::string::npos);
+  EXPECT_TRUE(names(arbiter_.retract_state().reason, {"path", "farther"}));
 }
 
 TEST_F(WayOut, AsFarAsTheArmStandsAlreadyIsDoneAtOnce) {
@@ -852,35 +853,35 @@ TEST_F(Paths, APathGoesThroughItsPointsWithoutAStopAndSaysSo) {
   EXPECT_EQ(margin_m_, 0.005);
   const auto news = arbiter.take_path_news();
   ASSERT_EQ(news.size(), 2u);
-  EXPECT_NE(news[0].text.find("path abc begins"), std::string::npos);
+  EXPECT_TRUE(names(news[0].text, {"abc", "begins"}));
   EXPECT_EQ(news[1].what, event::PathEvent::kArrives);
-  EXPECT_EQ(news[1].text, "path abc has arrived");
+  EXPECT_TRUE(names(news[1].text, {"abc", "arrived"}));
   EXPECT_EQ(news[1].path.share, 1.0);
   EXPECT_GT(news[1].duration_s, 1.0);
   EXPECT_TRUE(arbiter.take_path_news().empty());
 }
 
 TEST_F(Paths, APathThatTheCheckRefusesDoesNotMoveTheArm) {
-  CableArbiter& arbiter = with("between points 1 and 2: link 9 is 1 mm from 'panel'");
+  CableArbiter& arbiter = with("link 9 is 1 mm from 'panel'");
   arbiter.move_path(now_, path());
   EXPECT_FALSE(arbiter.next_setpoint(tick_ += 5, now_));
   EXPECT_FALSE(arbiter.is_busy());
   const auto news = arbiter.take_path_news();
   ASSERT_EQ(news.size(), 1u);
   EXPECT_EQ(news[0].what, event::PathEvent::kRefused);
-  EXPECT_EQ(news[0].text, "path abc is refused: between points 1 and 2: link 9 is 1 mm from 'panel'");
+  EXPECT_TRUE(names(news[0].text, {"abc", "refused", "link 9", "1 mm", "panel"}));
 }
 
 TEST_F(Paths, APathIsRefusedByTheNumberOfItsPoint) {
   CableArbiter& arbiter = with("");
   Request request = path();
   request.points_rad[1][2] = 1.0;
-  EXPECT_NE(text_of([&] { arbiter.move_path(now_, request); }).find("out_of_range: point 2, theta 3: 57.2958 deg"),
-            std::string::npos);
+  EXPECT_TRUE(
+      names(text_of([&] { arbiter.move_path(now_, request); }), {"out_of_range", "point 2", "theta 3", "57.2958 deg"}));
   request = path();
   request.points_rad[0][3] += 0.02;
-  EXPECT_NE(text_of([&] { arbiter.move_path(now_, request); }).find("refused: point 1, theta 4: 1.14592 deg from"),
-            std::string::npos);
+  EXPECT_TRUE(
+      names(text_of([&] { arbiter.move_path(now_, request); }), {"refused", "point 1", "theta 4", "1.14592 deg"}));
   now_.at_rest = 0;
   EXPECT_EQ(text_of([&] { arbiter.move_path(now_, path()); }).substr(0, 4), "busy");
   EXPECT_FALSE(arbiter.is_busy());
@@ -892,7 +893,7 @@ TEST_F(Paths, AHoldEndsAPathAlsoWhileItIsLookedAt) {
   arbiter.hold();
   EXPECT_FALSE(arbiter.is_busy());
   EXPECT_FALSE(arbiter.next_setpoint(tick_ += 5, now_));
-  EXPECT_EQ(arbiter.take_path_news().at(0).text, "path abc stops at 0 % of its time");
+  EXPECT_TRUE(names(arbiter.take_path_news().at(0).text, {"abc", "stops", "0 %"}));
   arbiter.move_path(now_, path());
   std::optional<Setpoint> setpoint;
   for (int i = 0; i < 5000 && !setpoint; ++i) {

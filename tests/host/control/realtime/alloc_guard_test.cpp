@@ -20,7 +20,7 @@ TEST(AllocGuardDeathTest, APlantedNewInsideATickAborts) {
         const TickGuard inside;
         g_planted = std::make_unique<int>(1);
       },
-      "inside a tick: call of malloc");
+      "tick.*malloc");
 }
 
 TEST(AllocGuardDeathTest, FreeingInsideATickAborts) {
@@ -30,7 +30,7 @@ TEST(AllocGuardDeathTest, FreeingInsideATickAborts) {
         const TickGuard inside;
         g_planted.reset();
       },
-      "inside a tick: call of free");
+      "tick.*free");
 }
 
 TEST(AllocGuardDeathTest, ALockInsideATickAborts) {
@@ -40,7 +40,7 @@ TEST(AllocGuardDeathTest, ALockInsideATickAborts) {
         const TickGuard inside;
         mutex.lock();
       },
-      "inside a tick: call of pthread_mutex_lock");
+      "tick.*pthread_mutex_lock");
 }
 
 TEST(AllocGuardDeathTest, OpeningAFileInsideATickAborts) {
@@ -49,7 +49,7 @@ TEST(AllocGuardDeathTest, OpeningAFileInsideATickAborts) {
         const TickGuard inside;
         (void)::open("/dev/null", O_RDONLY);
       },
-      "inside a tick: call of open");
+      "tick.*open");
 }
 
 TEST(AllocGuard, OutsideATickEverythingIsAllowed) {

@@ -15,6 +15,7 @@
 #include "host/control/server/service.hpp"
 #include "tests/host/api/server/robots.hpp"
 #include "tests/host/control/verification/sim_arm.hpp"
+#include "tests/message.hpp"
 
 namespace liana::daemon {
 namespace {
@@ -75,7 +76,7 @@ TEST(HostTroubles, EachChangeSaysWhichBusAndHowMuch) {
                                                          "host_trouble 3 bus can1", "host_trouble 6 control thread"}));
   EXPECT_EQ(events[0].values, (std::vector<event::EventValue>{{"state", 1.0}}));
   EXPECT_EQ(events[1].values, (std::vector<event::EventValue>{{"count", 4.0}}));
-  EXPECT_EQ(events[1].text, "bus can1 reported 4 error frames and is active");
+  EXPECT_TRUE(names(events[1].text, {"can1", "4", "active"}));
   EXPECT_EQ(events[3].values, (std::vector<event::EventValue>{{"count", 3.0}}));
   EXPECT_TRUE(trouble.changes(buses, report).empty());
   report.bus[0].refused = 6;
@@ -94,7 +95,7 @@ TEST(Events, AVerdictSaysWhichEndRefusedAndHowNearTheLimitIs) {
   const event::Event event = verdict_event(17, verdict);
   EXPECT_EQ(summaries({event}), (std::vector<std::string>{"verdict 203 simulation"}));
   EXPECT_EQ(event.values, (std::vector<event::EventValue>{{"command", 17.0}, {"share", 1.25}}));
-  EXPECT_EQ(event.text, "refused 17, M_e 203 tip_speed: too fast");
+  EXPECT_TRUE(names(event.text, {"17", "203", "tip_speed", "too fast"}));
   verdict.code = verify::Refusal::kTooSlow;
   EXPECT_EQ(verdict_event(18, verdict).subject, "execution");
 }
@@ -103,7 +104,7 @@ TEST(Events, AnOwnerThatStandsStillIsNamedWithItsTimeToLive) {
   const event::Event event = stands_still_event("robot hand", 0.25);
   EXPECT_EQ(summaries({event}), (std::vector<std::string>{"owner 4 robot hand"}));
   EXPECT_EQ(event.values, (std::vector<event::EventValue>{{"ttl_s", 0.25}}));
-  EXPECT_NE(event.text.find("no servo_cp for 0.25 s"), std::string::npos) << event.text;
+  EXPECT_TRUE(names(event.text, {"servo_cp", "0.25 s"}));
 }
 
 // A service in real time, its arm and one client, who reads events.

@@ -6,6 +6,7 @@
 #include "host/api/server/request_check.hpp"
 #include "host/api/server/request_error.hpp"
 #include "tests/host/api/server/robots.hpp"
+#include "tests/message.hpp"
 
 namespace liana::daemon {
 namespace {
@@ -36,9 +37,7 @@ class Stream : public testing::Test {
 
 TEST_F(Stream, SequencesGrowOverAllSetpointsOfAnOwner) {
   EXPECT_EQ(servo(1, 0, {{"sequence", 5}}), "");
-  EXPECT_EQ(servo(1, 0, {{"sequence", 5}}),
-            "refused: sequence = 5: allowed 6 and more, as the owner's last one was 5: give every setpoint a greater "
-            "number");
+  EXPECT_TRUE(names(servo(1, 0, {{"sequence", 5}}), {"refused", "sequence", "5", "6"}));
   EXPECT_EQ(servo(1, 0, {{"sequence", 4}}).substr(0, 8), "refused:");
   EXPECT_EQ(servo(1, 0), "") << "a setpoint may have none";
   EXPECT_EQ(send("move_cp", 1, 0, {{"sequence", 9}}), "");
@@ -57,10 +56,9 @@ TEST_F(Stream, ASetpointThatWaitedOnItsWayLongerThanItLivesIsRefused) {
   const auto at = [&](double clock_s, double now_s) { return servo(1, now_s, {{"time_s", clock_s}, {"ttl_s", 0.2}}); };
   EXPECT_EQ(at(1000.0, 5.0), "") << "whatever the two clocks show";
   EXPECT_EQ(at(1000.1, 5.3), "") << "0.2 s later than it could be";
-  EXPECT_EQ(at(1000.2, 5.5).substr(0, 8), "refused:");
-  EXPECT_NE(at(1000.2, 5.5).find("its ttl_s"), std::string::npos);
+  EXPECT_TRUE(names(at(1000.2, 5.5), {"refused", "ttl_s"}));
   EXPECT_EQ(at(1000.6, 5.6), "");
-  EXPECT_EQ(at(1000.5, 5.6).substr(0, 26), "refused: time_s = 1000.5: ") << "the clock goes back";
+  EXPECT_TRUE(names(at(1000.5, 5.6), {"refused", "time_s", "1000.5"})) << "the clock goes back";
 }
 
 TEST_F(Stream, ClocksThatRunApartSlowlyMakeNoSetpointOld) {
@@ -70,12 +68,9 @@ TEST_F(Stream, ClocksThatRunApartSlowlyMakeNoSetpointOld) {
 
 TEST_F(Stream, AGoalMayBeAsFarFromTheOneBeforeAsTheTipComesInHalfASecond) {
   const std::string said = servo(1.06, 0);
-  EXPECT_EQ(said.substr(0, 20), "out_of_range: goal =") << "the first is compared with the commanded tip";
-  EXPECT_NE(said.find("from where the tip is commanded: allowed 0 to 0.05 m in one servo_cp: use move_cp"),
-            std::string::npos)
-      << said;
+  EXPECT_TRUE(names(said, {"out_of_range", "goal", "0", "0.05 m", "move_cp"}));
   for (int i = 1; i <= 10; ++i) EXPECT_EQ(servo(1 + 0.049 * i, 0), "") << "far away in small steps";
-  EXPECT_NE(servo(1.6, 0).find("from the goal before it"), std::string::npos);
+  EXPECT_TRUE(names(servo(1.6, 0), {"out_of_range", "goal", "before"}));
   EXPECT_EQ(servo(1.04, 0), "") << "back to where the tip is may always be asked for";
   stream_.end();
   EXPECT_NE(servo(1.08, 0), "") << "the next stream begins at the tip";
@@ -87,7 +82,7 @@ TEST_F(Stream, ATurnIsBoundedToo) {
   EXPECT_EQ(servo(1, 0), "");
   stream_.end();
   tip_.quaternion = {0.9945218953682733, 0.10452846326765347, 0, 0};  // 12 deg
-  EXPECT_NE(servo(1, 0).find("deg from where the tip is commanded: allowed 0 to 10 deg"), std::string::npos);
+  EXPECT_TRUE(names(servo(1, 0), {"out_of_range", "goal", "0", "10 deg"}));
 }
 
 TEST_F(Stream, AnOwnerStandsStillWhenItsTimeToLiveIsOverAndItsGoalIsNotReached) {

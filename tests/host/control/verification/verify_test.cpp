@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "tests/firmware_like/zhu2022.hpp"
+#include "tests/message.hpp"
 
 namespace liana::verify {
 
@@ -89,7 +90,7 @@ TEST(Verify, AFaultThatWouldBeLatchedIsNamedWithItsDrive) {
     o.faults.count = 1;
     o.faults.fault[0] = {.number = FaultNumber::kTensionScatters, .index = 3};
   });
-  EXPECT_EQ(judged.text, "the controller would latch fault 5007 tension_scatters, drive or bus 4");
+  EXPECT_TRUE(names(judged.text, {"fault 5007", "tension_scatters", "4"}));
 }
 
 // req:C11
@@ -116,7 +117,7 @@ TEST(Verify, NotANumberNeverPasses) {
 TEST(Verify, ARefusalNamesWhatWhereAndTheLimit) {
   const std::string text = judge([](cable::Outputs& o) { o.theta_command_rad[9] = 1.0; }).text;
   EXPECT_NE(text.find("theta 10 = "), std::string::npos) << text;
-  EXPECT_NE(text.find("allowed 20 deg"), std::string::npos) << text;
+  EXPECT_TRUE(names(text, {"theta 10", "20 deg"}));
 }
 
 // req:C11

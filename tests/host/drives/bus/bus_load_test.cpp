@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include "tests/message.hpp"
 
 namespace liana::bus {
 namespace {
@@ -71,7 +72,7 @@ TEST(BusLoad, AllDrivesOnOneBusAt250HzAreRefusedWithTheLoad) {
   for (int node = 9; node <= 15; ++node) config.buses[0].nodes.push_back(node);
   config.buses.pop_back();
   const std::string message = refusal(config);
-  EXPECT_NE(message.find("15 drives at 250 Hz load can0 to 96.7 %"), std::string::npos) << message;
+  EXPECT_TRUE(names(message, {"15 drives", "250 Hz", "can0", "96.7 %"}));
   EXPECT_NE(message.find("75 %"), std::string::npos) << message;
   config.rate_hz = 100;
   EXPECT_EQ(refusal(config), "");
@@ -103,7 +104,7 @@ TEST(BusLoad, NodesThatDoNotExistOrExistTwiceAreRefused) {
   config.buses[1].nodes[0] = 8;
   EXPECT_NE(refusal(config).find("buses[1].nodes: 8"), std::string::npos);
   config.buses[1].nodes[0] = 127;
-  EXPECT_NE(refusal(config).find("127 is the master"), std::string::npos);
+  EXPECT_TRUE(names(refusal(config), {"127", "master"}));
 }
 
 TEST(BusLoad, NamesAndBitRatesThatCannotBeAreRefused) {

@@ -5,6 +5,7 @@
 
 #include "host/drives/bus/can_interface.hpp"
 #include "tests/host/drives/bus/embedded_bench.hpp"
+#include "tests/message.hpp"
 
 namespace liana::bus {
 namespace {
@@ -22,25 +23,20 @@ std::string refusal(const config::BusesConfig& config, timing::TimeMode mode, co
   return "";
 }
 
-void expect_says(const std::string& message, const std::string& part) {
-  EXPECT_NE(message.find(part), std::string::npos) << "\"" << message << "\" does not say \"" << part << "\"";
-}
-
 TEST(OpenDriveBus, SaysWhichProgramToStartWhenNobodyListens) {
-  expect_says(refusal(small_table(), timing::TimeMode::kFast, "/tmp/no-such-liana-bus"),
-              "start liana-bus with --socket /tmp/no-such-liana-bus");
-  expect_says(refusal(small_table(), timing::TimeMode::kFast, ""), "--bus-socket");
-  expect_says(refusal(small_table(), timing::TimeMode::kFast, std::string(200, 'x')),
-              "allowed are paths of 1 to 107 bytes");
+  EXPECT_TRUE(names(refusal(small_table(), timing::TimeMode::kFast, "/tmp/no-such-liana-bus"),
+                    {"liana-bus", "--socket", "/tmp/no-such-liana-bus"}));
+  EXPECT_TRUE(names(refusal(small_table(), timing::TimeMode::kFast, ""), {"--bus-socket"}));
+  EXPECT_TRUE(names(refusal(small_table(), timing::TimeMode::kFast, std::string(200, 'x')), {"1", "107 bytes"}));
 }
 
 TEST(OpenDriveBus, ChecksTheTableFirst) {
   config::BusesConfig config = small_table();
   config.rate_hz = 150;
-  expect_says(refusal(config, timing::TimeMode::kFast, "/tmp/no-such-liana-bus"), "60C2");
+  EXPECT_TRUE(names(refusal(config, timing::TimeMode::kFast, "/tmp/no-such-liana-bus"), {"60C2"}));
   config = small_table();
   config.backend = "pigeons";
-  expect_says(refusal(config, timing::TimeMode::kFast, ""), "'pigeons': allowed are embedded and socketcan");
+  EXPECT_TRUE(names(refusal(config, timing::TimeMode::kFast, ""), {"pigeons", "embedded", "socketcan"}));
 }
 
 // Both participants come and leave, so that the bus ends.
@@ -64,8 +60,7 @@ TEST(OpenDriveBus, RefusesABusProcessWithAnotherTable) {
   while ((message = refusal(other, timing::TimeMode::kFast, bus_thread.socket_path())).find("first") !=
          std::string::npos)
     usleep(10000);
-  expect_says(message, "can1 at 500000");
-  expect_says(message, "can1 at 1000000");
+  EXPECT_TRUE(names(message, {"can1 at 500000", "can1 at 1000000"}));
   meet_and_part(bus_thread.socket_path());
 }
 
@@ -75,14 +70,14 @@ TEST(OpenDriveBus, RefusesABusProcessInAnotherTimeMode) {
   while ((message = refusal(small_table(), timing::TimeMode::kPaced, bus_thread.socket_path())).find("first") !=
          std::string::npos)
     usleep(10000);
-  expect_says(message, "runs in fast time, asked was paced");
+  EXPECT_TRUE(names(message, {"fast", "paced"}));
   meet_and_part(bus_thread.socket_path());
 }
 
 TEST(OpenDriveBus, SocketCanHasNoVirtualTime) {
   config::BusesConfig config = small_table();
   config.backend = "socketcan";
-  expect_says(refusal(config, timing::TimeMode::kFast, ""), "SocketCAN has no virtual time");
+  EXPECT_TRUE(names(refusal(config, timing::TimeMode::kFast, ""), {"SocketCAN", "virtual time"}));
 }
 
 TEST(OpenDriveBus, NamesAMissingInterfaceOrAMissingKernelPart) {
@@ -92,11 +87,10 @@ TEST(OpenDriveBus, NamesAMissingInterfaceOrAMissingKernelPart) {
   const std::string message = refusal(config, timing::TimeMode::kReal, "");
   const int probe = socket(PF_CAN, SOCK_RAW, 1);
   if (probe < 0) {
-    expect_says(message, "this kernel has no CAN");
-    expect_says(message, "--bus embedded");
+    EXPECT_TRUE(names(message, {"kernel", "CAN", "--bus embedded"}));
   } else {
     close(probe);
-    expect_says(message, "nocan7: does not exist; this machine has ");
+    EXPECT_TRUE(names(message, {"nocan7", "this machine"}));
   }
 }
 
@@ -109,7 +103,7 @@ TEST(BusListener, RefusesASecondPlantByName) {
   char text[256] = {};
   ASSERT_GT(recv(second, text, sizeof text - 1, 0), 1);
   EXPECT_EQ(text[0], static_cast<char>(wire::Type::kError));
-  EXPECT_STREQ(text + 1, "the bus has a plant already: plant");
+  EXPECT_TRUE(names(text + 1, {"plant", "already"}));
   close(second);
   const int controller = test::connect_patiently(bus_thread.socket_path());
   test::say_hello(controller, wire::Role::kController);
@@ -137,16 +131,16 @@ std::string complaint_about(const void* packet, std::size_t size) {
 
 TEST(BusListener, EndsWithAReasonWhenAParticipantTalksNonsense) {
   wire::Yield yield;
-  EXPECT_EQ(complaint_about(&yield, yield.size()), "controller asked to be woken in the past");
+  EXPECT_TRUE(names(complaint_about(&yield, yield.size()), {"controller", "woken"}));
   yield.until_us = 4000;
   yield.frame_count = 3;
-  EXPECT_EQ(complaint_about(&yield, yield.size() - 1), "controller sent a malformed packet");
+  EXPECT_TRUE(names(complaint_about(&yield, yield.size() - 1), {"controller", "packet"}));
   yield.frame_count = 1;
   yield.frame[0].bus = 2;
-  EXPECT_EQ(complaint_about(&yield, yield.size()), "controller sent a malformed frame");
+  EXPECT_TRUE(names(complaint_about(&yield, yield.size()), {"controller", "frame"}));
   yield.frame[0].bus = 0;
   yield.frame[0].length = 9;
-  EXPECT_EQ(complaint_about(&yield, yield.size()), "controller sent a malformed frame");
+  EXPECT_TRUE(names(complaint_about(&yield, yield.size()), {"controller", "frame"}));
   yield.frame_count = 0;
   yield.flags = wire::kYieldLeave;
   EXPECT_EQ(complaint_about(&yield, yield.size()), "controller left");

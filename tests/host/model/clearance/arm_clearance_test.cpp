@@ -161,7 +161,7 @@ TEST(SelfClearance, OfTwoCapsulesHoldsWhereTheyAreAlignedOrPoints) {
       {"crossing at right angles", {-1, 0, 0}, {1, 0, 0}, {0, -1, 0.5}, {0, 1, 0.5}, 0.5},
       {"crossing in one point", {-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, 0.0},
       {"parallel, side by side", {0, 0, 0}, {1, 0, 0}, {0.2, 0.3, 0}, {0.8, 0.3, 0}, 0.3},
-      {"parallel, apart along the line", {0, 0, 0}, {1, 0, 0}, {2, 0.3, 0}, {3, 0.3, 0}, std::hypot(1.0, 0.3)},
+      {"parallel and apart", {0, 0, 0}, {1, 0, 0}, {2, 0.3, 0}, {3, 0.3, 0}, std::hypot(1.0, 0.3)},
       {"parallel, against each other", {0, 0, 0}, {1, 0, 0}, {3, 0.3, 0}, {2, 0.3, 0}, std::hypot(1.0, 0.3)},
       {"on one line, apart", {0, 0, 0}, {1, 0, 0}, {1.25, 0, 0}, {2, 0, 0}, 0.25},
       {"on one line, overlapping", {0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}, {2, 0, 0}, 0.0},

@@ -14,6 +14,7 @@
 #include "tests/host/drives/bus/allocation_count.hpp"
 #include "tests/host/operator/haptics/bilateral_rig.hpp"
 #include "tests/host/operator/haptics/laws.hpp"
+#include "tests/message.hpp"
 #include "tests/rounds.hpp"
 
 namespace liana::haptic {
@@ -151,8 +152,8 @@ TEST(HandLoop, TablesOutOfRangeAreRefusedByName) {
     }
   };
   EXPECT_EQ(refusal([](HandLoopTable&) {}), "accepted");
-  EXPECT_EQ(refusal([](HandLoopTable& t) { t.gains.stiffness_N_m = 1001.0; }),
-            "hand loop: gains.stiffness_N_m: 1001: allowed: 0 to 1000");
+  EXPECT_TRUE(names(refusal([](HandLoopTable& t) { t.gains.stiffness_N_m = 1001.0; }),
+                    {"hand loop", "gains.stiffness_N_m", "1001", "0", "1000"}));
   EXPECT_NE(refusal([](HandLoopTable& t) { t.gains.scale = 0.0; }).find("gains.scale"), std::string::npos);
   EXPECT_NE(refusal([](HandLoopTable& t) { t.tank.share = 0.6; }).find("tank.share"), std::string::npos);
   EXPECT_NE(refusal([](HandLoopTable& t) { t.fade_s = std::numeric_limits<double>::quiet_NaN(); }).find("fade_s"),

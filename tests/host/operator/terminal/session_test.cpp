@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include "tests/message.hpp"
 
 namespace liana::teleop {
 namespace {
@@ -65,7 +66,7 @@ TEST(TeleopSession, AGamepadThatLeansWithoutMotionSaysWhyNothingMoves) {
   Session session = session_at(state("somebody"));
   session.lean(Direction{{1.0, 0.0, 0.0}, {}});
   EXPECT_TRUE(session.pass(1.0).empty());
-  EXPECT_NE(text_of(session).find("nothing moves before you take motion"), std::string::npos);
+  EXPECT_TRUE(names(text_of(session), {"take motion"}));
 }
 
 // req:A16
@@ -123,9 +124,8 @@ TEST(TeleopSession, WhatLianadRefusesIsSaidAndTheNextGoalBeginsAtTheCommandedTip
 // req:A24
 TEST(TeleopSession, LinesSayStateOwnerClearanceForceAndWhatIsWrong) {
   const std::string fine = text_of(session_at(state()));
-  for (const char* word :
-       {"zhu2022", "ENABLED", "motion is yours", "14.2 mm to wall", "30 to 120 N", "5.0 N",
-        "touches the body at segment 3", "theta_rate", "converged", "1.0 mm from where it is asked to be"})
+  for (const char* word : {"zhu2022", "ENABLED", "motion is yours", "14.2 mm to wall", "30 to 120 N", "5.0 N",
+                           "segment 3", "theta_rate", "converged", "1.0 mm"})
     EXPECT_NE(fine.find(word), std::string::npos) << word << " in\n" << fine;
   EXPECT_EQ(fine.find("REFUSED"), std::string::npos) << "nothing was asked yet";
   Json bad = state("pilot", "FAULT");

@@ -9,6 +9,7 @@
 #include "host/planning/planner/plan.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/host/planning/planner/requests.hpp"
+#include "tests/message.hpp"
 
 namespace liana::plan {
 namespace {
@@ -177,16 +178,16 @@ TEST(Follow, NamesWhatIsWrongWithACurve) {
   const PlanResult off = plan(away, {});
   EXPECT_EQ(off.outcome, PlanOutcome::infeasible);
   EXPECT_EQ(off.constraint, "curve");
-  EXPECT_NE(off.reason.find("begins 20.0 mm from the tip"), std::string::npos) << off.reason;
+  EXPECT_TRUE(names(off.reason, {"begins", "20.0 mm", "tip"}));
   PlanRequest far = request_along_a_bend();
   far.follow->points_m.push_back({4.5, 0.0, 0.4});
   const PlanResult out = plan(far, {});
   EXPECT_EQ(out.constraint, "curve");
-  EXPECT_NE(out.reason.find("leaves the arm's reach"), std::string::npos) << out.reason;
+  EXPECT_TRUE(names(out.reason, {"reach"}));
   PlanRequest endless = request_along_a_bend();
   for (int i = 0; i < 500; ++i) endless.follow->points_m.push_back({1.0, i % 2 == 0 ? 1.0 : -1.0, 0.0});
   const PlanResult wound = plan(endless, {});
-  EXPECT_NE(wound.reason.find("at most 8.0 m are allowed"), std::string::npos) << wound.reason;
+  EXPECT_TRUE(names(wound.reason, {"8.0 m"}));
   PlanRequest blocked = request_along_a_bend();
   blocked.scene.spheres.push_back({"ball", {1.0, -0.05, 0.35}, 0.05});  // on the curve
   const PlanResult hit = plan(blocked, {});

@@ -52,7 +52,7 @@ inline Json event_of(std::uint64_t sequence, std::uint64_t tick) {
           {"number", 2},
           {"subject", "liana estop"},
           {"values", Json::object({{"drive", 3}})},
-          {"text", "emergency stop by liana estop"}};
+          {"text", "a stop"}};
 }
 
 }  // namespace liana::archive

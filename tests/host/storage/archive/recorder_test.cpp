@@ -5,6 +5,7 @@
 #include "host/storage/archive/reader.hpp"
 #include "host/storage/archive/segments.hpp"
 #include "tests/host/storage/archive/archive_folder.hpp"
+#include "tests/message.hpp"
 
 namespace liana::archive {
 namespace {
@@ -203,7 +204,7 @@ TEST_F(Archive, OneThatWasCutOffIsGoneOnWithAndWhatIsMissingIsSaid) {
   ASSERT_EQ(read.gaps().size(), 1u);
   EXPECT_EQ(read.gaps()[0].first_tick, 500u);
   EXPECT_EQ(read.gaps()[0].last_tick, 995u);
-  EXPECT_EQ(read.gaps()[0].text, "the recorder was not there");
+  EXPECT_TRUE(names(read.gaps()[0].text, {"recorder"}));
   EXPECT_EQ(read.facts().size(), 2u);
   EXPECT_EQ(read.recorded()->last, 1500u);
 }

@@ -11,6 +11,7 @@
 #include "host/storage/recording/serialise.hpp"
 #include "tests/firmware_like/ideal_drives.hpp"
 #include "tests/host/storage/recording/field_finder.hpp"
+#include "tests/message.hpp"
 
 namespace liana::record {
 namespace {
@@ -80,39 +81,37 @@ TEST(Image, OneThatIsCutShortOrTooLongIsRefusedWithTheField) {
   EXPECT_EQ(refusal_of(good, rig.robot), "");
   for (std::size_t length = 0; length < good.size(); length += 97)
     ASSERT_NE(refusal_of(good.substr(0, length), rig.robot), "") << length;
-  EXPECT_EQ(refusal_of(good.substr(0, 4), rig.robot),
-            "recording images.mcap: controller image: field controller.arm.payout_measured_m[0]: nothing; allowed is a "
-            "value: the image ends before it; take a good copy of the file");
-  EXPECT_NE(refusal_of(good + "x", rig.robot).find("1 more bytes"), std::string::npos);
+  EXPECT_TRUE(names(refusal_of(good.substr(0, 4), rig.robot), {"images.mcap", "controller.arm.payout_measured_m[0]"}));
+  EXPECT_TRUE(names(refusal_of(good + "x", rig.robot), {"1 more"}));
 }
 
 TEST(Image, WhatWouldLeadTheCoreOutOfItsArraysIsRefusedAndNamed) {
   const cable::Rig rig = moving_rig(50);
-  const auto expect_refused = [&](const std::string& field, auto value, const std::string& allowed) {
+  const auto expect_refused = [&](const std::string& field, auto value, Facts facts) {
     const std::string said = refusal_of(with_field(rig.controller, field, value), rig.robot);
-    EXPECT_NE(said.find("field controller." + field + ": "), std::string::npos) << field << ": " << said;
-    EXPECT_NE(said.find("allowed is " + allowed), std::string::npos) << said;
+    facts.push_back("controller." + field);
+    EXPECT_TRUE(names(said, facts));
   };
-  expect_refused("faults.count", std::int32_t{17}, "0..16");
-  expect_refused("faults.count", std::int32_t{-1}, "0..16");
-  expect_refused("faults.fault[2].number", std::uint16_t{77}, "a value that has a meaning");
-  expect_refused("supervisor.phase", std::uint8_t{11}, "a value that has a meaning");
-  expect_refused("active.setpoint.kind", std::uint8_t{8}, "a value that has a meaning");
-  expect_refused("active.setpoint.node[1].node", std::int32_t{6}, "0..5");
-  expect_refused("arm.cable_watch.newest", std::uint8_t{2}, "0..1");
-  expect_refused("arm.cable_watch.segment", std::int32_t{5}, "0..4");
-  expect_refused("arm.cable_watch.cable", std::int32_t{31}, "");
-  expect_refused("arm.cable_watch.suspect", std::int32_t{15}, "-1..14");
-  expect_refused("arm.let_go.stage", std::uint8_t{4}, "a value that has a meaning");
-  expect_refused("arm.let_go.segment", std::int32_t{5}, "0..4");
-  expect_refused("arm.let_go.cable", std::int32_t{15}, "0..14");
-  expect_refused("arm.motion.braking", std::uint8_t{2}, "0..1");
-  expect_refused("arm.motion.interval_tick", std::int32_t{-2}, "0..");
-  expect_refused("arm.motion.held_mask", std::uint32_t{1u << 10}, "0..1023");
-  expect_refused("arm.motion.shape.wanted_held.low", std::uint32_t{1u << 16}, "0..1023");
-  expect_refused("arm.motion.shape.next_pull", ~std::uint64_t{0}, "0..");
-  expect_refused("arm.motion.limiter.theta_rad[4]", 1001.0, "a finite number up to 1000");
-  expect_refused("arm.ramp", std::numeric_limits<double>::quiet_NaN(), "a finite number");
+  expect_refused("faults.count", std::int32_t{17}, {"0..16"});
+  expect_refused("faults.count", std::int32_t{-1}, {"0..16"});
+  expect_refused("faults.fault[2].number", std::uint16_t{77}, {"meaning"});
+  expect_refused("supervisor.phase", std::uint8_t{11}, {"meaning"});
+  expect_refused("active.setpoint.kind", std::uint8_t{8}, {"meaning"});
+  expect_refused("active.setpoint.node[1].node", std::int32_t{6}, {"0..5"});
+  expect_refused("arm.cable_watch.newest", std::uint8_t{2}, {"0..1"});
+  expect_refused("arm.cable_watch.segment", std::int32_t{5}, {"0..4"});
+  expect_refused("arm.cable_watch.cable", std::int32_t{31}, {});
+  expect_refused("arm.cable_watch.suspect", std::int32_t{15}, {"-1..14"});
+  expect_refused("arm.let_go.stage", std::uint8_t{4}, {"meaning"});
+  expect_refused("arm.let_go.segment", std::int32_t{5}, {"0..4"});
+  expect_refused("arm.let_go.cable", std::int32_t{15}, {"0..14"});
+  expect_refused("arm.motion.braking", std::uint8_t{2}, {"0..1"});
+  expect_refused("arm.motion.interval_tick", std::int32_t{-2}, {"0.."});
+  expect_refused("arm.motion.held_mask", std::uint32_t{1u << 10}, {"0..1023"});
+  expect_refused("arm.motion.shape.wanted_held.low", std::uint32_t{1u << 16}, {"0..1023"});
+  expect_refused("arm.motion.shape.next_pull", ~std::uint64_t{0}, {"0.."});
+  expect_refused("arm.motion.limiter.theta_rad[4]", 1001.0, {"finite", "1000"});
+  expect_refused("arm.ramp", std::numeric_limits<double>::quiet_NaN(), {"finite"});
 }
 
 TEST(Image, ATableThatWouldLeadTheCoreOutOfItsArraysIsRefused) {
