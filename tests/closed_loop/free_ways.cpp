@@ -130,9 +130,9 @@ void out_and_back_again(ArmUnderControl& arm, std::uint64_t seed, Look look) {
 }  // namespace
 
 const std::vector<FreeWay>& free_ways() {
-  static const std::vector<FreeWay> ways{{"one segment after the other", one_segment_after_the_other},
+  static const std::vector<FreeWay> ways{{"segment after segment", one_segment_after_the_other},
                                          {"one angle", one_angle},
-                                         {"all angles, and stops on the way", all_angles_and_some_stops},
+                                         {"all angles, with stops", all_angles_and_some_stops},
                                          {"swings about the root", swings_about_the_root},
                                          {"the tip by hand", tip_by_hand},
                                          {"out, and the way back", out_and_back_again}};

@@ -13,6 +13,7 @@
 #include "host/base/json/json.hpp"
 #include "host/model/config/drive_types_of_buses.hpp"
 #include "tests/drives/drive_line.hpp"
+#include "tests/message.hpp"
 
 namespace liana {
 namespace {
@@ -119,7 +120,7 @@ TEST(DriveTypesOnTheBench, ADriveOfAnotherMakerIsRefused) {
   EXPECT_EQ(bench.boot.state(), canopen::BootState::kFailed);
   ASSERT_FALSE(bench.boot.mismatches(0).empty());
   EXPECT_EQ(bench.boot.mismatches(0)[0].index, 0x1018);
-  EXPECT_NE(bench.refusals().find("expected 251 (0xFB), found 154 (0x9A)"), std::string::npos) << bench.refusals();
+  EXPECT_TRUE(names(bench.refusals(), {"251", "154"}));
   EXPECT_NE(bench.refusals().find("0x6066"), std::string::npos) << bench.refusals();
 }
 

@@ -139,7 +139,7 @@ TEST(Cia402, EveryGoalIsReachedThroughTheTransitionsOfTheStandard) {
       {S::kReadyToSwitchOn, G::kDisabled, {7}, "disable voltage"},
       {S::kSwitchedOn, G::kDisabled, {10}, "disable voltage"},
       {S::kOperationEnabled, G::kDisabled, {9}, "torque off at once"},
-      {S::kOperationEnabled, G::kQuickStop, {11}, "drive stops on its own ramp"},
+      {S::kOperationEnabled, G::kQuickStop, {11}, "the drive's own ramp"},
       {S::kReadyToSwitchOn, G::kQuickStop, {7}, "nothing to stop"},
       {S::kSwitchedOn, G::kQuickStop, {10}, "nothing to stop"},
       {S::kQuickStopActive, G::kQuickStop, {}, "waits for the drive"},

@@ -47,7 +47,7 @@ struct Row {
 
 TEST(ForceLaw, DrivesTheTipAsWorkedOutByHand) {
   const Row rows[] = {
-      {"nothing is felt: all of the set force", PushLaw::kForce, {}, {}, {0, 0, 30}, {0, 0, 0}},
+      {"no force yet: all of it", PushLaw::kForce, {}, {}, {0, 0, 30}, {0, 0, 0}},
       {"the set force is met", PushLaw::kForce, {{0, 0, 30}, {}}, {}, {0, 0, 0}, {0, 0, 0}},
       {"across the axis 1 N is nothing", PushLaw::kForce, {{0.6, 0.8, 30}, {}}, {}, {0, 0, 0}, {0, 0, 0}},
       {"and of more the rest counts", PushLaw::kForce, {{3, 4, 30}, {}}, {}, {-2.4, -3.2, 0}, {0, 0, 0}},

@@ -116,7 +116,7 @@ TEST_F(Gate, ADriveThatLetsGoMayJumpItsWayAndNoFurtherAndOnlyWhenItSaysSo) {
   }
   limits_.drive[1].let_go_counts = 0;
   proposal_[1].target_counts = kZeroCounts + 1000.0;
-  expect_refused(GateCheck::kStepTooLarge, 1, "a drive that never lets go");
+  expect_refused(GateCheck::kStepTooLarge, 1, "no cable to let go");
 }
 
 TEST_F(Gate, ADriveThatLetsGoMayTakeItsTargetBackToWhereTheMotorStands) {
@@ -212,10 +212,10 @@ TEST_F(Gate, AStepAcrossTheWholeIntegerRangeDoesNotOverflow) {
 
 TEST_F(Gate, AModeThatTheDriveWasNotConfiguredForIsRefused) {
   proposal_[3].mode = DriveMode::kCyclicTorque;
-  expect_refused(GateCheck::kModeNotAllowed, 3, "torque to a drive in cyclic position");
+  expect_refused(GateCheck::kModeNotAllowed, 3, "torque in cyclic position");
   limits_.drive[3].mode = DriveMode::kCyclicTorque;
   limits_.drive[3].torque_step_permille = kMost_permille;
-  expect_passed("torque to a drive in cyclic torque");
+  expect_passed("torque in cyclic torque");
 }
 
 TEST_F(Gate, TheFirstDriveThatFailsIsNamed) {

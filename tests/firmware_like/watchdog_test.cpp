@@ -220,7 +220,7 @@ TEST_F(WatchdogsOfAnArm, TensionIsHeldBetweenFloorAlarmAndHardLimit) {
       {400.0, kRunning, 0, FaultNumber::kTensionAlarm, "exactly at the alarm"},
       {400.1, kRunning, kAlarmDebounceTicks, FaultNumber::kTensionAlarm, "over the alarm"},
       {400.1, kRamp, kAlarmDebounceTicks, FaultNumber::kTensionAlarm, "the ramp may not pull too hard either"},
-      {600.0, kRunning, 0, FaultNumber::kCableOverload, "exactly at the hard limit"},
+      {600.0, kRunning, 0, FaultNumber::kCableOverload, "at the hard limit"},
       {600.1, kRunning, kOverloadDebounceTicks, FaultNumber::kCableOverload, "over the hard limit"},
       {600.1, kUnpowered, 0, FaultNumber::kCableOverload, "no torque to take away"},
   };

@@ -63,7 +63,7 @@ TEST_F(DriveNode, RefusesWithTheCodeOfTheStandard) {
       {"too high", 0x6072, 0, 2, 3001, 0x06090031},
       {"too low", 0x605A, 0, 2, 0, 0x06090032},
       {"mode not supported", 0x6060, 0, 1, 1, 0x06090030},
-      {"mapping of an enabled PDO", 0x1600, 0, 1, 0, 0x08000022},
+      {"mapping while enabled", 0x1600, 0, 1, 0, 0x08000022},
       {"COB-ID changed while enabled", 0x1400, 1, 4, 0x300, 0x06090030},
   };
   for (const auto& test : cases)

@@ -1,5 +1,6 @@
 // The fault list: what is read and refused, when faults begin and end, and the faults that need an arm to be seen.
 #include "bench_harness.hpp"
+#include "tests/message.hpp"
 
 namespace liana::bench {
 namespace {
@@ -11,19 +12,18 @@ std::vector<FaultConfig> faults_of(const std::string& text) {
 }
 
 TEST(FaultList, ANumberThatNoDoubleHoldsIsRefusedWithFileFieldAndItself) {
-  const char* rows[][2] = {
-      {"1e400", ": is 1e400; "},
-      {R"([{"kind":"drive_silent","at_slot":1e400}])", ": /0/at_slot: is 1e400; "},
-      {R"([{"a":[{"b":1},[2,[3]],4,{"c":5}]},{"b":true,"c":null,"d":"x","e":[0.5,[],-1e400]}])",
-       ": /1/e/2: is -1e400; "},
+  const char* rows[][3] = {
+      {"1e400", "", "1e400"},
+      {R"([{"kind":"drive_silent","at_slot":1e400}])", "/0/at_slot", "1e400"},
+      {R"([{"a":[{"b":1},[2,[3]],4,{"c":5}]},{"b":true,"c":null,"d":"x","e":[0.5,[],-1e400]}])", "/1/e/2", "-1e400"},
   };
-  for (const auto& [text, said] : rows) {
+  for (const auto& [text, field, number] : rows) {
     try {
       faults_of(text);
       ADD_FAILURE() << text << " was accepted";
     } catch (const std::runtime_error& error) {
-      const std::string start = temporary("faults.json") + said + "allowed is -1.79769313486232e+308 to 1.79";
-      EXPECT_TRUE(std::string(error.what()).starts_with(start)) << error.what();
+      EXPECT_TRUE(names(error.what(), {temporary("faults.json"), number, "-1.79769313486232e+308"}));
+      EXPECT_NE(std::string(error.what()).find(field), std::string::npos) << error.what();
     }
   }
 }
@@ -92,17 +92,15 @@ TEST(FaultList, OfAPayloadNamesNoDrive) {
 }
 
 TEST(FaultList, OfAPayloadIsRefusedByACableArmAndSoIsOneThatWaitsForContact) {
-  for (const auto& [faults, words] :
-       std::vector<std::pair<std::string, std::string>>{{R"([{"kind":"sensor_failed","at_slot":3}])", "sensor_failed"},
-                                                        {R"([{"drive":3,"kind":"sto","when":{"contact_above_N":3}}])",
-                                                         "when waits for contact, capture or carrying"},
-                                                        {R"([{"drive":3,"kind":"sto","when":{"carried_above":0.5}}])",
-                                                         "when waits for contact, capture or carrying"}}) {
+  for (const auto& [faults, facts] : std::vector<std::pair<std::string, Facts>>{
+           {R"([{"kind":"sensor_failed","at_slot":3}])", {"sensor_failed"}},
+           {R"([{"drive":3,"kind":"sto","when":{"contact_above_N":3}}])", {"when", "contact", "capture"}},
+           {R"([{"drive":3,"kind":"sto","when":{"carried_above":0.5}}])", {"when", "contact", "capture"}}}) {
     try {
       run_with(faults, 5);
       ADD_FAILURE() << faults << " was accepted";
     } catch (const std::runtime_error& error) {
-      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+      EXPECT_TRUE(names(error.what(), facts));
     }
   }
 }
@@ -110,51 +108,50 @@ TEST(FaultList, OfAPayloadIsRefusedByACableArmAndSoIsOneThatWaitsForContact) {
 TEST(FaultList, RefusesWhatItDoesNotUnderstandWithFieldAndWhatIsAllowed) {
   struct Case {
     const char* fault;
-    std::vector<const char*> words;
+    Facts facts;
   };
   const Case cases[] = {
-      {R"({"drive":15,"kind":"fault","at_slot":1})", {"/0/drive", "15", "0 to 14"}},
+      {R"({"drive":15,"kind":"fault","at_slot":1})", {"/0/drive", "15", "0", "14"}},
       {R"({"drive":"some","kind":"fault","at_slot":1})", {"/0/drive", "some", "all"}},
-      {R"({"drive":[],"kind":"fault","at_slot":1})", {"/0/drive", "at least one"}},
+      {R"({"drive":[],"kind":"fault","at_slot":1})", {"/0/drive", "one"}},
       {R"({"drive":[2,2],"kind":"fault","at_slot":1})", {"/0/drive", "twice"}},
       {R"({"drive":[2,15],"kind":"fault","at_slot":1})", {"/0/drive/1", "15"}},
-      {R"({"drive":3,"kind":"tired","at_slot":1})",
-       {"/0/kind", "tired", "allowed are missing, wrong_identity", "cable_break"}},
-      {R"({"drive":3,"kind":"fault"})", {"exactly one of at_slot and when"}},
-      {R"({"drive":3,"kind":"fault","at_slot":1,"when":{"moving":true}})", {"exactly one of at_slot and when"}},
+      {R"({"drive":3,"kind":"tired","at_slot":1})", {"/0/kind", "tired", "missing", "wrong_identity", "cable_break"}},
+      {R"({"drive":3,"kind":"fault"})", {"at_slot", "when"}},
+      {R"({"drive":3,"kind":"fault","at_slot":1,"when":{"moving":true}})", {"at_slot", "when"}},
       {R"({"drive":3,"kind":"fault","at_slot":-1})", {"/0/at_slot", "-1"}},
-      {R"({"drive":3,"kind":"fault","at_slto":1})", {"/0/at_slto", "not known", "at_slot"}},
-      {R"({"drive":3,"kind":"fault","at_slot":1,"for_slots":5})", {"/0/for_slots", "not known"}},
+      {R"({"drive":3,"kind":"fault","at_slto":1})", {"/0/at_slto", "known", "at_slot"}},
+      {R"({"drive":3,"kind":"fault","at_slot":1,"for_slots":5})", {"/0/for_slots", "known"}},
       {R"({"drive":3,"kind":"silent","at_slot":1,"for_slots":0})", {"/0/for_slots", "0"}},
-      {R"({"drive":3,"kind":"silent","at_slot":1,"counts":5})", {"/0/counts", "not known"}},
+      {R"({"drive":3,"kind":"silent","at_slot":1,"counts":5})", {"/0/counts", "known"}},
       {R"({"drive":3,"kind":"encoder_jump","at_slot":1})", {"/0/counts", "missing"}},
-      {R"({"kind":"jam","pin":4,"depth_m":0.01,"at_slot":1})", {"/0/pin", "4", "1 to 3"}},
+      {R"({"kind":"jam","pin":4,"depth_m":0.01,"at_slot":1})", {"/0/pin", "4", "1", "3"}},
       {R"({"kind":"jam","pin":1,"at_slot":1})", {"/0/depth_m", "missing"}},
-      {R"({"kind":"jam","drive":1,"pin":1,"depth_m":0.01,"at_slot":1})", {"/0/drive", "not known"}},
-      {R"({"kind":"base_moved","at_slot":1})", {"/0", "by nothing", "x_m"}},
+      {R"({"kind":"jam","drive":1,"pin":1,"depth_m":0.01,"at_slot":1})", {"/0/drive", "known"}},
+      {R"({"kind":"base_moved","at_slot":1})", {"/0", "nothing", "x_m"}},
       {R"({"kind":"base_moved","x_m":0.06,"at_slot":1})", {"/0/x_m", "0.06", "0.05"}},
-      {R"({"kind":"base_moved","x_m":0.01,"at_slot":1,"for_slots":5})", {"/0/for_slots", "not known"}},
+      {R"({"kind":"base_moved","x_m":0.01,"at_slot":1,"for_slots":5})", {"/0/for_slots", "known"}},
       {R"({"drive":3,"kind":"encoder_jump","at_slot":1,"counts":0.5})", {"/0/counts", "whole"}},
-      {R"({"drive":3,"kind":"noisy","at_slot":1})", {"counts or permille"}},
+      {R"({"drive":3,"kind":"noisy","at_slot":1})", {"counts", "permille"}},
       {R"({"drive":3,"kind":"late","at_slot":1,"cycles":0})", {"/0/cycles", "0"}},
       {R"({"drive":3,"kind":"wrong_pdo_length","at_slot":1,"bytes":9})", {"/0/bytes", "9"}},
       {R"({"drive":3,"kind":"emcy","at_slot":1})", {"/0/code", "missing"}},
       {R"({"drive":3,"kind":"emcy","at_slot":1,"code":65536})", {"/0/code", "65536"}},
       {R"({"drive":3,"kind":"cable_slip","at_slot":1,"length_m":1})", {"/0/length_m", "0.1"}},
       {R"({"drive":3,"kind":"motor_saturation","at_slot":1,"tension_N":-1})", {"/0/tension_N", "-1"}},
-      {R"({"drive":3,"kind":"sto","when":{}})", {"/0/when", "no condition"}},
+      {R"({"drive":3,"kind":"sto","when":{}})", {"/0/when", "condition"}},
       {R"({"drive":3,"kind":"sto","when":{"theta":11,"above_deg":1}})", {"/0/when/theta", "11"}},
       {R"({"drive":3,"kind":"sto","when":{"theta":3}})", {"/0/when", "above_deg"}},
       {R"({"drive":3,"kind":"sto","when":{"above_deg":3}})", {"/0/when/theta", "missing"}},
       {R"({"drive":3,"kind":"sto","when":{"moving":false}})", {"/0/when/moving", "true"}},
       {R"({"drive":3,"kind":"sto","when":{"moving":true,"for_slots":0}})", {"/0/when/for_slots", "0"}},
-      {R"({"drive":3,"kind":"sto","when":{"resting":true}})", {"/0/when/resting", "not known"}},
+      {R"({"drive":3,"kind":"sto","when":{"resting":true}})", {"/0/when/resting", "known"}},
       {R"({"drive":3,"kind":"sto","when":7})", {"/0/when"}},
-      {R"({"drive":3,"kind":"camera_frozen","at_slot":1})", {"/0/drive", "not known"}},
+      {R"({"drive":3,"kind":"camera_frozen","at_slot":1})", {"/0/drive", "known"}},
       {R"({"kind":"camera_jump","at_slot":1})", {"/0/length_m", "missing"}},
       {R"({"kind":"camera_jump","at_slot":1,"length_m":0})", {"/0/length_m", "0"}},
-      {R"({"drive":3,"kind":"push","at_slot":1,"x_N":1})", {"/0/drive", "not known"}},
-      {R"({"kind":"push","at_slot":1})", {"x_N, y_N or z_N"}},
+      {R"({"drive":3,"kind":"push","at_slot":1,"x_N":1})", {"/0/drive", "known"}},
+      {R"({"kind":"push","at_slot":1})", {"x_N", "y_N", "z_N"}},
       {R"({"kind":"push","at_slot":1,"x_N":101})", {"/0/x_N", "101"}},
       {R"({"kind":"push","at_slot":1,"x_N":1,"link":-1})", {"/0/link", "-1"}},
       {R"({"kind":"camera_late","at_slot":1,"seconds":0})", {"/0/seconds", "0"}},
@@ -168,8 +165,7 @@ TEST(FaultList, RefusesWhatItDoesNotUnderstandWithFieldAndWhatIsAllowed) {
       faults_of(std::string("[") + test.fault + "]");
       ADD_FAILURE() << test.fault << " was accepted";
     } catch (const std::runtime_error& error) {
-      for (const char* word : test.words)
-        EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << test.fault << ": " << error.what();
+      EXPECT_TRUE(names(error.what(), test.facts)) << test.fault;
     }
   }
   EXPECT_THROW(faults_of("{}"), std::runtime_error);

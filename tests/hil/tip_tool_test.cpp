@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include "tests/message.hpp"
 
 namespace liana::bench {
 namespace {
@@ -35,13 +36,13 @@ TEST(TipTool, ARepairTakesThreeSecondsAndTheRodOut) {
 TEST(TipTool, WhatItCannotDoFailsWithItsReason) {
   TipTool far, other, twice;
   far.ask({1, "repair", 0.0});
-  EXPECT_EQ(course(far, {1.0, 0.1, 0.0}), "failed: the rod is 100 mm from the tip, at most 15 mm can be gripped");
+  EXPECT_TRUE(names(course(far, {1.0, 0.1, 0.0}), {"failed", "rod", "100 mm", "15 mm"}));
   other.ask({1, "drill", 0.0});
-  EXPECT_EQ(course(other), "failed: the tool knows repair only, not drill");
+  EXPECT_TRUE(names(course(other), {"failed", "repair", "drill"}));
   twice.ask({1, "repair", 0.0});
   EXPECT_EQ(course(twice), "acting, done");
   twice.ask({2, "repair", 0.0});
-  EXPECT_EQ(course(twice), "failed: the rod is out already");
+  EXPECT_TRUE(names(course(twice), {"failed", "rod", "out"}));
 }
 
 TEST(TipTool, ARodThatSlipsAwayHalfWayIsNotOut) {
@@ -56,7 +57,7 @@ TEST(TipTool, AJammedToolFailsHalfWayAndASilentOneSaysNothing) {
   TipTool jammed, silent;
   jammed.suffer({true, false});
   jammed.ask({1, "repair", 0.0});
-  EXPECT_EQ(course(jammed), "acting, failed: the tool is jammed");
+  EXPECT_TRUE(names(course(jammed), {"acting", "failed", "jammed"}));
   EXPECT_FALSE(jammed.has_rod());
   silent.suffer({false, true});
   silent.ask({1, "repair", 0.0});

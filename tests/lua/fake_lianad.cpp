@@ -231,7 +231,7 @@ Json FakeLianad::state() const {
           {"faults", faults},
           {"refusals", refused_motion ? 1 : 0},
           {"refused_motions", refused_motion ? 1 : 0},
-          {"verdict", {{"text", "joint rate 1.2 of the limit"}}},
+          {"verdict", {{"text", "joint rate 1.2"}}},
           {"planar_segments", planar_segments()},
           {"shape", {{"missing_m", 0.02}, {"settled", busy_intervals_ == 0}, {"searching", false}}},
           {"mission_control",

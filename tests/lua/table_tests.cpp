@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <tuple>
 
 #include "host/base/json/json.hpp"
 
 #include "tests/lua/program.hpp"
+#include "tests/message.hpp"
 
 namespace liana::script {
 namespace {
@@ -36,51 +38,64 @@ struct Change {
   const char* kind;
   const char* module;
   const char* statement;  // applied to table t
-  const char* message;
+  Facts facts;            // that the message names
 };
 
 // Lua tables of users, each with one mistake: the message names file, field, value, what is allowed and what to do.
 TEST(Eval, RefusesMalformedLuaTablesByField) {
   const std::vector<Change> changes = {
-      {"robot", "robots.zhu2022", "t.segments[2].modules = 99",
-       "given.lua: segments[1].modules: 99: allowed 1 to 16: choose a value"},
-      {"robot", "robots.zhu2022", "t.module.mass_kg = 'heavy'",
-       "given.lua: module.mass_kg: \"heavy\": allowed a number 0.001 to 100"},
-      {"robot", "robots.zhu2022", "t.format = 3", "given.lua: format: 3: allowed 1 to 1"},
-      {"robot", "robots.zhu2022", "t.limits.tip_speed = 1", "given.lua: limits.tip_speed: 1: allowed no such field"},
-      {"robot", "robots.zhu2022", "t.limits.tip_sped_m_s, t.limits.tip_speed_m_s = t.limits.tip_speed_m_s, nil",
-       "given.lua: limits.tip_sped_m_s: 0.1: allowed no such field: remove it or correct its spelling"},
-      {"robot", "robots.zhu2022", "t.drives.idenity, t.drives.identity = t.drives.identity, nil",
-       "given.lua: drives.idenity: {"},
-      {"robot", "robots.zhu2022", "t.drives = nil", "given.lua: drives: missing"},
-      {"robot", "robots.zhu2022", "for i = 6, 9 do t.segments[i] = t.segments[1] end",
-       "given.lua: segments: 9 entries: allowed a list of 1 to 8"},
-      {"scene", "scenes.panel_slit", "t.spheres[1].radius_m = -1",
-       "given.lua: spheres[1].radius_m: -1: allowed 1e-04 to 100"},
-      {"scene", "scenes.panel_slit", "t.boxes[1].rotation[1] = {1,1,1}", "given.lua: boxes[1].rotation: "},
-      {"scene", "scenes.panel_slit", "t.rod.position_m = {1,2}",
-       "given.lua: rod.position_m: 2 entries: allowed a list of 3 entries"},
-      {"scene", "scenes.panel_slit", "t.slit.offset_m = t.slit.offset_m + 0.1", "given.lua: slit.frame.position_m: "},
-      {"buses", "buses.embedded", "t.rate_hz = 300", "given.lua: rate_hz: 300: allowed rates whose period"},
-      {"buses", "buses.embedded", "t.buses[1].nodes[1] = 0", "given.lua: buses[1].nodes[1]: 0: allowed 1 to 126"},
-      {"buses", "buses.embedded", "t.buses[2].nodes[1] = 1",
-       "given.lua: buses[2].nodes[1]: 1: allowed each node id once"},
-      {"buses", "buses.embedded_single", "t.rate_hz = 250", "given.lua: buses[1].nodes: "},
-      {"buses", "buses.embedded", "t.backend = 'ethernet'",
-       "given.lua: backend: \"ethernet\": allowed embedded, socketcan"},
-      {"buses", "buses.embedded", "t.kind = 'robot'", "given.lua: kind: \"robot\": allowed buses"},
-      {"buses", "buses.embedded", "t.drives = { { type = 'nobodys', nodes = { 1 } } }",
-       "given.lua: drive: nobodys: allowed cia402_csp"},
-      {"buses", "buses.embedded", "t.drives = { { typ = 'cia402_csp', nodes = { 1 } } }",
-       "given.lua: drives[1].type: missing"},
-      {"drive", "drives.cia402_csp", "t.polarity = 3", "given.lua: polarity: 3: allowed 0, 64, 128 or 192"}};
+      {"robot", "robots.zhu2022", "t.segments[2].modules = 99", {"given.lua", "segments[1].modules", "99", "1", "16"}},
+      {"robot",
+       "robots.zhu2022",
+       "t.module.mass_kg = 'heavy'",
+       {"given.lua", "module.mass_kg", "heavy", "0.001", "100", "number"}},
+      {"robot", "robots.zhu2022", "t.format = 3", {"given.lua", "format", "3", "1"}},
+      {"robot", "robots.zhu2022", "t.limits.tip_speed = 1", {"given.lua", "limits.tip_speed", "1", "field"}},
+      {"robot",
+       "robots.zhu2022",
+       "t.limits.tip_sped_m_s, t.limits.tip_speed_m_s = t.limits.tip_speed_m_s, nil",
+       {"given.lua", "limits.tip_sped_m_s", "0.1", "field"}},
+      {"robot",
+       "robots.zhu2022",
+       "t.drives.idenity, t.drives.identity = t.drives.identity, nil",
+       {"given.lua", "drives.idenity"}},
+      {"robot", "robots.zhu2022", "t.drives = nil", {"given.lua", "drives", "missing"}},
+      {"robot",
+       "robots.zhu2022",
+       "for i = 6, 9 do t.segments[i] = t.segments[1] end",
+       {"given.lua", "segments", "9", "1", "8", "list"}},
+      {"scene",
+       "scenes.panel_slit",
+       "t.spheres[1].radius_m = -1",
+       {"given.lua", "spheres[1].radius_m", "-1", "1e-04", "100"}},
+      {"scene", "scenes.panel_slit", "t.boxes[1].rotation[1] = {1,1,1}", {"given.lua", "boxes[1].rotation"}},
+      {"scene", "scenes.panel_slit", "t.rod.position_m = {1,2}", {"given.lua", "rod.position_m", "2", "3", "list"}},
+      {"scene", "scenes.panel_slit", "t.slit.offset_m = t.slit.offset_m + 0.1", {"given.lua", "slit.frame.position_m"}},
+      {"buses", "buses.embedded", "t.rate_hz = 300", {"given.lua", "rate_hz", "300", "period"}},
+      {"buses", "buses.embedded", "t.buses[1].nodes[1] = 0", {"given.lua", "buses[1].nodes[1]", "0", "1", "126"}},
+      {"buses", "buses.embedded", "t.buses[2].nodes[1] = 1", {"given.lua", "buses[2].nodes[1]", "1"}},
+      {"buses", "buses.embedded_single", "t.rate_hz = 250", {"given.lua", "buses[1].nodes"}},
+      {"buses",
+       "buses.embedded",
+       "t.backend = 'ethernet'",
+       {"given.lua", "backend", "ethernet", "embedded", "socketcan"}},
+      {"buses", "buses.embedded", "t.kind = 'robot'", {"given.lua", "kind", "robot", "buses"}},
+      {"buses",
+       "buses.embedded",
+       "t.drives = { { type = 'nobodys', nodes = { 1 } } }",
+       {"given.lua", "drive", "nobodys", "cia402_csp"}},
+      {"buses",
+       "buses.embedded",
+       "t.drives = { { typ = 'cia402_csp', nodes = { 1 } } }",
+       {"given.lua", "drives[1].type", "missing"}},
+      {"drive", "drives.cia402_csp", "t.polarity = 3", {"given.lua", "polarity", "3", "0", "64", "128", "192"}}};
   const TemporaryFolder folder;
   for (const Change& change : changes) {
     const std::string file = folder.write(
         "given.lua", "local t = require '" + std::string(change.module) + "'\n" + change.statement + "\nreturn t\n");
     const Ended ended = run_program("eval " + std::string(change.kind) + " " + file);
     EXPECT_EQ(ended.code, 2) << change.statement;
-    EXPECT_NE(ended.error.find(change.message), std::string::npos) << change.statement << " -> " << ended.error;
+    EXPECT_TRUE(names(ended.error, change.facts)) << change.statement;
     EXPECT_EQ(std::count(ended.error.begin(), ended.error.end(), '\n'), 1) << ended.error;
   }
 }
@@ -118,17 +133,17 @@ TEST(Eval, PutsTheHullOfAnStlFileIntoTheScene) {
 TEST(Eval, RefusesWhatIsNoShapeFile) {
   struct Bad {
     const char* fields;
-    const char* message;
+    Facts facts;
   };
   const std::vector<Bad> cases = {
-      {"stl = 'none.stl'", "given.lua: none.stl: allowed a file that can be read"},
-      {"stl = 'text.stl'", "given.lua: text.stl: allowed an STL file of 1 to 200000 triangles"},
-      {"stl = 'short.stl'", "given.lua: short.stl: allowed three numbers after every vertex"},
-      {"stl = '../wedge.stl'", "given.lua: convex[1].stl"},
-      {"stl = 'wedge.stl', unit_m = 0", "given.lua: convex[1].unit_m: 0: allowed over 0"},
-      {"stl = 'wedge.stl', points_m = {}", "given.lua: convex[1].points_m: "},
-      {"stl = 'wedge.stl', quaternion_wxyz = { 1, 1, 0, 0 }", "given.lua: convex[1].quaternion_wxyz: "},
-      {"stl = 'flat.stl'", "given.lua: convex[1].points_m: "}};
+      {"stl = 'none.stl'", {"given.lua", "none.stl"}},
+      {"stl = 'text.stl'", {"given.lua", "text.stl", "200000"}},
+      {"stl = 'short.stl'", {"given.lua", "short.stl", "numbers"}},
+      {"stl = '../wedge.stl'", {"given.lua", "convex[1].stl"}},
+      {"stl = 'wedge.stl', unit_m = 0", {"given.lua", "convex[1].unit_m", "0"}},
+      {"stl = 'wedge.stl', points_m = {}", {"given.lua", "convex[1].points_m"}},
+      {"stl = 'wedge.stl', quaternion_wxyz = { 1, 1, 0, 0 }", {"given.lua", "convex[1].quaternion_wxyz"}},
+      {"stl = 'flat.stl'", {"given.lua", "convex[1].points_m"}}};
   const TemporaryFolder folder;
   folder.write("wedge.stl", kWedge);
   folder.write("text.stl", "no shape at all");
@@ -137,19 +152,16 @@ TEST(Eval, RefusesWhatIsNoShapeFile) {
   for (const Bad& bad : cases) {
     const Ended ended = run_program("eval scene " + folder.write("given.lua", scene_with(bad.fields)));
     EXPECT_EQ(ended.code, 2) << bad.fields;
-    EXPECT_NE(ended.error.find(bad.message), std::string::npos) << bad.fields << " -> " << ended.error;
+    EXPECT_TRUE(names(ended.error, bad.facts)) << bad.fields;
   }
 }
 
 TEST(Eval, NamesWhatThereIsWhenANameIsUnknown) {
   const Ended ended = run_program("eval buses can9");
   EXPECT_EQ(ended.code, 2);
-  EXPECT_NE(
-      ended.error.find(
-          "can9: allowed embedded, embedded_500, embedded_macro_micro, embedded_macro_micro_stiff, embedded_micro, "
-          "embedded_micro_single, embedded_payload, embedded_single, embedded_three_segment_lab, vcan"),
-      std::string::npos)
-      << ended.error;
+  EXPECT_TRUE(names(ended.error, {"can9", "embedded", "embedded_500", "embedded_macro_micro",
+                                  "embedded_macro_micro_stiff", "embedded_micro", "embedded_micro_single",
+                                  "embedded_payload", "embedded_single", "embedded_three_segment_lab", "vcan"}));
 }
 
 // req:A50 req:A52
@@ -179,106 +191,106 @@ TEST(Eval, DescribesWhatConditionsLookAtAndNamesThatTwoStepsHave) {
   EXPECT_EQ(mission["steps"][1]["parts"][0]["field"], "exit");
   EXPECT_EQ(mission["steps"][2]["parts"].size(), 0u);
   ASSERT_EQ(mission["notes"].size(), 2u);
-  EXPECT_NE(mission["notes"][0].text().find("step 1 has that name, too"), std::string::npos);
-  EXPECT_NE(mission["notes"][1].text().find("in next, that name is the end"), std::string::npos);
+  EXPECT_TRUE(names(mission["notes"][0].text(), {"step 2", "a", "step 1"}));
+  EXPECT_TRUE(names(mission["notes"][1].text(), {"step 3", "finish", "next"}));
 }
 
 struct BadMission {
   const char* steps;
-  const char* message;
+  Facts facts;
 };
 
 TEST(Eval, RefusesMalformedMissionsByStepAndField) {
   const std::vector<BadMission> missions = {
-      {"", "mission m: steps: none"},
+      {"", {"given.lua", "mission m", "steps", "none"}},
       {"step 'a' { device = 'joy stick', exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "step 1 \"a\": device: joy stick: allowed \"vr\""},
+       {"given.lua", "step 1", "a", "device", "joy stick", "vr"}},
       {"step 'a' { device = 'none', exit = at_rest, time_limit_s = 1, on_fail = 'hold' }",
-       "step 1 \"a\": exit: function: allowed a condition"},
+       {"given.lua", "step 1", "a", "exit", "function", "condition"}},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 0, on_fail = 'hold' }",
-       "time_limit_s: 0: allowed seconds over 0"},
+       {"given.lua", "time_limit_s", "0"}},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 0/0, on_fail = 'hold' }",
-       "time_limit_s: nan: allowed seconds over 0"},
+       {"given.lua", "time_limit_s", "nan", "0"}},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'pray' }",
-       "on_fail: pray: allowed \"retract\", \"hold\", \"stop\" or \"pause\""},
-      {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1 }", "on_fail: missing"},
+       {"given.lua", "on_fail", "pray", "retract", "hold", "stop", "pause"}},
+      {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1 }", {"given.lua", "on_fail", "missing"}},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold', hold = { [17] = 0 } }",
-       "hold[17]: entry 1 of held: theta = 17: allowed 1 to 10"},
+       {"given.lua", "hold[17]", "entry 1", "held", "theta", "17", "1", "10"}},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold', untill = 1 }",
-       "untill: 1: allowed no such field"},
+       {"given.lua", "untill", "1", "field"}},
       {"step 'a' { device = 'none', steer = {}, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "steer: given: allowed only with a device"},
+       {"given.lua", "steer", "given", "device"}},
       {"step 'a' { device = 'vr', steer = { node = 9 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "steer: node = 9: allowed 0 to 4: choose another value (robot zhu2022)"},
+       {"given.lua", "steer", "node", "9", "0", "4", "zhu2022"}},
       {"step 'a' { device = 'vr', steer = { sclae = 1 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "steer: unknown field sclae = 1: allowed device, scale, rotation_scale, node, speed_m_s"},
+       {"given.lua", "steer", "sclae", "1", "device", "scale", "rotation_scale", "node", "speed_m_s", "unknown"}},
       {"step 'a' { device = 'vr', steer = { device = 'hand' }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "steer.device: hand: allowed nothing: name the device in the step's own field"},
+       {"given.lua", "steer.device", "hand", "nothing"}},
       {"step 'a' { device = 'vr', steer = { fixtures = {} }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "steer.fixtures: table: allowed nothing: name the fixtures in the step's own field"},
+       {"given.lua", "steer.fixtures", "table", "nothing"}},
       {"step 'a' { device = 'none', fixtures = false, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "fixtures: given: allowed only with a device"},
+       {"given.lua", "fixtures", "given", "device"}},
       {"step 'a' { device = 'hand', fixtures = { 1 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "fixtures: table: allowed true, false or a list of names"},
+       {"given.lua", "fixtures", "table", "true", "false"}},
       {"step 'a' { device = 'hand', feedback = 'loud', exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "feedback: loud: allowed \"aligned\", \"claim\", \"abstract\" or \"off\""},
+       {"given.lua", "feedback", "loud", "aligned", "claim", "abstract", "off"}},
       {"step 'a' { device = 'none', feedback = 'off', exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "feedback: given: allowed only with a device"},
+       {"given.lua", "feedback", "given", "device"}},
       {"step 'a' { device = 'vr', steer = { scale = 0 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "steer: scale = 0: allowed 0.01 to 100"},
+       {"given.lua", "steer", "scale", "0", "0.01", "100"}},
       {"step 'a' { device = 'none', exit = liana.at_pose(nil), time_limit_s = 1, on_fail = 'hold' }",
-       "given.lua:3: at_pose: name: nil: allowed a string"},
+       {"given.lua:3", "at_pose", "name", "nil", "string"}},
       {"step 'a' { device = 'none', exit = liana.all { at_rest }, time_limit_s = 1, on_fail = 'hold' }",
-       "all: entry 1: function: "},
+       {"given.lua", "all", "1", "function"}},
       {"step 'a' { device = 'none', exit = liana.tip_past 'x', time_limit_s = 1, on_fail = 'hold' }",
-       "tip_past: u_m: x: allowed a number"},
+       {"given.lua", "tip_past", "u_m", "x", "number"}},
       {"step 'a' { device = 'none', exit = liana.tip_force(0), time_limit_s = 1, on_fail = 'hold' }",
-       "tip_force: least_N: 0: allowed a number over 0"},
+       {"given.lua", "tip_force", "least_N", "0", "number"}},
       {"step 'a' { device = 'none', exit = liana.tip_force(1, 1), time_limit_s = 1, on_fail = 'hold' }",
-       "tip_force: sd_N: 1: allowed over 0 and under 1"},
+       {"given.lua", "tip_force", "sd_N", "1", "0"}},
       {"step 'a' { device = 'none', exit = liana.needs_planar(nil), time_limit_s = 1, on_fail = 'hold' }",
-       "needs_planar: count: nil: allowed a number"},
+       {"given.lua", "needs_planar", "count", "nil", "number"}},
       // What only the robot (zhu2022: 5 segments, 20 deg) forbids.
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold', hold = { [11] = 0 } }",
-       "step 1 \"a\": hold[11]: entry 1 of held: theta = 11: allowed 1 to 10: choose another value (robot zhu2022)"},
+       {"given.lua", "step 1", "a", "hold[11]", "entry 1", "held", "theta", "11", "1", "10", "zhu2022"}},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold', hold = { [9] = 45 } }",
-       "hold[9]: entry 1 of held: target_deg = 45: allowed -20 to 20 deg: choose another value (robot zhu2022)"},
+       {"given.lua", "hold[9]", "entry 1", "held", "target_deg", "45", "-20", "20", "zhu2022"}},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold', hold = { [1] = 0, [3] = 0, "
        "[5] = 0, [7] = 0, [9] = 0 } }",
-       "step 1 \"a\": hold: 5 angles: allowed at most 4 (robot zhu2022 has 10 angles, of which its tip needs 6)"},
+       {"given.lua", "step 1", "a", "hold", "5", "4", "zhu2022", "10", "6"}},
       {"step 'a' { device = 'vr', steer = { node = 5 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "steer: node = 5: allowed 0 to 4: choose another value (robot zhu2022)"},
+       {"given.lua", "steer", "node", "5", "0", "4", "zhu2022"}},
       {"step 'a' { device = 'vr', steer = { speed_m_s = 0.5 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "steer: speed_m_s = 0.5: allowed 1e-04 to 0.1 m/s: choose another value (robot zhu2022)"},
+       {"given.lua", "steer", "speed_m_s", "0.5", "1e-04", "0.1", "zhu2022"}},
       {"step 'a' { device = 'none', run = liana.move_to 'nowhere', exit = at_rest(), time_limit_s = 1, on_fail = "
        "'hold' }",
-       "run: pose nowhere: allowed fixture, panel_edge, prepare"},
+       {"given.lua", "run", "nowhere", "fixture", "panel_edge", "prepare"}},
       {"step 'a' { device = 'none', exit = liana.any { at_rest(), liana.all { liana.at_pose 'x' } }, time_limit_s = 1, "
        "on_fail = 'hold' }",
-       "exit: pose x: allowed fixture, panel_edge, prepare"},
+       {"given.lua", "exit", "x", "fixture", "panel_edge", "prepare"}},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }, finish = liana.move_to "
        "'home'",
-       "finish: pose home: allowed fixture, panel_edge, prepare"},
+       {"given.lua", "finish", "home", "fixture", "panel_edge", "prepare"}},
       {"step 'a' { device = 'none', run = liana.shape { { node = 3, position_m = { 1, 0, 0 } }, { node = 5, position_m "
        "= { 1, 0, 0 } } }, "
        "exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "step 1 \"a\": run: shape: entry 2 of nodes: node = 5: allowed 1 to 4"},
+       {"given.lua", "step 1", "a", "run", "shape", "entry 2", "nodes", "node", "5", "1", "4"}},
       {"step 'a' { device = 'none', run = liana.shape { { node = 3, position_m = { 9, 0, 0 } } }, exit = at_rest(), "
        "time_limit_s = 1, "
        "on_fail = 'hold' }",
-       "entry 1 of nodes: position_m[1] = 9: allowed -4 to 4 m"},
+       {"given.lua", "entry 1", "nodes", "position_m[1]", "9", "-4", "4"}},
       {"step 'a' { device = 'none', run = liana.shape { { node = 3, position_m = { 1, 0, 0 }, wieght = 2 } }, exit = "
        "at_rest(), "
        "time_limit_s = 1, on_fail = 'hold' }",
-       "entry 1 of nodes: unknown field wieght = 2: allowed node, position_m, weight, threshold_m"},
+       {"given.lua", "entry 1", "nodes", "wieght", "2", "node", "position_m", "weight", "threshold_m", "unknown"}},
       {"step 'a' { device = 'none', run = liana.shape({}, { { centre_m = { 1, 0, 0 } } }), exit = at_rest(), "
        "time_limit_s = 1, "
        "on_fail = 'hold' }",
-       "entry 1 of keep_clear: distance_m is missing: allowed a number"},
+       {"given.lua", "entry 1", "keep_clear", "distance_m", "number"}},
       {"step 'a' { device = 'none', run = liana.move_to('prepare', 3), exit = at_rest(), time_limit_s = 1, on_fail = "
        "'hold' }",
-       "run: move_to: rate_deg_s = 3: allowed 0.01 to 2 deg/s"},
-      {"finish = 3", "finish: 3: allowed an action"}};
+       {"given.lua", "run", "move_to", "rate_deg_s", "3", "0.01", "2"}},
+      {"finish = 3", {"given.lua", "finish", "3", "action"}}};
   const TemporaryFolder folder;
   for (const BadMission& mission : missions) {
     const std::string file = folder.write(
@@ -287,8 +299,7 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
             std::string(mission.steps) + " }\n");
     const Ended ended = run_program("eval mission " + file);
     EXPECT_EQ(ended.code, 2) << mission.steps;
-    EXPECT_NE(ended.error.find(mission.message), std::string::npos) << mission.steps << " -> " << ended.error;
-    EXPECT_NE(ended.error.find("given.lua:"), std::string::npos) << ended.error;
+    EXPECT_TRUE(names(ended.error, mission.facts)) << mission.steps;
   }
 }
 
@@ -302,19 +313,19 @@ TEST(Eval, RefusalsOfAStepNameItsOwnLine) {
     return run_program("eval mission " + folder.write("given.lua", head + good + " },\n" + good + more + tail)).error;
   };
   EXPECT_EQ(eval(""), "");
-  for (const auto& [fields, line] : std::vector<std::pair<std::string, std::string>>{
-           {", time = 1", "given.lua:6: mission m: step 2 \"a\": time: "},
-           {", hold = { [99] = 0 }", "given.lua:6: mission m: step 2 \"a\": hold[99]: "},
-           {",\n fail_when = liana.at_pose 'x'", "given.lua:8: mission m: step 2 \"a\": fail_when: pose x: "},
-           {",\n\n run = liana.move_to('prepare', 9)",
-            "given.lua:9: mission m: step 2 \"a\": run: move_to: rate_deg_s"},
-           {", fail_when = 3", "given.lua:6: mission m: step 2 \"a\": fail_when: 3: allowed a condition"},
+  for (const auto& [fields, line, facts] : std::vector<std::tuple<std::string, std::string, Facts>>{
+           {", time = 1", "given.lua:6", {"mission m", "step 2", "a", "time"}},
+           {", hold = { [99] = 0 }", "given.lua:6", {"mission m", "step 2", "a", "hold[99]"}},
+           {",\n fail_when = liana.at_pose 'x'", "given.lua:8", {"mission m", "step 2", "a", "fail_when", "x"}},
+           {",\n\n run = liana.move_to('prepare', 9)", "given.lua:9", {"step 2", "a", "run", "move_to", "rate_deg_s"}},
+           {", fail_when = 3", "given.lua:6", {"step 2", "a", "fail_when", "3", "condition"}},
            {", fail_when = { met = function() end }",
-            "given.lua:6: mission m: step 2 \"a\": fail_when: table: allowed a condition"},
-           {", enter = liana.any {}", "given.lua:7: any: list: empty: allowed one condition or more"},
-           {", enter = liana.at_pose('prepare', -1)",
-            "given.lua:7: at_pose: tolerance_deg: -1: allowed a number over 0"}}) {
-    EXPECT_NE(eval(fields).find("liana-mission: " + folder.file(line)), std::string::npos) << fields << eval(fields);
+            "given.lua:6",
+            {"step 2", "a", "fail_when", "table", "condition"}},
+           {", enter = liana.any {}", "given.lua:7", {"any", "list", "empty", "condition"}},
+           {", enter = liana.at_pose('prepare', -1)", "given.lua:7", {"at_pose", "tolerance_deg", "-1", "number"}}}) {
+    EXPECT_TRUE(names(eval(fields), {"liana-mission", folder.file(line)})) << fields;
+    EXPECT_TRUE(names(eval(fields), facts)) << fields;
   }
 }
 
@@ -331,37 +342,44 @@ TEST(Eval, RefusesWaysThatLeadNowhereOrForEverByStepAndLine) {
   };
   EXPECT_EQ(eval("next = 'c'", "next = 'finish'", "next = { step = 'b', at_most = 3 }"), "");
   struct Bad {
-    std::string a, b, c, message;
+    std::string a, b, c;
+    Facts facts;
   };
   for (const Bad& bad : std::vector<Bad>{
-           {"", "next = 'd'", "", "4: mission m: step 2 \"b\": next: step: d: allowed \"a\", \"b\", \"c\", \"finish\""},
-           {"", "next = 'a'",
+           {"", "next = 'd'", "", {"given.lua:4", "mission m", "step 2", "b", "next", "d", "a", "c", "finish"}},
+           {"",
+            "next = 'a'",
             "}, liana.step 'a' { device = 'none', exit = liana.at_rest(), time_limit_s = 1, on_fail = 'hold'",
-            "step: a: allowed a name that one step has; steps 1 and 4 have it: rename all but one of them"},
-           {"", "next = 'a'", "",
-            "4: mission m: step 2 \"b\": next: at_most: missing: allowed a whole number from 1 to 1000"},
-           {"", "next = { { step = 'b' } }", "", "4: mission m: step 2 \"b\": next[1]: at_most: missing"},
-           {"next = 'c'", "", "", "4: mission m: step 2 \"b\": step: never begins"},
-           {"", "next = { step = 'a', at_most = 0 }", "", "next: at_most: 0: allowed a whole number"},
-           {"", "next = { step = 'a', at_most = 1.5 }", "", "next: at_most: 1.5: allowed a whole number"},
-           {"", "next = { step = 'a', times = 2 }", "", "next: times: 2: allowed step, when, on, at_most"},
-           {"", "next = { stp = 'a' }", "", "next: a table without step: allowed \"name\""},
-           {"", "next = function() return 'a' end", "", "next: function: allowed \"name\""},
-           {"", "next = 3", "", "next: 3: allowed \"name\""},
-           {"", "next = { 'c' }", "", "next[1]: way: c: allowed { step = \"name\""},
-           {"", "next = { step = 'c', when = true }", "", "next: when: true: allowed a condition"},
-           {"", "next = { step = 'c', on = 'fault' }", "", "next: on: fault: allowed \"success\" or \"failure\""},
-           {"", "next = { { step = 'c' }, { step = 'a', at_most = 1 } }", "", "next[2]: way: never taken"},
-           {"", "next = { step = 'c', when = liana.at_pose 'x' }", "", "next: pose x: allowed fixture"},
-           {"hold = { [9] = 0 }, next = { step = 'c', when = liana.at_rest() }", "hold = {}", "",
-            "5: mission m: step 3 \"c\": hold: missing: allowed after \"a\" the arm holds { [9] = 0 }, after \"b\" {}: "
-            "say"},
-           {"", "hold = { [9] = 0 }, next = { step = 'a', at_most = 1 }", "",
-            "3: mission m: step 1 \"a\": hold: missing: allowed after the start the arm holds {}, after \"b\" { [9] = "
-            "0 }"}}) {
-    const std::string error = eval(bad.a, bad.b, bad.c);
-    EXPECT_NE(error.find(bad.message), std::string::npos) << bad.message << "\n" << error;
-    EXPECT_NE(error.find("given.lua:"), std::string::npos) << error;
+            {"given.lua", "next", "step", "a", "steps 1 and 4"}},
+           {"",
+            "next = 'a'",
+            "",
+            {"given.lua:4", "mission m", "step 2", "b", "next", "at_most", "missing", "1", "1000"}},
+           {"", "next = { { step = 'b' } }", "", {"given.lua:4", "step 2", "b", "next[1]", "at_most", "missing"}},
+           {"next = 'c'", "", "", {"given.lua:4", "step 2", "b", "never"}},
+           {"", "next = { step = 'a', at_most = 0 }", "", {"given.lua", "next", "at_most", "0", "whole"}},
+           {"", "next = { step = 'a', at_most = 1.5 }", "", {"given.lua", "next", "at_most", "1.5", "whole"}},
+           {"",
+            "next = { step = 'a', times = 2 }",
+            "",
+            {"given.lua", "next", "times", "2", "step", "when", "on", "at_most"}},
+           {"", "next = { stp = 'a' }", "", {"given.lua", "next", "table", "step", "name"}},
+           {"", "next = function() return 'a' end", "", {"given.lua", "next", "function", "name"}},
+           {"", "next = 3", "", {"given.lua", "next", "3", "name"}},
+           {"", "next = { 'c' }", "", {"given.lua", "next[1]", "c", "step", "name"}},
+           {"", "next = { step = 'c', when = true }", "", {"given.lua", "next", "when", "true", "condition"}},
+           {"", "next = { step = 'c', on = 'fault' }", "", {"given.lua", "next", "on", "fault", "success", "failure"}},
+           {"", "next = { { step = 'c' }, { step = 'a', at_most = 1 } }", "", {"given.lua", "next[2]", "never"}},
+           {"", "next = { step = 'c', when = liana.at_pose 'x' }", "", {"given.lua", "next", "x", "fixture"}},
+           {"hold = { [9] = 0 }, next = { step = 'c', when = liana.at_rest() }",
+            "hold = {}",
+            "",
+            {"given.lua:5", "mission m", "step 3", "c", "hold", "missing", "a", "{ [9] = 0 }", "b", "{}"}},
+           {"",
+            "hold = { [9] = 0 }, next = { step = 'a', at_most = 1 }",
+            "",
+            {"given.lua:3", "mission m", "step 1", "a", "hold", "missing", "start", "{}", "b", "{ [9] = 0 }"}}}) {
+    EXPECT_TRUE(names(eval(bad.a, bad.b, bad.c), bad.facts)) << bad.a << bad.b << bad.c;
   }
 }
 
@@ -377,33 +395,34 @@ TEST(Eval, AGoalThatIsKnownIsLookedAtBeforeTheStartAndAComputedOneInItsTime) {
                      "},\nrun = " +
                          run + " } }\n"));
   };
-  const std::string far = "{ 9, 0, 0, 1, 0, 0, 0 }",
-                    line = "given.lua:4: mission m: step 1 \"a\": run: move_cp: goal[1] = 9";
+  const std::string far = "{ 9, 0, 0, 1, 0, 0, 0 }";
   for (const std::string& run :
        {"liana.move_cp { goal = " + far + " }", "function(arm) arm.move_cp { goal = " + far + " } end",
         "function(arm) local pose = arm.named_pose 'zero' arm.shape {} arm.move_cp { goal = " + far + " } end"}) {
     const Ended ended = eval(run);
     EXPECT_EQ(ended.code, 2) << run;
-    EXPECT_NE(ended.error.find(line), std::string::npos) << run << ": " << ended.error;
+    EXPECT_TRUE(names(ended.error, {"given.lua:4", "mission m", "step 1", "a", "run", "move_cp", "goal[1]", "9"}))
+        << run;
   }
-  for (const auto& [run, message] : std::vector<std::pair<std::string, std::string>>{
-           {"liana.move_jp { goal_deg = { 0, 0, 99, 0, 0, 0, 0, 0, 0, 0 } }", "goal_deg[3] (theta 3) = 99: allowed -"},
-           {"liana.move_jp { goal_deg = { 0, 0/0 } }", "goal_deg[2]: nan: allowed finite numbers"},
-           {"liana.move_cp { goal = { 3, 0, 0, 1, 0, 0 } }", "goal = 6 entries: allowed an array of 7 numbers"},
-           {"liana.move_cp { goal = { 3, 0, 0, 0.5, 0, 0, 0 } }", "the quaternion qw,qx,qy,qz"},
-           {"liana.move_cp { goal = { 3, 0, 0, 1, 0, 0, 0 }, hold = { { theta = 11, target_deg = 0 } } }", "theta"},
+  for (const auto& [run, facts] : std::vector<std::pair<std::string, Facts>>{
+           {"liana.move_jp { goal_deg = { 0, 0, 99, 0, 0, 0, 0, 0, 0, 0 } }", {"goal_deg[3]", "theta 3", "99"}},
+           {"liana.move_jp { goal_deg = { 0, 0/0 } }", {"goal_deg[2]", "nan", "finite"}},
+           {"liana.move_cp { goal = { 3, 0, 0, 1, 0, 0 } }", {"goal", "6", "array", "7"}},
+           {"liana.move_cp { goal = { 3, 0, 0, 0.5, 0, 0, 0 } }", {"quaternion", "qw,qx,qy,qz"}},
+           {"liana.move_cp { goal = { 3, 0, 0, 1, 0, 0, 0 }, hold = { { theta = 11, target_deg = 0 } } }",
+            {"hold", "theta", "11"}},
            {"liana.move_cp { goal = { 3, 0, 0, 1, 0, 0, 0 }, hold = { { theta = 1, target_deg = 0 }, { theta = 1, "
             "target_deg "
             "= 2 } } }",
-            "run: move_cp: hold: theta 1 twice: allowed every angle once"},
+            {"run", "move_cp", "hold", "theta 1", "twice"}},
            {"function(arm) arm.move_cp { goal = { 3, 0, 0, 1, 0, 0, 0 }, hold = { { theta = 1, target_deg = 0 }, { "
             "theta = "
             "2, target_deg = 0 }, { theta = 3, target_deg = 0 }, { theta = 4, target_deg = 0 }, { theta = 5, "
             "target_deg = "
             "0 } } } end",
-            "run: move_cp: hold: 5 angles: allowed at most 4"},
-           {"liana.move_cp(3)", "move_cp: fields: 3: allowed a table"}}) {
-    EXPECT_NE(eval(run).error.find(message), std::string::npos) << run << ": " << eval(run).error;
+            {"run", "move_cp", "hold", "5 angles", "4"}},
+           {"liana.move_cp(3)", {"move_cp", "fields", "3", "table"}}}) {
+    EXPECT_TRUE(names(eval(run).error, facts)) << run;
   }
   for (const std::string& run :
        {"function(arm) if arm.state.tick > 3 then arm.move_cp { goal = " + far + " } end end",
@@ -447,20 +466,18 @@ TEST(Eval, RequireFindsWhatLiesBesideTheMissionAndNothingElse) {
   EXPECT_EQ(files[1]["file"], "parts/pose-2.lua");
   EXPECT_EQ(files[2]["sha256"].text().size(), 64u);
   const std::string home = std::filesystem::canonical(folder.file(".")).string();
-  for (const auto& [required, message] : std::vector<std::pair<std::string, std::string>>{
-           {"require 'nothing'",
-            "given.lua:2: require: nothing.lua: no such file in " + home + ": allowed files in the folder"},
-           {"require 'nothing'", "(looked in " LIANA_SOURCE_DIR "/lua before)"},
-           {"require 'linked'", "require: linked.lua: leads out of " + home},
-           {"require '../secret'", "require: ../secret: allowed modules of the Lua folder"},
-           {"require '/etc/passwd'", "require: /etc/passwd: allowed modules"},
-           {"require 'fails'", "fails.lua:1: attempt to perform arithmetic"},
-           {"require 'silent'", "require: silent: the module returns nothing"},
-           {"require 'circle'", "modules require each other in a circle"},
-           {"select(2, pcall(require, 'fails')) and require 'fails'", "fails.lua:1: attempt to perform arithmetic"}}) {
+  for (const auto& [required, facts] : std::vector<std::pair<std::string, Facts>>{
+           {"require 'nothing'", {"given.lua:2", "require", "nothing.lua", home, LIANA_SOURCE_DIR "/lua"}},
+           {"require 'linked'", {"require", "linked.lua", "out of", home}},
+           {"require '../secret'", {"require", "../secret", "modules"}},
+           {"require '/etc/passwd'", {"require", "/etc/passwd", "modules"}},
+           {"require 'fails'", {"fails.lua:1", "arithmetic"}},
+           {"require 'silent'", {"require", "silent", "nothing"}},
+           {"require 'circle'", {"modules", "circle"}},
+           {"select(2, pcall(require, 'fails')) and require 'fails'", {"fails.lua:1", "arithmetic"}}}) {
     const Ended ended = eval(required);
     EXPECT_EQ(ended.code, 2);
-    EXPECT_NE(ended.error.find(message), std::string::npos) << required << " -> " << ended.error;
+    EXPECT_TRUE(names(ended.error, facts)) << required;
   }
 }
 
@@ -485,29 +502,28 @@ TEST(Eval, APlanAsAStepIsCheckedAgainstItsRobotAndTheStepsBefore) {
   const Ended good = eval("plan = 'way.json'");
   ASSERT_EQ(good.code, 0) << good.error;
   const Json step = Json::parse(good.out)["steps"][1];
-  EXPECT_EQ(step["enter"], "arm within 1 deg of the plan's start");
+  EXPECT_TRUE(names(step["enter"].text(), {"1 deg", "plan's start"}));
   EXPECT_EQ(step["goal_deg"], Json::parse(zero));
-  const auto refused = [&](const std::string& fields, const std::string& message,
+  const auto refused = [&](const std::string& fields, const Facts& facts,
                            const std::string& before = "run = liana.move_to 'zero'") {
     const Ended ended = eval(fields, before);
     EXPECT_EQ(ended.code, 2);
-    EXPECT_NE(ended.error.find(message), std::string::npos) << message << "\n" << ended.error;
+    EXPECT_TRUE(names(ended.error, facts)) << fields;
   };
-  refused("plan = 'way.json'",
-          "step 2 \"b\": plan: begins with theta 1 at 0 deg: allowed within 1 deg of -8.5, where step 1 \"a\" ends",
+  refused("plan = 'way.json'", {"step 2", "b", "plan", "theta 1", "0 deg", "1 deg", "-8.5", "step 1", "a"},
           "run = liana.move_to 'prepare'");
-  refused("plan = 'way.json', exit = liana.at_rest()", "step 2 \"b\": exit: given: allowed nothing beside plan");
-  refused("plan = 'way.json', device = 'vr'", "device: vr: allowed \"none\" beside plan");
-  refused("plan = 'way.json'", "step 2 \"b\": hold: something held: allowed {} beside plan", "hold = { [9] = 0 }");
-  refused("plan = 'none.json'", "plan: none.json: no such file in ");
-  refused("plan = '../way.json'", "plan: ../way.json: leads out of ");
-  refused("plan = '/etc/passwd'", "plan: /etc/passwd: leads out of ");
+  refused("plan = 'way.json', exit = liana.at_rest()", {"step 2", "b", "exit", "plan"});
+  refused("plan = 'way.json', device = 'vr'", {"step 2", "b", "device", "vr", "none", "plan"});
+  refused("plan = 'way.json'", {"step 2", "b", "hold", "{}", "plan"}, "hold = { [9] = 0 }");
+  refused("plan = 'none.json'", {"plan", "none.json", "no such file"});
+  refused("plan = '../way.json'", {"plan", "../way.json", "out of"});
+  refused("plan = '/etc/passwd'", {"plan", "/etc/passwd", "out of"});
   plan(zero, run_program("eval robot three_segment_lab").out);
-  refused("plan = 'way.json'", "inputs.robot: made for robot three_segment_lab, not for zhu2022");
+  refused("plan = 'way.json'", {"inputs.robot", "three_segment_lab", "zhu2022"});
   folder.write("way.json", R"({"points_m":[[0,0,0],[1,0,0]]})");
-  refused("plan = 'way.json'", "missing: this is a curve: allowed solved: plan it: liana plan --follow=CURVE");
+  refused("plan = 'way.json'", {"curve", "solved", "liana plan --follow=CURVE"});
   folder.write("way.json", "{");
-  refused("plan = 'way.json'", "step 2 \"b\": plan: way.json");
+  refused("plan = 'way.json'", {"step 2", "b", "plan", "way.json"});
 }
 
 // What is said of a mission of one step, which has these fields besides those that every step has.
@@ -526,20 +542,15 @@ TEST(Eval, ATaskIsARecordingBesideTheMissionOrIsRefused) {
   EXPECT_EQ(eval("device = 'vr', task = 'panel_edge_vr'"), "") << "one of Liana's own";
   EXPECT_EQ(eval("device = 'hand', task = 'rod'"), "");
   const std::string missing = eval("device = 'vr', task = 'my_hand'");
-  EXPECT_NE(
-      missing.find("given.lua:2: mission m: step 1 \"a\": task: my_hand: no recording my_hand.hand: allowed one in " +
-                   folder.file("").substr(0, folder.file("").size() - 1)),
-      std::string::npos)
-      << missing;
+  EXPECT_TRUE(names(missing, {"given.lua:2", "mission m", "step 1", "a", "task", "my_hand", "my_hand.hand",
+                              folder.file("").substr(0, folder.file("").size() - 1)}));
   folder.write("my_hand.hand", "liana-hand 1 hand\n");
-  EXPECT_NE(eval("device = 'vr', task = 'my_hand'").find("holds no VR handles"), std::string::npos);
+  EXPECT_TRUE(names(eval("device = 'vr', task = 'my_hand'"), {"task", "my_hand", "VR"}));
   folder.write("my_hand.hand", "liana-hand 1 vr\n");
   EXPECT_EQ(eval("device = 'vr', task = 'my_hand'"), "");
-  EXPECT_NE(eval("device = 'vr', task = '../my_hand'").find("task: ../my_hand: allowed the name of a recording"),
-            std::string::npos);
-  EXPECT_NE(eval("device = 'hand', task = 'my_hand'").find("task: my_hand: allowed \"slit\" or \"rod\""),
-            std::string::npos);
-  EXPECT_NE(eval("device = 'none', task = 'rod'").find("task: rod: allowed only with device"), std::string::npos);
+  EXPECT_TRUE(names(eval("device = 'vr', task = '../my_hand'"), {"task", "../my_hand", "name"}));
+  EXPECT_TRUE(names(eval("device = 'hand', task = 'my_hand'"), {"task", "my_hand", "slit", "rod"}));
+  EXPECT_TRUE(names(eval("device = 'none', task = 'rod'"), {"task", "rod", "device"}));
 }
 
 TEST(Eval, APlanIsAMissionOfOneStepThatNamesIt) {
@@ -556,18 +567,13 @@ TEST(Eval, APlanIsAMissionOfOneStepThatNamesIt) {
   const auto mission = Json::parse(good.out);
   ASSERT_EQ(mission["steps"].size(), 1u);
   EXPECT_EQ(mission["steps"][0]["name"], "plan, 2 waypoints");
-  EXPECT_EQ(mission["steps"][0]["enter"], "arm within 1 deg of the plan's start");
+  EXPECT_TRUE(names(mission["steps"][0]["enter"].text(), {"1 deg", "plan's start"}));
   const Ended unsolved = run_program(plan("limit", zero + "," + zero, robot));
   EXPECT_EQ(unsolved.code, 2);
-  EXPECT_NE(unsolved.error.find("plan: outcome: limit: allowed solved"), std::string::npos) << unsolved.error;
-  EXPECT_NE(run_program(plan("solved", zero, robot)).error.find("waypoints_deg: 1 waypoints: allowed 2 or more"),
-            std::string::npos);
-  EXPECT_NE(run_program(plan("solved", zero + ",[1]", robot))
-                .error.find("entry 2 of points_deg: entry 2 = 1 entries: allowed an array of 10 numbers"),
-            std::string::npos);
-  EXPECT_NE(run_program(plan("solved", zero + "," + zero, "{}"))
-                .error.find("inputs.robot: made for other tables of robot zhu2022"),
-            std::string::npos);
+  EXPECT_TRUE(names(unsolved.error, {"plan", "outcome", "limit", "solved"}));
+  EXPECT_TRUE(names(run_program(plan("solved", zero, robot)).error, {"waypoints_deg", "1", "2"}));
+  EXPECT_TRUE(names(run_program(plan("solved", zero + ",[1]", robot)).error, {"points_deg", "entry 2", "1", "10"}));
+  EXPECT_TRUE(names(run_program(plan("solved", zero + "," + zero, "{}")).error, {"inputs.robot", "zhu2022", "tables"}));
 }
 
 TEST(Eval, AMissionIsCheckedAgainstTheRobotThatIsNamed) {
@@ -578,10 +584,8 @@ TEST(Eval, AMissionIsCheckedAgainstTheRobotThatIsNamed) {
                    "return t\n");
   const Ended ended = run_program("eval mission slit_crossing --robot " + robot);
   EXPECT_EQ(ended.code, 2);
-  EXPECT_NE(
-      ended.error.find("pose panel_edge: allowed fixture, prepare, press_rod, segment5_in_slit, zero (robot short)"),
-      std::string::npos)
-      << ended.error;
+  EXPECT_TRUE(
+      names(ended.error, {"panel_edge", "fixture", "prepare", "press_rod", "segment5_in_slit", "zero", "short"}));
 }
 
 // req:B1
@@ -600,14 +604,14 @@ TEST(Eval, AMissionSaysTheTablesThatItRunsWithAndIsCheckedAgainstItsOwnRobot) {
   EXPECT_EQ(said["scene"], "none");
   EXPECT_EQ(said["bus"], "embedded_payload");
   EXPECT_FALSE(Json::parse(run_program("eval mission_tables slit_crossing").out).contains("robot"));
-  for (const auto& [fields, message] : std::vector<std::pair<std::string, std::string>>{
-           {"robot = 'no/file', ", "mission m: robot: no/file: allowed the name of a table"},
-           {"scene = 1, ", "mission m: scene: 1: allowed the name of a table"},
-           {"bus = 'embedded', ", "mission m: bus: embedded: allowed only beside robot"},
-           {"robto = 'micro', ", "mission m: robto: micro: allowed no such field, but bus, finish, robot, scene"}}) {
+  for (const auto& [fields, facts] : std::vector<std::pair<std::string, Facts>>{
+           {"robot = 'no/file', ", {"mission m", "robot", "no/file", "table"}},
+           {"scene = 1, ", {"mission m", "scene", "1", "table"}},
+           {"bus = 'embedded', ", {"mission m", "bus", "embedded", "robot"}},
+           {"robto = 'micro', ", {"mission m", "robto", "micro", "bus", "finish", "robot", "scene"}}}) {
     const Ended ended = run_program("eval mission " + mission(fields));
     EXPECT_EQ(ended.code, 2);
-    EXPECT_NE(ended.error.find(message), std::string::npos) << ended.error;
+    EXPECT_TRUE(names(ended.error, facts)) << fields;
   }
 }
 
@@ -619,8 +623,7 @@ TEST(Eval, WhatIsForCableArmsOnlyIsRefusedForOthersByName) {
        std::vector<std::pair<std::string, std::string>>{{"device = 'vr'", "use_device"},
                                                         {"device = 'none', hold = { [7] = 0 }", "hold_theta"},
                                                         {"device = 'none', run = liana.shape {}", "shape"}}) {
-    EXPECT_NE(eval(fields).find(op + ": for cable arms only; robot micro has a serial arm"), std::string::npos)
-        << eval(fields);
+    EXPECT_TRUE(names(eval(fields), {op, "robot micro", "serial"}));
   }
 }
 
@@ -639,33 +642,34 @@ TEST(Eval, WhatAPushNeedsOfRobotAndBusesIsRefusedBeforeTheStartByLineAndField) {
   const auto eval = [&](const std::string& options, const std::string& run) {
     return error_of_step(folder, options, "device = 'none', run = " + run);
   };
-  for (const auto& [options, run, message] : std::vector<std::array<std::string, 3>>{
-           {position, "liana.push {}", "push: the drives of this robot follow positions"},
-           {position, "function(arm) arm.push {} end", "push: the drives of this robot follow positions"},
-           {position, "liana.follow()", "follow: the drives of this robot follow positions"},
-           {position, "liana.adapter 'lock'", "adapter: the bus table has no adapter"},
-           {"", "liana.push {}", "push: push: for serial arms only; robot zhu2022 has a cable arm"},
-           {deaf, "liana.push {}", "push: the bus table has no wrist_sensor, which a push needs: give its node"},
-           {alone, "function(arm) arm.follow() arm.adapter { command = 'lock' } end", "adapter: the bus table has no"},
-           {torque, "liana.push { force_N = 61 }",
-            "push: force_N = 61: allowed 0 to 60, as force_control of the robot says: choose another value (robot "
-            "macro_micro)"},
-           {torque, "function(arm) arm.push { force_N = 61 } end", "push: force_N = 61: allowed 0 to 60"},
-           {torque, "liana.push { force_N = 2000 }", "push: force_N = 2000: allowed 0 to 1000"},
-           {torque, "liana.push { forec_N = 20 }", "push: unknown field forec_N = 20: allowed axis, force_N"},
-           {torque, "liana.push { travel_m = 0.3 }", "push: travel_m = 0.3: allowed 0 to 0.2 m"},
-           {torque, "liana.push { turn_deg = 4 }", "push: turn_deg = 4: allowed 0 to 3 deg"},
-           {torque, "liana.push { axis = { 0, 0, 0 } }", "push: axis = [0.0,0.0,0.0]: allowed a length of 0.001"},
-           {torque, "liana.push { gains = { mass_kg = 1 } }", "push: gains.mass_kg = 1: allowed 50 to 5000, as"},
-           {torque, "liana.push { law = 'impedance', depth_m = 0.1 }",
-            "push: depth_m = 0.1: allowed 0 to 0.06 m, which is travel_m"},
-           {torque, "liana.payload { mass_kg = 5 }", "payload: inertia_kgm2: 0 numbers: give six"},
-           {torque, "liana.payload { mass_kg = 5, inertia_kgm2 = { 1, 1, 9, 0, 0, 0 } }",
-            "payload: inertia_kgm2: [1.0,1.0,9.0,0.0,0.0,0.0]: no body has it"},
-           {torque, "liana.adapter 'open'", "adapter: command = \"open\": allowed lock, release"}}) {
-    const std::string error = eval(options, run);
-    EXPECT_NE(error.find("given.lua:3: mission m: step 1 \"a\": run: " + message), std::string::npos)
-        << run << ": " << error;
+  for (const auto& [options, run, facts] : std::vector<std::tuple<std::string, std::string, Facts>>{
+           {position, "liana.push {}", {"push", "drives", "positions"}},
+           {position, "function(arm) arm.push {} end", {"push", "drives", "positions"}},
+           {position, "liana.follow()", {"follow", "drives", "positions"}},
+           {position, "liana.adapter 'lock'", {"adapter", "bus table"}},
+           {"", "liana.push {}", {"push", "robot zhu2022", "cable"}},
+           {deaf, "liana.push {}", {"push", "bus table", "wrist_sensor"}},
+           {alone, "function(arm) arm.follow() arm.adapter { command = 'lock' } end", {"adapter", "bus table"}},
+           {torque,
+            "liana.push { force_N = 61 }",
+            {"push", "force_N", "61", "0", "60", "force_control", "macro_micro"}},
+           {torque, "function(arm) arm.push { force_N = 61 } end", {"push", "force_N", "61", "0", "60"}},
+           {torque, "liana.push { force_N = 2000 }", {"push", "force_N", "2000", "0", "1000"}},
+           {torque, "liana.push { forec_N = 20 }", {"push", "unknown", "forec_N", "20", "axis", "force_N"}},
+           {torque, "liana.push { travel_m = 0.3 }", {"push", "travel_m", "0.3", "0", "0.2"}},
+           {torque, "liana.push { turn_deg = 4 }", {"push", "turn_deg", "4", "0", "3"}},
+           {torque, "liana.push { axis = { 0, 0, 0 } }", {"push", "axis", "[0.0,0.0,0.0]", "length", "0.001"}},
+           {torque, "liana.push { gains = { mass_kg = 1 } }", {"push", "gains.mass_kg", "1", "50", "5000"}},
+           {torque,
+            "liana.push { law = 'impedance', depth_m = 0.1 }",
+            {"push", "depth_m", "0.1", "0", "0.06 m", "travel_m"}},
+           {torque, "liana.payload { mass_kg = 5 }", {"payload", "inertia_kgm2", "0", "six"}},
+           {torque,
+            "liana.payload { mass_kg = 5, inertia_kgm2 = { 1, 1, 9, 0, 0, 0 } }",
+            {"payload", "inertia_kgm2", "[1.0,1.0,9.0,0.0,0.0,0.0]"}},
+           {torque, "liana.adapter 'open'", {"adapter", "command", "open", "lock", "release"}}}) {
+    EXPECT_TRUE(names(eval(options, run), {"given.lua:3", "mission m", "step 1", "a", "run"})) << run;
+    EXPECT_TRUE(names(eval(options, run), facts)) << run;
   }
   for (const std::string run :
        {"liana.push { force_N = 60 }", "liana.follow()", "liana.payload { mass_kg = 0 }", "liana.adapter 'release'",
@@ -685,9 +689,7 @@ TEST(Eval, AMissionIsCheckedAgainstTheBusesThatItNamesWithItsRobot) {
   const std::string other =
       folder.write("other.lua", "local t = require 'buses.embedded_micro'\nt.buses[1].adapter = 48\nreturn t\n");
   const std::string error = run_program("eval mission " + mission).error;
-  EXPECT_NE(error.find("given.lua:3: mission m: step 1 \"a\": run: adapter: the bus table has no adapter"),
-            std::string::npos)
-      << error;
+  EXPECT_TRUE(names(error, {"given.lua:3", "mission m", "step 1", "a", "run", "adapter", "bus table"}));
   const Ended ended = run_program("eval mission " + mission + " --bus " + other);
   ASSERT_EQ(ended.code, 0) << ended.error;
   EXPECT_EQ(Json::parse(ended.out)["steps"][0]["asks"], Json::parse(R"(["adapter"])"));
@@ -697,7 +699,7 @@ TEST(Eval, RefusesAMissionFileThatReturnsSomethingElse) {
   const TemporaryFolder folder;
   const Ended ended = run_program("eval mission " + folder.write("given.lua", "return {}"));
   EXPECT_EQ(ended.code, 2);
-  EXPECT_NE(ended.error.find("return the mission at the end of the file"), std::string::npos) << ended.error;
+  EXPECT_TRUE(names(ended.error, {"given.lua", "return", "mission"}));
 }
 
 }  // namespace
