@@ -87,10 +87,10 @@ TEST(Buses, AreRefusedWithFileFieldValueRangeAndAdvice) {
                                       {"/buses/0/nodes/0", 127, "buses[1].nodes[1]", {"1", "126"}},
                                       {"/buses/1/nodes/0", 8, "buses[2].nodes[1]", {"8", "can0"}},
                                       {"/buses/0/nodes/1", 1, "buses[1].nodes[2]", {"1"}},
-                                      {"/buses/0/nodes", nullptr, "buses[1].nodes", {}},
+                                      {"/buses/0/nodes", nullptr, "buses[1].nodes", {"missing"}},
                                       {"/heartbeat_ms", 5, "heartbeat_ms", {"10", "1000"}},
                                       {"/max_load", 1.2, "max_load", {"0.9"}},
-                                      {"/extra", 1, "extra", {}}};
+                                      {"/extra", 1, "extra", {"field"}}};
   for (const Spoiled& spoiled : cases) {
     expect_refused(good, spoiled, [](const std::string& text) { parse_buses(text, "given.json"); });
   }

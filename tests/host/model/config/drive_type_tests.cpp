@@ -62,10 +62,10 @@ TEST(DriveTypes, AreRefusedWithFileFieldValueRangeAndAdvice) {
       {"/objects", {{"optional", {"6065"}}, {"absent", {"6065"}}}, "objects.absent[1]", {"6065"}},
       {"/objects", {{"fixed", {{"6066", "no"}}}}, "objects.fixed.6066", {"0", "4294967295"}},
       {"/dictionary", {{"absent", {"60G5"}}}, "dictionary.absent[1]", {"hexadecimal"}},
-      {"/dictionary", {{"missing", {"6065"}}}, "dictionary.missing", {}},
+      {"/dictionary", {{"missing", {"6065"}}}, "dictionary.missing", {"field"}},
       {"/dictionary", {{"values", {{"6066", 1.5}}}}, "dictionary.values.6066", {"whole"}},
-      {"/dictionary", {{"added", Json::array({Json{{"object", "6066"}}})}}, "dictionary.added[1].type", {}},
-      {"/objects", {{"gone", {"6065"}}}, "objects.gone", {}},
+      {"/dictionary", {{"added", Json::array({Json{{"object", "6066"}}})}}, "dictionary.added[1].type", {"missing"}},
+      {"/objects", {{"gone", {"6065"}}}, "objects.gone", {"field"}},
       {"/writes", write("6060", 8), "writes[1].object", {"6060"}},
       {"/writes", write("2000:1", 24), "writes[1].bits", {"8", "16", "32"}}};
   for (const Spoiled& spoiled : cases)

@@ -42,14 +42,14 @@ TEST(Robot, IsRefusedWithFileFieldValueRangeAndAdvice) {
       {"/format", 2, "format", {"1", "1"}},
       {"/kind", "scene", "kind", {"robot"}},
       {"/name", "a b", "name", {"a b"}},
-      {"/colour", "red", "colour", {}},
+      {"/colour", "red", "colour", {"field"}},
       {"/module/radius_m", -0.03, "module.radius_m", {"0.001", "0.5"}},
       {"/module/mass_kg", 1e-300, "module.mass_kg", {"0.001", "100"}},
       {"/segments", nine, "segments", {"kMaxSegments"}},  // compiled capacity, by name
       {"/segments/0/modules", 17, "segments[1].modules", {"1", "16"}},
       {"/segments/2/module_length_m", "long", "segments[3].module_length_m", {"number"}},
       {"/segments/2/modules", 2.5, "segments[3].modules", {"whole"}},
-      {"/segments/4/theta_limit_deg", nullptr, "segments[5].theta_limit_deg", {}},
+      {"/segments/4/theta_limit_deg", nullptr, "segments[5].theta_limit_deg", {"missing"}},
       {"/cables/phase_deg/0", {0, 10, 20}, "cables.phase_deg[1]", {"pull"}},
       {"/cables/phase_deg/0", {0, 120}, "cables.phase_deg[1]", {"3", "4", "2"}},
       {"/cables/phase_deg/0", {0, 72, 144, 216, 288}, "cables.phase_deg[1]", {"3", "4", "entries"}},
@@ -74,7 +74,7 @@ TEST(Robot, IsRefusedWithFileFieldValueRangeAndAdvice) {
       {"/limits/theta_accel_deg_s2", 1e-12, "limits.theta_accel_deg_s2", {"0.001", "1000"}},
       {"/drives/gear", 1e-9, "drives.gear", {"0.01", "1000"}},
       {"/drives/drum_radius_m", 1e-9, "drives.drum_radius_m", {"0.001", "0.5"}},
-      {"/named_poses_deg/zero", nullptr, "named_poses_deg.zero", {}},
+      {"/named_poses_deg/zero", nullptr, "named_poses_deg.zero", {"missing"}},
       {"/named_poses_deg/prepare/3", 20.5, "named_poses_deg.prepare[4]", {"-20", "20"}},
       {"/named_poses_deg/prepare", {0, 0}, "named_poses_deg.prepare", {"10"}}};
   for (const Spoiled& spoiled : cases) {

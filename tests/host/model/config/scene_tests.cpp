@@ -169,7 +169,7 @@ TEST(Scene, ConvexBodiesAreRefusedWithFieldValueRangeAndAdvice) {
   const Json flat = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
   const std::vector<Spoiled> cases = {
       {"/convex", 5, "convex", {"list"}},
-      {"/convex/0/name", nullptr, "convex[1].name", {}},
+      {"/convex/0/name", nullptr, "convex[1].name", {"missing"}},
       {"/convex/0/points_m", {{0, 0, 0}, {1, 0, 0}}, "convex[1].points_m", {"4", "256"}},
       {"/convex/0/points_m", flat, "convex[1].points_m", {"plane"}},
       {"/convex/0/points_m/2", {0, 1}, "convex[1].points_m[3]", {"3"}},
@@ -178,8 +178,8 @@ TEST(Scene, ConvexBodiesAreRefusedWithFieldValueRangeAndAdvice) {
       {"/convex/1/cylinder/to_m", {1, 0, 0}, "convex[2].cylinder.to_m", {"point"}},
       {"/convex/1/cylinder/radius_m", 0, "convex[2].cylinder.radius_m", {"1e-04", "100"}},
       {"/convex/2/chain/points_m", {{0, 0, 0}}, "convex[3].chain.points_m", {"2", "64"}},
-      {"/convex/2/chain/length", 1, "convex[3].chain.length", {}},
-      {"/convex/2/stl", "a.stl", "convex[3].stl", {}}};
+      {"/convex/2/chain/length", 1, "convex[3].chain.length", {"field"}},
+      {"/convex/2/stl", "a.stl", "convex[3].stl", {"field"}}};
   for (const Spoiled& spoiled : cases) {
     expect_refused(Json::parse(kConvex), spoiled, [](const std::string& text) { parse_scene(text, "given.json"); });
   }
@@ -189,11 +189,11 @@ TEST(Scene, IsRefusedWithFileFieldValueRangeAndAdvice) {
   const Json good = good_table("scene", "panel_slit");
   const std::vector<Spoiled> cases = {
       {"/format", "1", "format", {"number"}},
-      {"/sphere", 1, "sphere", {}},
+      {"/sphere", 1, "sphere", {"field"}},
       {"/spheres", "none", "spheres", {"list"}},
       {"/spheres/0/radius_m", 0.00009, "spheres[1].radius_m", {"1e-04", "100"}},
       {"/spheres/0/center_m", {1, 2}, "spheres[1].center_m", {"3"}},
-      {"/spheres/0/name", nullptr, "spheres[1].name", {}},
+      {"/spheres/0/name", nullptr, "spheres[1].name", {"missing"}},
       {"/boxes/0/half_extent_m/1", -0.01, "boxes[1].half_extent_m[2]", {"1e-04", "100"}},
       {"/boxes/1/rotation/0", {1, 0, 0.5}, "boxes[2].rotation", {"orthonormal"}},
       {"/boxes/1/rotation", {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}}, "boxes[2].rotation", {"orthonormal"}},
@@ -208,7 +208,7 @@ TEST(Scene, IsRefusedWithFileFieldValueRangeAndAdvice) {
       {"/margins/shift_m", -0.001, "margins.shift_m", {"0", "0.1"}},
       {"/margins/turn_deg", 11, "margins.turn_deg", {"0", "10"}},
       {"/margins/slow_m", -0.001, "margins", {"slow_m", "refuse_m"}},
-      {"/margins/slowly_m", 0.001, "margins.slowly_m", {}},
+      {"/margins/slowly_m", 0.001, "margins.slowly_m", {"field"}},
       {"/camera", 5, "camera", {"fields"}}};
   for (const Spoiled& spoiled : cases) {
     expect_refused(good, spoiled, [](const std::string& text) { parse_scene(text, "given.json"); });

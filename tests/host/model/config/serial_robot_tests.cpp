@@ -46,15 +46,15 @@ TEST(SerialRobot, IsRefusedWithFileFieldValueRangeAndAdvice) {
       {"/format", 2, "format", {"1", "1"}},
       {"/joints", Json(std::vector<Json>(6, short_joint)), "joints", {"10"}},
       {"/kind", "robot", "kind", {"serial"}},
-      {"/colour", "red", "colour", {}},
+      {"/colour", "red", "colour", {"field"}},
       {"/joints", nine, "joints", {"kMaxJoints"}},  // compiled capacity, by name
       {"/joints", five, "joints", {"6", "8"}},
       {"/joints/2/alpha_deg", 200, "joints[3].alpha_deg", {"-180", "180"}},
       {"/joints/2/a_m", "long", "joints[3].a_m", {"number"}},
-      {"/joints/2/d_m", nullptr, "joints[3].d_m", {}},
+      {"/joints/2/d_m", nullptr, "joints[3].d_m", {"missing"}},
       {"/joints/2/high_deg", -270, "joints[3].high_deg", {"-269", "720"}},
       {"/joints/6/rate_deg_s", 0, "joints[7].rate_deg_s", {"0.001", "360"}},
-      {"/joints/6/wobble", 1, "joints[7].wobble", {}},
+      {"/joints/6/wobble", 1, "joints[7].wobble", {"field"}},
       {"/joints/3/stiffness_Nm_per_rad", 0, "joints[4].stiffness_Nm_per_rad", {"1"}},
       {"/joints/3/stiffness_Nm_per_rad", nullptr, "joints[4]", {"stiffness_Nm_per_rad"}},
       {"/joints/3/link", Json{{"mass_kg", 1}}, "joints[4]", {"link"}},
@@ -69,7 +69,7 @@ TEST(SerialRobot, IsRefusedWithFileFieldValueRangeAndAdvice) {
       {"/drives/serials", {1, 2, 3, 4, 5, 6, 2}, "drives.serials[7]", {"2"}},
       {"/drives/identity/vendor", -1, "drives.identity.vendor", {"0", "4294967295"}},
       {"/limits/tip_speed_m_s", 3, "limits.tip_speed_m_s", {"1e-04", "2"}},
-      {"/limits/cable_speed_m_s", 3, "limits.cable_speed_m_s", {}},
+      {"/limits/cable_speed_m_s", 3, "limits.cable_speed_m_s", {"field"}},
       {"/named_poses_deg/prepare/3", 270.5, "named_poses_deg.prepare[4]", {"-270", "270"}},
       {"/named_poses_deg/prepare", {0, 0}, "named_poses_deg.prepare", {"7"}}};
   for (const Spoiled& spoiled : cases) {
@@ -119,7 +119,7 @@ TEST(SerialRobot, ABaseIsALockedArmThatSaysHowItGivesWay) {
       {"/base/robot/joints/2/stiffness_Nm_per_rad", nullptr, "base.robot.joints[3]", {"stiffness_Nm_per_rad"}},
       {"/base/robot/kind", "robot", "base.robot.kind", {"serial"}},
       {"/base/robot/base", macro, "base.robot.base", {"base"}},
-      {"/base/wobble", 1, "base.wobble", {}}};
+      {"/base/wobble", 1, "base.wobble", {"field"}}};
   for (const Spoiled& spoiled : cases) expect_refused(good, spoiled, parse);
 }
 
@@ -146,12 +146,12 @@ TEST(SerialRobot, TorqueDrivesAreRefusedByFieldWhereSomethingIsMissingOrOutOfRan
   const std::vector<Spoiled> cases = {
       {"/drives/mode", "speed", "drives.mode", {"torque"}},
       {"/drives/mode", nullptr, "force_control", {"drives.mode"}},
-      {"/drives/position_gain_per_s", nullptr, "drives.position_gain_per_s", {}},
-      {"/force_control", nullptr, "force_control", {}},
+      {"/drives/position_gain_per_s", nullptr, "drives.position_gain_per_s", {"missing"}},
+      {"/force_control", nullptr, "force_control", {"missing"}},
       {"/force_control/most_joint_Nm", 151, "force_control.most_joint_Nm", {"1", "150"}},
       {"/force_control/gains/mass_kg", Json{500, 600, 5000}, "force_control.gains.mass_kg[1]", {"600", "5000"}},
       {"/force_control/gains/mass_kg", Json{500, 50}, "force_control.gains.mass_kg", {"least", "most"}},
-      {"/force_control/gains/wobble", Json{1, 1, 1}, "force_control.gains.wobble", {}}};
+      {"/force_control/gains/wobble", Json{1, 1, 1}, "force_control.gains.wobble", {"field"}}};
   for (const Spoiled& spoiled : cases) expect_refused(good, spoiled, parse);
 }
 

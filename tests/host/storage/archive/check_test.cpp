@@ -30,7 +30,7 @@ TEST_F(Whole, AFileOfTelemetryThatIsMissingIsNamed) {
   remove(1250);
   const Check found = check(folder_);
   ASSERT_EQ(found.problems.size(), 1u);
-  EXPECT_TRUE(names(found.problems[0], {"telemetry-1-000000001250.db"}));
+  EXPECT_TRUE(names(found.problems[0], {"telemetry-1-000000001250.db", "missing"}));
 }
 
 TEST_F(Whole, EveryMissingFileIsNamedAlsoWhenAllAre) {
@@ -54,7 +54,7 @@ TEST_F(Whole, AnArchiveWithoutAListOfItsFilesIsAskedForAny) {
   for (const Segment& file : segments_in(folder_)) remove_segment(file);
   const Check found = check(folder_);
   ASSERT_EQ(found.problems.size(), 1u);
-  EXPECT_TRUE(names(found.problems[0], {"telemetry-1-*.db"}));
+  EXPECT_TRUE(names(found.problems[0], {"telemetry-1-*.db", "missing"}));
 }
 
 }  // namespace
