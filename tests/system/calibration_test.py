@@ -11,6 +11,7 @@ import tempfile
 import unittest
 
 from support import MISSIONS, start_run
+from message import Messages
 from liana.system import program, run
 
 
@@ -20,7 +21,7 @@ def signed(content):
     return {**body, "sha256": hashlib.sha256(canonical.encode()).hexdigest()}
 
 
-class Calibration(unittest.TestCase):
+class Calibration(Messages, unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.directory = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
@@ -57,7 +58,7 @@ class Calibration(unittest.TestCase):
     def test_a_pose_that_would_hide_an_exchange_is_refused(self):
         process, out, error = self.mission(self.content, "short", "--in-pose", "zero")
         self.assertEqual((process.returncode, out), (2, ""), error)
-        self.assertIn("--in-pose: pose 'zero': cables 0 and 1 are only 0.0 mm apart", error)
+        self.assert_names(error, "--in-pose", "zero", "cables 0 and 1", "0.0 mm")
 
     def test_the_drums_directions_and_zeros_of_the_simulated_arm_are_found(self):
         self.assertEqual(len(self.content["cables"]), 15)
@@ -70,8 +71,8 @@ class Calibration(unittest.TestCase):
         out_file = self.directory / "crossed.json"
         crossed = run("liana", "calibrate", "--cross-wired", "3,4", "--out", out_file)
         self.assertEqual(crossed.returncode, 1, crossed.stderr)
-        self.assertIn("drive 3 (node 4) moves as cable 4 does", crossed.stdout)
-        self.assertIn("drive 4 (node 5) moves as cable 3 does", crossed.stdout)
+        self.assert_names(crossed.stdout, "drive 3", "node 4", "cable 4")
+        self.assert_names(crossed.stdout, "drive 4", "node 5", "cable 3")
         self.assertEqual(len(crossed.stdout.strip().splitlines()), 2, crossed.stdout)
         self.assertFalse(out_file.exists())
 
@@ -80,7 +81,7 @@ class Calibration(unittest.TestCase):
             for drives in ("3,99", "3,3", "3", "3,4,", "3,4,5"):
                 done = run("liana", *words, "--cross-wired", drives)
                 self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
-                self.assertIn(f"--cross-wired: '{drives}': allowed are two different drives from 0 to 14", done.stderr)
+                self.assert_names(done.stderr, "--cross-wired", drives, "two", "0", "14")
 
     def test_an_interrupt_ends_with_130_whatever_is_under_way_and_leaves_nothing(self):
         for says in ("pose 1", "pose 2"):
@@ -128,7 +129,7 @@ class Calibration(unittest.TestCase):
         replayed = run("liana", "replay", recording)
         self.assertEqual(replayed.returncode, 1)
         self.assertIn("no tick was recorded", replayed.stderr)
-        self.assertIn("node 3 on can0: object 0x1018:4 (serial number): expected 1006", out)
+        self.assert_names(out, "node 3", "can0", "0x1018:4", "1006")
         self.assertNotIn("ENABL", out + error)
 
 

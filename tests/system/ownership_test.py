@@ -102,7 +102,7 @@ class OwnershipOfMotion(SystemTest):
             self.assertEqual(system.ended("liana-mission"), 1, system.log("liana-mission"))
             report = system.json("mission.json")
             self.assertEqual(report["outcome"], "aborted", report)
-            self.assertIn("retracted along the verified path", report["reason"])
+            self.assert_names(report["reason"], "retracted", "verified path")
 
     def test_after_a_stop_another_client_can_enable_again(self):
         with System() as system:
@@ -169,7 +169,8 @@ class StopsBeforeTheArmIsEnabled(SystemTest):
         self.assertEqual(system.ended("liana-mission"), 1)
         report = system.json("mission.json")
         self.assertEqual((report["outcome"], report["steps"]), ("aborted", []))
-        self.assertEqual(report["reason"].count("emergency stop by red button"), 1, report["reason"])
+        self.assert_names(report["reason"], "emergency stop", "red button")
+        self.assertEqual(report["reason"].count("red button"), 1, report["reason"])
         client.go_on(0.5)
         self.assertEqual(client.state["state"], "DISABLED", brief(client.state))
         system.shut_down(client)
@@ -254,20 +255,20 @@ class StopsFromTheCommandLine(SystemTest):
         first.shut_down(client)
         done = run("liana", "status")
         self.assertEqual((done.returncode, done.stdout), (2, ""))
-        self.assertIn("no system of this user is running", done.stderr)
+        self.assert_names(done.stderr, "no system")
 
     def test_clear_takes_back_the_stop_and_the_faults_by_name_and_enables_nothing(self):
         _, client = self.moving([{"drive": 3, "kind": "fault", "at_slot": 2500}])
         client.until(lambda state: state["faults"])
         code, _, error = self.while_running("clear", [client])
         self.assertEqual(code, 1)
-        self.assertRegex(error, "nothing was cleared|'test' owns motion")  # the arm may still be stopping
+        self.assertRegex(error, "nothing was cleared|'test'")  # the arm may still be stopping
         client.until(lambda state: state["state"] == "FAULT")
         self.assertEqual(self.while_running("estop", [client])[0], 0)
         code, refused, error = self.while_running("clear", [client])
         self.assertEqual((code, refused[0]["cleared"], refused[0]["stop"]["by"]), (1, False, "liana estop"))
-        self.assertIn("'test' owns motion", error)
-        self.assertIn("'test' owns motion", refused[0]["said"])
+        self.assert_names(error, "test", "owns")
+        self.assert_names(refused[0]["said"], "test", "owns")
         self.assertEqual((client.state["stop"]["by"], len(client.state["faults"])), ("liana estop", 1))
         client.call("release")
         code, cleared, error = self.while_running("clear", [client])
@@ -333,7 +334,7 @@ class StopsFromTheCommandLine(SystemTest):
         client.call("release")
         code, cleared, error = self.while_running("clear", [client])
         self.assertEqual((code, cleared[0]["cleared"], cleared[0]["faults"][0]["number"]), (1, False, 3002))
-        self.assertIn("faults not cleared, not met: ", error)
+        self.assert_names(error, "faults", "not met")
         second, other = self.moving()
         code, cleared, error = self.while_running("clear", [client, other])
         self.assertEqual((code, cleared[0]["error"]["exit_code"]), (2, 2))
@@ -409,7 +410,7 @@ class StopsFromTheCommandLine(SystemTest):
         (pathlib.Path(self.home) / f"liana-{os.getuid()}").symlink_to("/")
         done = run("liana", "estop")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("is not a folder of this user", done.stderr)
+        self.assert_names(done.stderr, "folder", "user")
 
     def test_the_report_of_a_run_says_who_stopped_it(self):
         process = start_run(self, MISSIONS / "short.lua", "--time", "paced", "--json", "report.json")
@@ -419,7 +420,7 @@ class StopsFromTheCommandLine(SystemTest):
         process.communicate(timeout=PATIENCE_S)
         report = json.loads((process.home / "report.json").read_text())
         self.assertEqual((process.returncode, report["outcome"]), (1, "aborted"))
-        self.assertIn("emergency stop by liana estop", report["reason"])
+        self.assert_names(report["reason"], "emergency stop", "liana estop")
 
 
 class NobodyToTalkTo(SystemTest):

@@ -186,7 +186,7 @@ class BodiesInTheWayOfASerialArm(SystemTest):
             client.enable()
             verdict, _ = self.held_by(client, [0, 0, 0, 180, 0, 0, 0])
             self.assertEqual(verdict["name"], "self_contact")
-            self.assertIn("the arm would touch itself: link 3 (link 5)", verdict["text"])
+            self.assert_names(verdict["text"], "itself", "link 3", "link 5")
 
     def test_the_start_pose_and_the_pose_that_a_step_goes_to_are_looked_at_before_anything_starts(self):
         start = tip_of("micro", [0, 0, 0, 0, 0, 0, 0])
@@ -230,15 +230,14 @@ class WhatASerialArmRefuses(SystemTest):
         with System(robot="macro_micro", scene="none", bus=str(bus)) as system:
             client = self.enterContext(system.client())
             client.enable()
-            with self.assertRaisesRegex(RequestRefused, "the bus table has no wrist_sensor"):
+            with self.assertRaisesRegex(RequestRefused, "bus table.*wrist_sensor"):
                 client.call("push", force_N=20)
 
     def refused(self, *words, says):
         process = start_run(self, *words)
         out, error = process.communicate(timeout=PATIENCE_S)
         self.assertEqual((process.returncode, out), (2, ""), error)
-        for word in says:
-            self.assertIn(word, error)
+        self.assert_names(error, *says)
         self.assertEqual(list(process.home.iterdir()), [], "nothing may be left behind")
 
     def test_options_that_are_about_cables(self):
@@ -253,34 +252,33 @@ class WhatASerialArmRefuses(SystemTest):
                 self.refused(SHORT, "--robot", "micro", option, value, says=[option, "micro", "serial"])
 
     def test_the_payload_mission_in_a_scene_without_a_payload(self):
-        self.refused("payload_install", "--scene", "none", says=["looks at a payload: scene none has none"])
+        self.refused("payload_install", "--scene", "none", says=["payload", "scene none"])
 
     def test_a_push_that_the_tables_do_not_have_before_the_start_by_run_and_check(self):
         folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         mission = folder / "pushes.lua"
         tables = ("--robot", "macro_micro", "--bus", "embedded_payload", "--scene")
         for action, words, says in (
-            ("push { force_N = 20 }", ("--robot", "micro"), "the drives of this robot follow positions"),
-            ("push { force_N = 80 }", (*tables, "none"), "force_N = 80: allowed 0 to 60"),
-            ("adapter 'lock'", (*tables, "none"), "scene none has none, so none is simulated"),
+            ("push { force_N = 20 }", ("--robot", "micro"), ("push", "drives", "positions")),
+            ("push { force_N = 80 }", (*tables, "none"), ("force_N", "80", "0", "60")),
+            ("adapter 'lock'", (*tables, "none"), ("scene none",)),
         ):
             mission.write_text(
                 "local liana = require 'liana'\nreturn liana.mission 'pushes' {\nliana.step 'push' { device = 'none',"
                 f" run = liana.{action}, exit = liana.at_rest(), time_limit_s = 9, on_fail = 'hold' }} }}\n"
             )
-            where = 'pushes.lua:3: mission pushes: step 1 "push": run: '
+            where = ("pushes.lua:3", "mission pushes", "step 1", "push", "run")
             with self.subTest(action):
-                self.refused(mission, *words, says=[where, says])
+                self.refused(mission, *words, says=(*where, *says))
                 done = run("liana", "check", mission, *words, cwd=folder)
                 self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
-                self.assertIn(where, done.stderr)
-                self.assertIn(says, done.stderr)
+                self.assert_names(done.stderr, *where, *says)
 
     def test_a_plan_for_a_cable_arm(self):
         with tempfile.TemporaryDirectory() as folder:
             plan = pathlib.Path(folder) / "plan.json"
             plan.write_text(json.dumps({"format": 1, "kind": "plan", "outcome": "solved", "waypoints_deg": [[0] * 10]}))
-            self.refused(plan, "--robot", "micro", says=["plan", "micro"])
+            self.refused(plan, "--robot", "micro", says=["plans", "robot micro"])
 
     def test_a_mission_of_the_cable_arm(self):
         self.refused(MISSIONS / "steered.lua", "--robot", "micro", says=["steered.lua"])

@@ -18,6 +18,7 @@ SCENARIOS = SOURCE / "hil" / "scenarios"
 PYTHON = SOURCE / "host" / "api" / "python"
 MISSIONS = TESTS / "missions"
 sys.path[:0] = [str(PYTHON), str(SCENARIOS), str(SOURCE / "hil" / "vm")]
+sys.path.append(str(SOURCE / "tests"))  # message.py
 
 # `liana estop` looks wherever a system can be: those of other test programs are not to be found there.
 os.environ["XDG_RUNTIME_DIR"] = os.environ["TMPDIR"] = tempfile.tempdir = tempfile.mkdtemp(prefix="liana-tests-")
@@ -25,6 +26,7 @@ atexit.register(shutil.rmtree, tempfile.tempdir, ignore_errors=True)
 
 from liana.client import brief  # noqa: E402
 from liana.system import program  # noqa: E402
+from message import Messages  # noqa: E402
 
 
 def start_run(test, *words):
@@ -45,7 +47,7 @@ def start_run(test, *words):
     return process
 
 
-class SystemTest(unittest.TestCase):
+class SystemTest(Messages, unittest.TestCase):
     """Assertions about a safe arm, and tables of a test's own."""
 
     def bus_of(self, drives):

@@ -103,7 +103,7 @@ class Teleop(SystemTest):
         driver = Driver(self)
         driver.until("DISABLED", "nobody owns motion")
         driver.press("w")
-        driver.until("nothing moves before you take motion")
+        driver.until("take motion")
         driver.press("t")
         driver.until("motion is yours")
         wait_until(lambda: (driver.press("n"), time.sleep(0.5), "DISABLED" not in driver.picture())[2], "homing")

@@ -27,7 +27,7 @@ def lacking(program):
         "PIE": "Flags:" in dynamic and " PIE" in dynamic,
         "RELRO": "GNU_RELRO" in segments,
         "BIND_NOW": "BIND_NOW" in dynamic or re.search(r"FLAGS_1.* NOW", dynamic) is not None,
-        "a stack that cannot be run": stack is not None and " RWE " not in stack.group(),
+        "a stack without code": stack is not None and " RWE " not in stack.group(),
         "stack protector": "__stack_chk_fail" in symbols,
         "fortified functions": re.search(r"\b__\w+_chk\b", symbols) is not None,
     }

@@ -13,6 +13,10 @@ import unittest
 
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 ROOT = pathlib.Path(__file__).resolve().parents[3]
+sys.path.append(str(ROOT / "tests"))
+
+from message import Messages  # noqa: E402
+
 EXAMPLES = ROOT / "docs" / "examples"
 PROGRAMS = ("liana", "lianad", "liana-archive", "liana-bench", "liana-bus", "liana-gateway", "liana-mission")
 ZEROS = ",".join(["0"] * 10)
@@ -45,7 +49,7 @@ def files_in(folder):
     return sorted(str(path.relative_to(folder)) for path in folder.rglob("*"))
 
 
-class Installed(unittest.TestCase):
+class Installed(Messages, unittest.TestCase):
     """One prefix for all tests that change nothing in it; it is not where it was installed."""
 
     @classmethod
@@ -116,12 +120,12 @@ class Installed(unittest.TestCase):
 
     def test_a_search_path_that_is_no_folder_is_named(self):
         for words, environment, named in (
-            (["--lua-dir=/no/such"], {}, "--lua-dir: '/no/such': no such folder"),
-            ([], {"LIANA_LUA_PATH": "/no/such"}, "LIANA_LUA_PATH: '/no/such': no such folder"),
+            (["--lua-dir=/no/such"], {}, ("--lua-dir", "/no/such", "folder")),
+            ([], {"LIANA_LUA_PATH": "/no/such"}, ("LIANA_LUA_PATH", "/no/such", "folder")),
         ):
             done = self.program("liana", *words, "robot", "export", environment=environment, check=False)
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
-            self.assertIn(named, done.stderr)
+            self.assert_names(done.stderr, *named)
 
     def test_the_python_client_finds_the_programs_of_its_prefix(self):
         code = "from liana import system; print(system.binaries()); print(system.table('robot', 'micro'))"

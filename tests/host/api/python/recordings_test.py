@@ -163,12 +163,12 @@ class Ticks(Files):
     def test_a_field_of_another_width_is_refused_by_name(self):
         inputs, outputs = fields(recordings.INPUTS, {}), fields(recordings.outputs_of(ROBOT), {})
         changed = inputs[0].replace("tick 8", "tick 4"), inputs[1]
-        with self.assertRaisesRegex(BadRecording, "field tick is not 8 bytes"):
+        with self.assertRaisesRegex(BadRecording, "tick.*8 bytes"):
             self.recording(changed, outputs).ticks
 
     def test_a_schema_that_is_none_is_refused(self):
         inputs, outputs = fields(recordings.INPUTS, {}), fields(recordings.outputs_of(ROBOT), {})
-        with self.assertRaisesRegex(BadRecording, "a field , which is no name"):
+        with self.assertRaisesRegex(BadRecording, "field ,"):
             self.recording(("tick..x 8\n", inputs[1]), outputs).ticks
 
     def test_a_run_that_never_ticked_has_no_ticks(self):

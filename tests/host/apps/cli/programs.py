@@ -12,6 +12,7 @@ import tempfile
 
 BIN = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "build/bin").resolve()
 ROOT = pathlib.Path(__file__).resolve().parents[4]
+sys.path.append(str(ROOT / "tests"))  # message.py
 
 # `status` and `estop` find the running systems through these directories: every test program has its own.
 os.environ["XDG_RUNTIME_DIR"] = os.environ["TMPDIR"] = tempfile.tempdir = tempfile.mkdtemp(prefix="liana-test-")

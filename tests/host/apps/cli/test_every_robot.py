@@ -10,6 +10,7 @@ import unittest
 
 from made_up_arms import TOUR, angles_of, table_of, tip_of
 from programs import liana, liana_json
+from message import Messages
 
 SHIPPED = {
     "three_segment_lab": ("lab_tour", "lab_box", "-6,3,5,-5,8,4"),
@@ -22,7 +23,7 @@ def joined(numbers):
     return ",".join(repr(float(x)) for x in numbers)
 
 
-class EveryRobot(unittest.TestCase):
+class EveryRobot(Messages, unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix="liana-test-")
         self.addCleanup(folder.cleanup)
@@ -88,8 +89,8 @@ class EveryRobot(unittest.TestCase):
         file.write_text(json.dumps(table))
         checked = liana_json("robot", "check", file, expected=(1,))
         text = "\n".join(checked["problems"])
-        for named in ("cables 1 and 4: their holes are 0.0 mm apart", "pose look: tensions of ", "fixture_poses: "):
-            self.assertIn(named, text)
+        for named in (("cables 1 and 4", "holes", "0.0 mm"), ("pose look", "tensions"), ("fixture_poses",)):
+            self.assert_names(text, *named)
         code, out, _ = liana("robot", "check", file)
         self.assertEqual((code, out.splitlines()[-1]), (1, "does NOT fit as it is"))
 
@@ -119,7 +120,7 @@ class EveryRobot(unittest.TestCase):
         self.assertEqual(table["module"]["radius_m"], 0.0063)
         checked = liana_json("robot", "check", file)
         self.assertEqual(checked["problems"], [])
-        self.assertIn("segment 1 moves its cables by 4.0 mm at most: liana calibrate needs 5 mm", checked["notes"][0])
+        self.assert_names(checked["notes"][0], "segment 1", "4.0 mm", "liana calibrate", "5 mm")
         mission = self.folder / "tour.lua"
         mission.write_text(TOUR.replace('"first"', '"bent"').replace('"second"', '"back"'))
         self.crosses(file, mission, "none")
@@ -136,7 +137,7 @@ class EveryRobot(unittest.TestCase):
         file.write_text(file.read_text().replace("{ 0, 75, 150, 270 }", "{ 0, 90, 180, 270 }"))
         code, out, error = liana("calibrate", "--robot", file, "--poses", "zero,bent,back")
         self.assertEqual((code, out), (2, ""), error)
-        self.assertIn("cables 0 and 2 (cables are counted from 0) sit opposite each other", error)
+        self.assert_names(error, "cables 0 and 2", "opposite")
 
     def test_a_new_arm_moves_at_once(self):
         mission = self.folder / "tour.lua"
@@ -145,15 +146,15 @@ class EveryRobot(unittest.TestCase):
 
     def test_what_no_arm_can_have_is_refused_before_a_file_is_written(self):
         for words, named in (
-            (("Desk", "--out"), "small letters"),
-            (("desk", "--segments", 9, "--out"), "--segments: '9': allowed: a whole number from 1 to 8"),
-            (("desk", "--cables", "many", "--out"), "--cables"),
-            (("desk", "--radius", "nan", "--out"), "--radius"),
+            (("Desk", "--out"), ("small letters",)),
+            (("desk", "--segments", 9, "--out"), ("--segments", "9", "1", "8", "whole")),
+            (("desk", "--cables", "many", "--out"), ("--cables",)),
+            (("desk", "--radius", "nan", "--out"), ("--radius",)),
         ):
             file = self.folder / "refused.lua"
             code, out, error = liana("robot", "new", *words, file)
             self.assertEqual((code, out, file.exists()), (2, "", False), words)
-            self.assertIn(named, error)
+            self.assert_names(error, *named)
         file = self.new("desk")
         self.assertIn("exists already", liana("robot", "new", "desk", "--out", file)[2])
 
@@ -186,7 +187,7 @@ class EveryRobot(unittest.TestCase):
         )
         code, out, error = liana("robot", "check", robot)
         self.assertEqual(code, 1, out + error)
-        self.assertIn("problem: named_poses_deg.folded: link 4 stands 300.0 mm inside link 3", out)
+        self.assert_names(out, "problem", "named_poses_deg.folded", "link 4", "300.0 mm", "link 3")
 
     def test_a_plan_is_carried_out_with_its_own_robot_and_scene_from_where_it_begins(self):
         plan = self.folder / "plan.json"

@@ -10,6 +10,7 @@ import unittest
 sys.path[:0] = [str(pathlib.Path(__file__).resolve().parents[3] / folder) for folder in ("numbers", "host/apps/cli")]
 import planning_plans  # noqa: E402 (found through the line above)
 from programs import interrupt  # noqa: E402
+from message import Messages  # noqa: E402
 
 BIN = pathlib.Path(sys.argv.pop(1))
 
@@ -28,7 +29,7 @@ def call(*options):
     return subprocess.run(words(*options), capture_output=True, text=True, check=False)
 
 
-class PlanCommand(unittest.TestCase):
+class PlanCommand(Messages, unittest.TestCase):
     def test_a_plan_ends_with_0_and_has_everything_that_callers_read(self):
         done = call(f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}", "--waypoints=15")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -224,19 +225,18 @@ class PlanCommand(unittest.TestCase):
 
             into_the_panel = [-2.641, -2.064, -1.81, -4.64, 4.777, 5.87, 4.0, 4.764, 5.0, -0.543]
             self.assertIn("digest: ", edit(lambda plan: plan["waypoints_deg"][1].__setitem__(0, -8.4), False))
-            self.assertIn(
-                "waypoints_deg: on the path found link",
-                edit(lambda plan: plan["waypoints_deg"].__setitem__(1, into_the_panel)),
+            self.assert_names(
+                edit(lambda plan: plan["waypoints_deg"].__setitem__(1, into_the_panel)), "waypoints_deg", "link"
             )
-            self.assertIn(
-                "waypoints_deg: a theta changes by", edit(lambda plan: plan["inputs"].__setitem__("max_step_deg", 1.0))
+            self.assert_names(
+                edit(lambda plan: plan["inputs"].__setitem__("max_step_deg", 1.0)), "waypoints_deg", "theta"
             )
             self.assertIn("inputs.margin_m", edit(lambda plan: plan["inputs"].pop("margin_m")))
             path.write_text(json.dumps(written)[:500], encoding="utf-8")
             cut = subprocess.run([BIN / "liana", "run", path], capture_output=True, text=True, check=False, timeout=60)
             self.assertEqual((cut.returncode, cut.stdout), (2, ""), cut.stderr)
             self.assertIn("not JSON", cut.stderr)
-            self.assertIn("give a file that liana plan --out has written", cut.stderr)
+            self.assert_names(cut.stderr, "liana plan --out")
 
     def test_a_failed_plan_leaves_the_kept_file_as_it_was_and_says_so(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -244,7 +244,7 @@ class PlanCommand(unittest.TestCase):
             path.write_text("an earlier plan", encoding="utf-8")
             done = call(f"--from-deg={PREPARE}", f"--to-deg={TILTED}", f"--out={path}")
             self.assertEqual(done.returncode, 3)
-            self.assertIn(f"nothing was written to {path}: the outcome is infeasible", done.stderr)
+            self.assert_names(done.stderr, "nothing", str(path), "infeasible")
             self.assertEqual(path.read_text(encoding="utf-8"), "an earlier plan")
 
     def test_the_study_at_reduced_size_solves_both_legs_and_nearly_all_random_scenes(self):
