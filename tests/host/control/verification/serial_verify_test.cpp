@@ -76,7 +76,7 @@ const Row kRows[] = {
      pushing([](serial::PushReport& p) { p.travel_m = -0.2011; }),
      pushing([](serial::PushReport& p) { p.travel_m = 0.2009; }),
      Refusal::kPushTube,
-     {"push", "axis", "0.2"}},
+     {"push", "axis", "-201.1 mm", "201 mm"}},
     {"214: beside it",
      pushing([](serial::PushReport& p) { p.aside_m = 0.0311; }),
      pushing([](serial::PushReport& p) { p.aside_m = 0.0309; }),
