@@ -8,8 +8,8 @@
 #include "firmware_like/command/telecommand.hpp"
 #include "firmware_like/controller_io.hpp"
 #include "firmware_like/drive/drive_io.hpp"
+#include "firmware_like/safety/drive_link_monitor.hpp"
 #include "firmware_like/safety/gate.hpp"
-#include "firmware_like/safety/link_watch.hpp"
 #include "firmware_like/safety/supervisor.hpp"
 
 namespace liana {
@@ -61,7 +61,7 @@ concept Arm = std::is_trivially_copyable_v<A> && ArmTable<typename A::Table> &&
   // The twin's nominal plant: torque that a drive which goes where it is told shows after this report.
   { A::planned_permille(table, report, drive) } -> std::same_as<std::int16_t>;
   // Whether the drives follow torques; and the sensors of the next tick, when nothing happens to them.
-  { A::gives_torque(table) } -> std::same_as<bool>;
+  { A::is_torque_controlled(table) } -> std::same_as<bool>;
   { A::imagined(sensors) } -> std::same_as<typename A::Sensors>;
 };
 

@@ -76,7 +76,7 @@ class Controller {
   GateLimits gate_limits_;
   LinkLimits link_limits_;
 
-  LinkWatchState link_{};
+  DriveLinkMonitorState link_{};
   FaultList faults_{};
   SupervisorState supervisor_{};
 

@@ -14,8 +14,8 @@ namespace {
 
 double smooth_step(double x) noexcept { return x * x * (3.0 - 2.0 * x); }
 
-ContactReport contact_report(const ContactWatchState& contact) noexcept {
-  ContactReport out;
+ContactStatus contact_report(const ContactDetectorState& contact) noexcept {
+  ContactStatus out;
   out.sd_N = contact.sd_N;
   for (std::size_t i = 0; i < 3; ++i) {
     if (!is_seen(contact, i)) continue;
@@ -31,7 +31,7 @@ ContactReport contact_report(const ContactWatchState& contact) noexcept {
 
 }  // namespace
 
-CableArm::CableArm(const RobotTable& table) noexcept
+CableArm::CableArm(const RobotParams& table) noexcept
     : table_(table),
       declared_mu_(table.friction_mu),
       layout_(cable_layout(table)),
@@ -114,7 +114,7 @@ void CableArm::stop_planning() noexcept {
   lift_N_ = SegmentVector{};
   taut_N_ = CableVector{};
   dither_ = DitherState{};
-  let_go_ = LetGoState{};
+  let_go_ = SegmentReleaseState{};
   lets_out_ = false;
   payout_command_m_ = payout_measured_m_;
 }
@@ -166,9 +166,9 @@ void CableArm::govern() noexcept {
   look_at_load(table_, model_.geometry, ratio_, motion_.arm, motion_.held_mask, motion_.shape.tick, motion_.governor);
 }
 
-std::uint32_t CableArm::plan_tensions(bool plans_now, bool is_sound) noexcept {
-  if (ramp_ >= 1.0 && is_sound) {
-    keep_taut(table_, estimator_.tension_N, lift_N_);
+std::uint32_t CableArm::plan_tensions(bool plans_now, bool tensions_valid) noexcept {
+  if (ramp_ >= 1.0 && tensions_valid) {
+    keep_min_tension(table_, estimator_.tension_N, lift_N_);
     wind_in(table_, estimator_.tension_N, taut_N_);
   }
   if (is_let_go(let_go_)) {  // nothing may lag now
@@ -208,18 +208,18 @@ std::uint32_t CableArm::propose(const Orders& orders, const DriveCommands& sent,
   table_.friction_mu = plan_friction(declared_mu_, table_.friction_mu, table_.tick_s, friction_);
   if (orders.preparing) ramp_ = smaller(1.0, ramp_ + table_.tick_s / kPretensionRamp_s);
 
-  const bool is_sound = no_fault && !is_let_go(let_go_);
-  std::uint32_t limits = plan_tensions(plans, is_sound);
-  dither(is_sound);
+  const bool tensions_valid = no_fault && !is_let_go(let_go_);
+  std::uint32_t limits = plan_tensions(plans, tensions_valid);
+  dither(tensions_valid);
   govern();
   if (!live_) start_ramp(sent);
   CableVector wanted_m = payout_for(table_, layout_, model_.geometry.part_m, ratio_, pull_N_);
   if (ramp_ < 1.0) {
     ramp_payouts(wanted_m);
   } else {
-    damp_payouts(is_sound, wanted_m);
+    damp_payouts(tensions_valid, wanted_m);
   }
-  if (let_go_.stage == LetGoStage::kOut) let_out(wanted_m);
+  if (let_go_.stage == SegmentReleaseStage::kOut) let_out(wanted_m);
   const CableVector asked_m = wanted_m;
   const std::uint32_t limited = limit_payout_speed(wanted_m);
   if (limited != 0 && !is_let_go(let_go_)) take_told_tensions(asked_m, wanted_m);
@@ -231,8 +231,8 @@ std::uint32_t CableArm::propose(const Orders& orders, const DriveCommands& sent,
 
 // Only an arm at rest is dithered, and one whose tensions are in doubt no more. What friction held is freed by it. What
 // single cables are wound in by comes on top.
-void CableArm::dither(bool is_sound) noexcept {
-  const bool may = is_sound && !motion_.braking && at_rest(table_, motion_);
+void CableArm::dither(bool tensions_valid) noexcept {
+  const bool may = tensions_valid && !motion_.braking && at_rest(table_, motion_);
   const double change = advance_dither(may ? motion_.to.dither_share : 0.0, table_.tick_s, dither_);
   for (Index c = 0; c < cables(); ++c)
     pull_N_[c] = smaller(table_.tension.ceiling_free_N, (1.0 + change) * tension_.motor_N[c] + taut_N_[c]);
@@ -241,13 +241,13 @@ void CableArm::dither(bool is_sound) noexcept {
 
 void CableArm::let_out(CableVector& wanted_m) const noexcept {
   for (Index c = 0; c < cables(); ++c) {
-    if (layout_.segment[c] == let_go_.segment) wanted_m[c] += kLetGo_m;
+    if (layout_.segment[c] == let_go_.segment) wanted_m[c] += kSegmentRelease_m;
   }
 }
 
 std::uint32_t CableArm::limit_payout_speed(CableVector& wanted_m) const noexcept {
   const double step_m = table_.limits.cable_speed_m_s * table_.tick_s;
-  const double out_m = jumps_out(let_go_) ? kLetGoStep_m : step_m;
+  const double out_m = segment_release_begins(let_go_) ? kLetGoStep_m : step_m;
   const bool back = jumps_back(let_go_);
   std::uint32_t limits = 0;
   for (Index c = 0; c < cables(); ++c) {
@@ -275,8 +275,8 @@ void CableArm::ramp_payouts(CableVector& wanted_m) const noexcept {
 
 // Moves the motors after the swing that the measured tensions show; while a fault makes tensions doubtful the last
 // shift stays.
-void CableArm::damp_payouts(bool is_sound, CableVector& wanted_m) noexcept {
-  if (is_sound) {
+void CableArm::damp_payouts(bool tensions_valid, CableVector& wanted_m) noexcept {
+  if (tensions_valid) {
     // A cable stretches in proportion to its tension (to 0.3 %); as planned it is stretched by the path less the
     // unstretched length.
     CableVector stretch_m;
@@ -298,7 +298,7 @@ void CableArm::propose_payouts(DriveProposals& out) const noexcept {
   for (Index c = 0; c < cables(); ++c) {
     out[c].target_counts = counts_at_payout(table_.drive[c], zero_payout_m_[c], payout_command_m_[c]);
     out[c].torque_permille = pull_N_[c] / table_.drive[c].newtons_per_permille;
-    out[c].lets_go = jumps_out(let_go_) || jumps_back(let_go_);
+    out[c].lets_go = segment_release_begins(let_go_) || jumps_back(let_go_);
   }
 }
 
@@ -329,7 +329,7 @@ void CableArm::report(Report& out) const noexcept {
   out.ik_residual = motion_.ik.residual;
 }
 
-std::int16_t CableArm::planned_permille(const RobotTable& table, const Report& report, std::int32_t drive) noexcept {
+std::int16_t CableArm::planned_permille(const RobotParams& table, const Report& report, std::int32_t drive) noexcept {
   const Index i = as_index(drive);
   return narrow<std::int16_t>(to_counts(report.tension_plan_N[i] / table.drive[i].newtons_per_permille).value);
 }

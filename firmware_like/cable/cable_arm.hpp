@@ -6,21 +6,21 @@
 #include <type_traits>
 
 #include "firmware_like/cable/arm/body_inertia.hpp"
-#include "firmware_like/cable/arm/cable_watch.hpp"
-#include "firmware_like/cable/arm/contact_watch.hpp"
+#include "firmware_like/cable/arm/cable_monitor.hpp"
+#include "firmware_like/cable/arm/contact_detector.hpp"
 #include "firmware_like/cable/arm/dither.hpp"
 #include "firmware_like/cable/arm/estimator.hpp"
-#include "firmware_like/cable/arm/friction_watch.hpp"
+#include "firmware_like/cable/arm/friction_estimator.hpp"
 #include "firmware_like/cable/arm/let_go.hpp"
 #include "firmware_like/cable/arm/setpoint.hpp"
 #include "firmware_like/cable/arm/tension.hpp"
-#include "firmware_like/cable/arm/tension_watch.hpp"
+#include "firmware_like/cable/arm/tension_monitor.hpp"
 #include "firmware_like/cable/motion/damping.hpp"
 #include "firmware_like/cable/motion/motion.hpp"
 #include "firmware_like/cable/report.hpp"
 #include "firmware_like/drive/drive_io.hpp"
+#include "firmware_like/safety/drive_link_monitor.hpp"
 #include "firmware_like/safety/gate.hpp"
-#include "firmware_like/safety/link_watch.hpp"
 #include "firmware_like/safety/supervisor.hpp"
 
 namespace liana::cable {
@@ -36,15 +36,15 @@ constexpr double kHomingResidual_m = 1.5e-3;  // more is a wrong zero, a swapped
 
 class CableArm {
  public:
-  using Table = RobotTable;
+  using Table = RobotParams;
   using Setpoint = cable::Setpoint;
   using Report = cable::Report;
   using Sensors = NoSensors;
 
   // The table must have passed the loader; no other checks are made here.
-  explicit CableArm(const RobotTable& table) noexcept;
+  explicit CableArm(const RobotParams& table) noexcept;
 
-  const RobotTable& table() const noexcept { return table_; }
+  const RobotParams& table() const noexcept { return table_; }
   GateLimits gate_limits() const noexcept;
   LinkLimits link_limits() const noexcept;
 
@@ -69,13 +69,14 @@ class CableArm {
   bool is_braking() const noexcept { return motion_.braking; }
   void stand() noexcept;
   std::uint32_t advance(bool allowed) noexcept;
-  std::uint32_t propose(const Orders& orders, const DriveCommands& sent, bool is_sound, DriveProposals& out) noexcept;
+  std::uint32_t propose(const Orders& orders, const DriveCommands& sent, bool tensions_valid,
+                        DriveProposals& out) noexcept;
   void report(Report& out) const noexcept;
 
   // What the twin's drives show beside what they are told: the planned tension.
-  static std::int16_t planned_permille(const RobotTable& table, const Report& report, std::int32_t drive) noexcept;
+  static std::int16_t planned_permille(const RobotParams& table, const Report& report, std::int32_t drive) noexcept;
 
-  static bool gives_torque(const RobotTable&) noexcept { return false; }
+  static bool is_torque_controlled(const RobotParams&) noexcept { return false; }
   static NoSensors imagined(const NoSensors& last) noexcept { return last; }
 
   // Motion stage, for the verifier's predictions and for tests.
@@ -154,17 +155,17 @@ class CableArm {
   void aim_tensions(const TensionPlan& plan) noexcept;
   ThetaVector inertia_load_Nm() noexcept;
   void govern() noexcept;
-  std::uint32_t plan_tensions(bool plans_now, bool is_sound) noexcept;
-  void dither(bool is_sound) noexcept;
+  std::uint32_t plan_tensions(bool plans_now, bool tensions_valid) noexcept;
+  void dither(bool tensions_valid) noexcept;
   void ramp_payouts(CableVector& wanted_m) const noexcept;
-  void damp_payouts(bool is_sound, CableVector& wanted_m) noexcept;
+  void damp_payouts(bool tensions_valid, CableVector& wanted_m) noexcept;
   void let_out(CableVector& wanted_m) const noexcept;
   std::uint32_t limit_payout_speed(CableVector& wanted_m) const noexcept;
   void take_told_tensions(const CableVector& asked_m, const CableVector& told_m) noexcept;
   void propose_payouts(DriveProposals& out) const noexcept;
   Index cables() const noexcept { return static_cast<Index>(layout_.cable_count); }
 
-  RobotTable table_{};  // as loaded, but for friction_mu: that is what the arm plans with
+  RobotParams table_{};  // as loaded, but for friction_mu: that is what the arm plans with
   double declared_mu_ = 0.0;
   CableLayout layout_{};
   TensionWatchLimits tension_watch_limits_{};
@@ -178,12 +179,12 @@ class CableArm {
   EstimatorState estimator_{};
   std::uint32_t homing_ticks_ = 0;
   std::uint16_t feedback_age_ticks_ = 0xFFFF;  // of the drive that was heard longest ago
-  TensionWatchState tension_watch_{};
-  CableWatchState cable_watch_{};
-  FrictionWatchState friction_{};
+  TensionMonitorState tension_watch_{};
+  CableMonitorState cable_watch_{};
+  FrictionEstimatorState friction_{};
   BodyInertiaState inertia_{};
   TorqueBalance balance_{};
-  ContactWatchState contact_{};
+  ContactDetectorState contact_{};
 
   // Where the arm is told to go.
   MotionState motion_{};
@@ -197,7 +198,7 @@ class CableArm {
   SegmentVector lift_N_{};          // pulled tighter than planned
   CableVector taut_N_{};            // the same of single cables
   ThetaVector plan_rate_rad_s_{};   // commanded, when tensions were planned last
-  LetGoState let_go_{};             // cables of a segment that has lost one
+  SegmentReleaseState let_go_{};    // cables of a segment that has lost one
   std::int32_t missed_ = -1;        // cable, found by watch_drive and judged by watch in the same tick; else -1
   bool lets_out_ = false;           // drums have somewhere to go yet
   TensionPlan tension_{};           // in force

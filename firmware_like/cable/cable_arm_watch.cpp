@@ -45,9 +45,9 @@ void CableArm::watch(WatchScope scope, std::uint64_t tick, FaultList& faults) no
 
 // What was found of friction stays.
 void CableArm::forget_balance() noexcept {
-  friction_ = FrictionWatchState{friction_.mu, friction_.variance, 0, friction_.flagged};
+  friction_ = FrictionEstimatorState{friction_.mu, friction_.variance, 0, friction_.flagged};
   reset_balance(model_.geometry, slip_, balance_);
-  contact_ = ContactWatchState{};
+  contact_ = ContactDetectorState{};
   inertia_ = BodyInertiaState{};
 }
 

@@ -4,14 +4,14 @@
 #include <array>
 #include <cstdint>
 
-#include "firmware_like/cable/arm/contact_watch.hpp"
+#include "firmware_like/cable/arm/contact_detector.hpp"
 #include "firmware_like/cable/motion/servo_ik.hpp"
 #include "firmware_like/math/pose.hpp"
 
 namespace liana::cable {
 
 // What is known of friction between cables and holes (arm/friction_watch.hpp).
-struct FrictionReport {
+struct FrictionStatus {
   double mu = 0.0;                   // found while the arm moves; before that what was declared
   double sd = 0.0;                   // its standard deviation
   double planned_mu = 0.0;           // what the arm plans with
@@ -19,7 +19,7 @@ struct FrictionReport {
 };
 
 // What touches the arm (arm/contact_watch.hpp).
-struct ContactReport {
+struct ContactStatus {
   Vec3 force_N{};         // on the tip, base frame; 0 along axes that are not seen
   Vec3 sd_N{};            // its standard deviation along each axis
   std::uint8_t seen = 0;  // bit i: the force along axis i is known to better than kContactSeen_N
@@ -45,8 +45,8 @@ struct Report {
   CableVector tension_plan_N{};      // at the motor
   CableVector tension_measured_N{};  // from drive torque
   CableVector payout_command_m{};    // unstretched length
-  FrictionReport friction{};
-  ContactReport contact{};
+  FrictionStatus friction{};
+  ContactStatus contact{};
   double ik_position_error_m = 0.0;
   double ik_attitude_error_rad = 0.0;
   IkOutcome ik_outcome = IkOutcome::kConverged;

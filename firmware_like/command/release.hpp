@@ -1,5 +1,5 @@
 // The one class that makes telecommands. tests/structure/rooms.ini holds who may include it: the step around both
-// verdicts (host/control/verification/release_step.cpp), which makes a candidate for the twin and lets it out only when
+// verdicts (host/control/verification/issue_step.cpp), which makes a candidate for the twin and lets it out only when
 // both have passed; the reader of recordings (host/storage/recording), which gives back what was released then; and
 // tests.
 #pragma once

@@ -89,7 +89,7 @@ bool brake_channel(const FilterBounds& bounds, double tick_s, ChannelState& stat
 
 double lag_s(const FilterBounds& bounds) noexcept { return 1.0 / pull_1_s(bounds) - bounds.lead_s; }
 
-double least_lag_s(const FilterBounds& bounds) noexcept {
+double min_lag_s(const FilterBounds& bounds) noexcept {
   return 0.5 * bounds.speed / bounds.accel + 0.25 * bounds.accel / bounds.jerk;
 }
 
@@ -122,7 +122,7 @@ void filter_tip(const TipFilterConfig& config, const Pose& target, TipFilterStat
 
 void hold_back(const Leash& leash, const std::array<double, 6>& lead, double tick_s, TipFilterState& state) noexcept {
   const Vec3 move = taken_back(leash.free_m, leash.most_m, {lead[0], lead[1], lead[2]}, state.linear);
-  const Vec3 turn = taken_back(leash.free_rad, leash.most_rad, {lead[3], lead[4], lead[5]}, state.angular);
+  const Vec3 turn = taken_back(leash.free_rad, leash.max_rad, {lead[3], lead[4], lead[5]}, state.angular);
   state.pose.position_m = subtract(state.pose.position_m, scale(move, tick_s));
   if (dot(turn, turn) > 0.0)
     state.pose.quaternion = normalize(multiply(quaternion_of(scale(turn, -tick_s)), state.pose.quaternion));

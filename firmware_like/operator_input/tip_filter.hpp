@@ -8,7 +8,7 @@
 // the stage before asks. Below the limits it is a linear third-order filter without overshoot; its lag behind a target
 // at constant velocity is 1/k1 - lead (lag_s()): the inner stages follow a constant velocity without error. A target
 // that stops dead is not overshot as long as there is room to brake: lag >= v_max / (2 a_max) + a_max / (4 j_max)
-// (least_lag_s()).
+// (min_lag_s()).
 #pragma once
 
 #include <array>
@@ -69,7 +69,7 @@ bool brake_channel(const FilterBounds& bounds, double tick_s, ChannelState& stat
 double lag_s(const FilterBounds& bounds) noexcept;
 
 // The shortest lag [s] with which a target that stops dead is not overshot by more than 5 ms of the speed limit.
-double least_lag_s(const FilterBounds& bounds) noexcept;
+double min_lag_s(const FilterBounds& bounds) noexcept;
 
 // The same bounds with a lag of `lag_s`, and a speed limit that may be lowered to `speed` without changing it: pull and
 // lead are those of the bounds as they are. A lag of 0 is left to the speed limit in force, accel and nothing else.
@@ -81,7 +81,7 @@ void filter_tip(const TipFilterConfig& config, const Pose& target, TipFilterStat
 // How far the filter may lead an arm that does not come after it: freely up to `free`, and not beyond `most`.
 struct Leash {
   double free_m = 0.0, most_m = 0.0;
-  double free_rad = 0.0, most_rad = 0.0;
+  double free_rad = 0.0, max_rad = 0.0;
 };
 
 // Takes back, of the tick just made, what leads further away from an arm that is `lead` behind already (position [m],

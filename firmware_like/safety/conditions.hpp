@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "firmware_like/safety/link_watch.hpp"
+#include "firmware_like/safety/drive_link_monitor.hpp"
 
 namespace liana {
 

@@ -43,8 +43,8 @@ GateCheck judge_torque(const DriveLimits& limits, const DriveProposal& proposal,
                        std::int32_t position_counts, DriveCommand& judged) noexcept {
   const double rate = proposal.rate_counts_s, torque = proposal.torque_permille;
   if (is_not_finite(rate)) return GateCheck::kRateNotFinite;
-  if (is_outside(rate, -limits.most_rate_counts_s, limits.most_rate_counts_s)) return GateCheck::kRateOutOfRange;
-  if ((position_counts > limits.most_counts && rate > 0.0) || (position_counts < limits.least_counts && rate < 0.0)) {
+  if (is_outside(rate, -limits.max_rate_counts_s, limits.max_rate_counts_s)) return GateCheck::kRateOutOfRange;
+  if ((position_counts > limits.max_counts && rate > 0.0) || (position_counts < limits.min_counts && rate < 0.0)) {
     return GateCheck::kRateOutOfRange;
   }
   const double rate_step = rate - previous.rate_counts_s, torque_step = torque - previous.torque_permille;
@@ -63,14 +63,14 @@ GateCheck judge(const DriveLimits& limits, const DriveProposal& proposal, const 
   if (state != DriveState::kOperationEnabled) return GateCheck::kDriveNotEnabled;
   if (proposal.mode != limits.mode) return GateCheck::kModeNotAllowed;
   if (is_not_finite(proposal.target_counts)) return GateCheck::kTargetNotFinite;
-  if (is_outside(proposal.target_counts, limits.least_counts, limits.most_counts)) return GateCheck::kTargetOutOfRange;
+  if (is_outside(proposal.target_counts, limits.min_counts, limits.max_counts)) return GateCheck::kTargetOutOfRange;
   const Counts target = to_counts(proposal.target_counts);
   if (target.status != CountStatus::kExact) return GateCheck::kTargetOutOfRange;
   if (!is_step_allowed(limits, proposal.lets_go, previous.target_counts, target.value, position_counts)) {
     return GateCheck::kStepTooLarge;
   }
   if (is_not_finite(proposal.torque_permille)) return GateCheck::kTorqueNotFinite;
-  if (is_outside(proposal.torque_permille, limits.least_permille, limits.most_permille)) {
+  if (is_outside(proposal.torque_permille, limits.min_permille, limits.max_permille)) {
     return GateCheck::kTorqueOutOfRange;
   }
   judged.target_counts = target.value;

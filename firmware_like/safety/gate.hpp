@@ -30,13 +30,13 @@ enum class GateCheck : std::uint8_t {
 // What one drive may be told.
 struct DriveLimits {
   DriveMode mode = DriveMode::kCyclicPosition;
-  double least_counts = 0.0;
-  double most_counts = 0.0;
+  double min_counts = 0.0;
+  double max_counts = 0.0;
   std::int64_t step_counts = 0;  // largest target change in one tick
-  double least_permille = 0.0;
-  double most_permille = 0.0;
+  double min_permille = 0.0;
+  double max_permille = 0.0;
   // cst: largest rate, and largest changes of rate and torque in one tick.
-  double most_rate_counts_s = 0.0;
+  double max_rate_counts_s = 0.0;
   double rate_step_counts_s = 0.0;
   double torque_step_permille = 0.0;
   // How far a target may jump for a proposal that lets go, with the sign of the way that gives in; 0: never.

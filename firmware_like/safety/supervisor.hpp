@@ -7,7 +7,7 @@
 #include "firmware_like/command/telecommand.hpp"
 #include "firmware_like/drive/cia402.hpp"
 #include "firmware_like/safety/conditions.hpp"
-#include "firmware_like/safety/link_watch.hpp"
+#include "firmware_like/safety/drive_link_monitor.hpp"
 
 namespace liana {
 
@@ -31,7 +31,7 @@ enum class Phase : std::uint8_t {
 constexpr std::int32_t kPhaseCount = 11;
 
 // What a clear looked at; bits of Condition. Cleared when `missing` is 0.
-struct ClearReport {
+struct ClearResult {
   std::uint64_t tick = 0;     // 0 = nothing was ever asked
   std::uint32_t checked = 0;  // kClearable
   std::uint32_t missing = 0;
@@ -44,7 +44,7 @@ struct SupervisorState {
   std::uint32_t wrong_ticks = 0;  // in a row with something wrong and no retreat that moves, up to Patience::persist
   StopCategory stopped =
       StopCategory::kNone;  // highest category of the stop that led into Fault; kept until the faults are cleared
-  ClearReport clear{};
+  ClearResult clear{};
 };
 static_assert(std::is_trivially_copyable_v<SupervisorState>);
 

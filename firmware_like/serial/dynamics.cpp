@@ -16,7 +16,7 @@ Vec3 carried(const Vec3& rate, const Vec3& accel, const Vec3& arm_m) noexcept {
 
 }  // namespace
 
-Dynamics::Dynamics(const RobotTable& table, const MassTable& masses) noexcept : joints_(table.joints()) {
+Dynamics::Dynamics(const RobotParams& table, const MassTable& masses) noexcept : joints_(table.joints()) {
   for (Index i = 0; i < joints_; ++i) {
     const DhRow& row = table.joint[i].dh;
     const SinCos alpha = sin_cos(row.alpha_rad);

@@ -7,7 +7,7 @@
 #include "firmware_like/math/cholesky.hpp"
 #include "firmware_like/math/pose.hpp"
 #include "firmware_like/serial/mass_table.hpp"
-#include "firmware_like/serial/robot_table.hpp"
+#include "firmware_like/serial/robot_params.hpp"
 #include "firmware_like/serial/wrench.hpp"
 
 namespace liana::serial {
@@ -24,7 +24,7 @@ using MassMatrix = SquareMatrix<kMaxJoints>;
 class Dynamics {
  public:
   // Tables that passed the loader; the last link's mass has no payload in it.
-  Dynamics(const RobotTable& table, const MassTable& masses) noexcept;
+  Dynamics(const RobotParams& table, const MassTable& masses) noexcept;
 
   // A body fixed to the tip, in the tip's frame; replaces the one before. One without mass: none.
   void set_payload(const LinkMass& payload_at_tip) noexcept;

@@ -18,8 +18,8 @@ Vec3 damped(const Vec3& v, const Vec3& force, double mass, double damping, doubl
 
 }  // namespace
 
-Wrench drive_of(PushLaw law, const PushGains& gains, const LawInputs& in) noexcept {
-  if (law == PushLaw::kImpedance) {
+Wrench drive_of(InsertLaw law, const InsertGains& gains, const LawInputs& in) noexcept {
+  if (law == InsertLaw::kImpedance) {
     return {subtract(scale(in.away_m, gains[kStiffness]), in.given.force_N),
             subtract(scale(in.away_rad, gains[kTurnStiffness]), in.given.torque_Nm)};
   }
@@ -30,7 +30,7 @@ Wrench drive_of(PushLaw law, const PushGains& gains, const LawInputs& in) noexce
   return {scale(add(axial_N, lateral_N), gains[kForceGain]), scale(turning_Nm, gains[kForceGain])};
 }
 
-Twist law_step(PushLaw law, const PushGains& gains, const LawInputs& in, const Twist& velocity) noexcept {
+Twist law_step(InsertLaw law, const InsertGains& gains, const LawInputs& in, const Twist& velocity) noexcept {
   const Wrench drive = drive_of(law, gains, in);
   const Vec3 axial_m_s = along(in.axis, velocity.linear_m_s), axial_N = along(in.axis, drive.force_N);
   const Vec3 lateral_m_s = subtract(velocity.linear_m_s, axial_m_s), lateral_N = subtract(drive.force_N, axial_N);

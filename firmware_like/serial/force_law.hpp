@@ -11,11 +11,11 @@
 #include <cstdint>
 
 #include "firmware_like/serial/kinematics.hpp"
-#include "firmware_like/serial/torque_table.hpp"
+#include "firmware_like/serial/torque_params.hpp"
 
 namespace liana::serial {
 
-enum class PushLaw : std::uint8_t { kForce = 0, kImpedance = 1 };
+enum class InsertLaw : std::uint8_t { kForce = 0, kImpedance = 1 };
 
 // Across the axis less than this is nothing to move for.
 constexpr double kLateralDeadBand_N = 1.0;
@@ -34,9 +34,9 @@ struct LawInputs {
 
 // What moves the tip: right-hand side of the law without damping. Dead bands are applied across the axis and in turning
 // by the force law only: there nothing else would keep a sensor's noise from moving the arm.
-Wrench drive_of(PushLaw law, const PushGains& gains, const LawInputs& in) noexcept;
+Wrench drive_of(InsertLaw law, const InsertGains& gains, const LawInputs& in) noexcept;
 
 // Velocity after a tick.
-Twist law_step(PushLaw law, const PushGains& gains, const LawInputs& in, const Twist& velocity) noexcept;
+Twist law_step(InsertLaw law, const InsertGains& gains, const LawInputs& in, const Twist& velocity) noexcept;
 
 }  // namespace liana::serial

@@ -11,9 +11,9 @@ namespace {
 using Index = std::size_t;
 
 // The slide is over: its mean is believed when it lasted long enough.
-void end_slide(const RobotTable& table, JointFriction& joint) noexcept {
+void end_slide(const RobotParams& table, JointFriction& joint) noexcept {
   const double counted = joint.ticks - kBeginsToSlide_s / table.tick_s;
-  if (counted * table.tick_s >= kLeastSlide_s)
+  if (counted * table.tick_s >= kMinSlide_s)
     joint.coulomb_Nm = clamp(joint.sum_Nm / counted, 0.0, kFrictionShare * table.torque.coulomb_Nm);
   joint.sum_Nm = 0.0;
   joint.ticks = 0;
@@ -21,13 +21,13 @@ void end_slide(const RobotTable& table, JointFriction& joint) noexcept {
 
 }  // namespace
 
-FrictionFound declared_friction(const RobotTable& table) noexcept {
+FrictionFound declared_friction(const RobotParams& table) noexcept {
   FrictionFound found{};
   for (Index i = 0; i < table.joints(); ++i) found[i].coulomb_Nm = table.torque.coulomb_Nm;
   return found;
 }
 
-void find_friction(const RobotTable& table, const JointVector& rate_rad_s, const JointVector& moving_Nm,
+void find_friction(const RobotParams& table, const JointVector& rate_rad_s, const JointVector& moving_Nm,
                    const JointVector& measured_Nm, FrictionFound& found) noexcept {
   for (Index i = 0; i < table.joints(); ++i) {
     JointFriction& joint = found[i];
@@ -44,7 +44,7 @@ void find_friction(const RobotTable& table, const JointVector& rate_rad_s, const
   }
 }
 
-JointVector friction_Nm(const RobotTable& table, const FrictionFound& found, const JointVector& rate_rad_s) noexcept {
+JointVector friction_Nm(const RobotParams& table, const FrictionFound& found, const JointVector& rate_rad_s) noexcept {
   JointVector torque{};
   for (Index i = 0; i < table.joints(); ++i) {
     const double rate = rate_rad_s[i];

@@ -6,13 +6,13 @@
 #include <array>
 #include <cstdint>
 
-#include "firmware_like/serial/robot_table.hpp"
+#include "firmware_like/serial/robot_params.hpp"
 
 namespace liana::serial {
 
 constexpr double kSlides_rad_s = 5e-4;          // from this planned rate on a joint slides for sure
 constexpr double kBeginsToSlide_s = 1.0;        // that its drive's integral needs to take over
-constexpr double kLeastSlide_s = 10.0;          // of which the mean counts: swings of a soft base are not friction
+constexpr double kMinSlide_s = 10.0;            // of which the mean counts: swings of a soft base are not friction
 constexpr double kFrictionShare = 3.0;          // of the declared friction, the most that is believed
 constexpr double kFrictionSmooth_rad_s = 3e-5;  // friction turns round over about this rate, without a step
 
@@ -27,14 +27,14 @@ struct JointFriction {
 using FrictionFound = std::array<JointFriction, kMaxJoints>;
 
 // As the table declares it.
-FrictionFound declared_friction(const RobotTable& table) noexcept;
+FrictionFound declared_friction(const RobotParams& table) noexcept;
 
 // Takes in what the gears of sliding joints give beyond `moving_Nm`, which moving the links takes. Once a tick of
 // planned motion.
-void find_friction(const RobotTable& table, const JointVector& rate_rad_s, const JointVector& moving_Nm,
+void find_friction(const RobotParams& table, const JointVector& rate_rad_s, const JointVector& moving_Nm,
                    const JointVector& measured_Nm, FrictionFound& found) noexcept;
 
 // What friction takes of joints at these rates [N.m].
-JointVector friction_Nm(const RobotTable& table, const FrictionFound& found, const JointVector& rate_rad_s) noexcept;
+JointVector friction_Nm(const RobotParams& table, const FrictionFound& found, const JointVector& rate_rad_s) noexcept;
 
 }  // namespace liana::serial

@@ -28,7 +28,7 @@ Pose behind_joint(const DhRow& row, double joint_rad, const Pose& before) noexce
 
 }  // namespace
 
-ArmKinematics forward_kinematics(const RobotTable& table, const JointVector& joint_rad) noexcept {
+ArmKinematics forward_kinematics(const RobotParams& table, const JointVector& joint_rad) noexcept {
   ArmKinematics arm;
   Jacobian& J = arm.tip_jacobian;
   Pose frame;
@@ -43,7 +43,7 @@ ArmKinematics forward_kinematics(const RobotTable& table, const JointVector& joi
   return arm;
 }
 
-Twist tip_twist(const RobotTable& table, const Jacobian& jacobian, const JointVector& rate_rad_s) noexcept {
+Twist tip_twist(const RobotParams& table, const Jacobian& jacobian, const JointVector& rate_rad_s) noexcept {
   Twist twist;
   for (Index i = 0; i < table.joints(); ++i) {
     twist.linear_m_s = add(twist.linear_m_s, scale(jacobian.linear[i], rate_rad_s[i]));
@@ -52,7 +52,7 @@ Twist tip_twist(const RobotTable& table, const Jacobian& jacobian, const JointVe
   return twist;
 }
 
-JointVector torque_of_wrench(const RobotTable& table, const Jacobian& jacobian, const Wrench& wrench) noexcept {
+JointVector torque_of_wrench(const RobotParams& table, const Jacobian& jacobian, const Wrench& wrench) noexcept {
   JointVector torque_Nm{};
   for (std::size_t i = 0; i < table.joints(); ++i) {
     torque_Nm[i] = dot(jacobian.linear[i], wrench.force_N) + dot(jacobian.angular[i], wrench.torque_Nm);
@@ -60,7 +60,7 @@ JointVector torque_of_wrench(const RobotTable& table, const Jacobian& jacobian, 
   return torque_Nm;
 }
 
-double chain_length_m(const RobotTable& table) noexcept {
+double chain_length_m(const RobotParams& table) noexcept {
   double length_m = 0.0;
   for (Index i = 0; i < table.joints(); ++i) {
     const DhRow& row = table.joint[i].dh;

@@ -12,7 +12,7 @@ namespace {
 using Index = std::size_t;
 
 // The rate of one joint that ranges, rates and accelerations let pass; says what acted.
-double bounded_rate(const JointTable& joint, double tick_s, double wanted_rad_s, double now_rad, double now_rad_s,
+double bounded_rate(const JointParams& joint, double tick_s, double wanted_rad_s, double now_rad, double now_rad_s,
                     std::uint32_t& limits) noexcept {
   const double change = joint.accel_rad_s2 * tick_s;
   const double rate = clamp(wanted_rad_s, -joint.rate_rad_s, joint.rate_rad_s);
@@ -26,7 +26,7 @@ double bounded_rate(const JointTable& joint, double tick_s, double wanted_rad_s,
 }
 
 // Rate at which joint `i` goes after its reference.
-double wanted_joint_rate(const RobotTable& table, const JointVector& reference_rad, Index i,
+double wanted_joint_rate(const RobotParams& table, const JointVector& reference_rad, Index i,
                          const LimiterState& state) noexcept {
   const double h = table.tick_s;
   return wanted_rate(state.reference_rad[i] - state.joint_rad[i], (reference_rad[i] - state.reference_rad[i]) / h,
@@ -34,7 +34,7 @@ double wanted_joint_rate(const RobotTable& table, const JointVector& reference_r
 }
 
 // Factor <= 1 that brings every joint under `share` of its rate limit.
-double rate_factor(const RobotTable& table, const JointVector& reference_rad, double share,
+double rate_factor(const RobotParams& table, const JointVector& reference_rad, double share,
                    const LimiterState& state) noexcept {
   double factor = 1.0;
   for (Index i = 0; i < table.joints(); ++i) {
@@ -53,11 +53,11 @@ void reset_limiter(const JointVector& joint_rad, LimiterState& state) noexcept {
   state.reference_rad = joint_rad;
 }
 
-StepShare allowed_share(const RobotTable& table, const JointVector& step_rad, const LimiterState& state) noexcept {
+StepShare allowed_share(const RobotParams& table, const JointVector& step_rad, const LimiterState& state) noexcept {
   constexpr double kPathShare = 0.95;             // of rates; the rest is for making up a lag
   double by_rate = 1.0, most = 1.0, least = 0.0;  // acceleration: least <= share <= most
   for (Index i = 0; i < table.joints(); ++i) {
-    const JointTable& joint = table.joint[i];
+    const JointParams& joint = table.joint[i];
     const double change = joint.accel_rad_s2 * table.tick_s;
     const double rate = step_rad[i] / table.tick_s, size = std::fabs(rate);
     const double now = rate < 0.0 ? -state.rate_rad_s[i] : state.rate_rad_s[i];
@@ -73,13 +73,13 @@ StepShare allowed_share(const RobotTable& table, const JointVector& step_rad, co
   return out;
 }
 
-void limit_motion(const RobotTable& table, const JointVector& reference_rad, LimiterState& state,
+void limit_motion(const RobotParams& table, const JointVector& reference_rad, LimiterState& state,
                   double rate_share) noexcept {
   const double h = table.tick_s;
   const double factor = rate_share < 1.0 ? rate_factor(table, reference_rad, rate_share, state) : 1.0;
   state.limits = factor < 1.0 ? std::uint32_t{kLimitThetaRate} : std::uint32_t{0};
   for (Index i = 0; i < table.joints(); ++i) {
-    const JointTable& joint = table.joint[i];
+    const JointParams& joint = table.joint[i];
     const double gap_rad = state.reference_rad[i] - state.joint_rad[i];
     const double wanted = factor * wanted_joint_rate(table, reference_rad, i, state);
     const double rate = bounded_rate(joint, h, wanted, state.joint_rad[i], state.rate_rad_s[i], state.limits);
@@ -94,7 +94,7 @@ void limit_motion(const RobotTable& table, const JointVector& reference_rad, Lim
   }
 }
 
-JointVector braked_joints(const RobotTable& table, const LimiterState& state) noexcept {
+JointVector braked_joints(const RobotParams& table, const LimiterState& state) noexcept {
   double part = 1.0;  // of its rate that every joint loses
   for (Index i = 0; i < table.joints(); ++i) {
     const double size = std::fabs(state.rate_rad_s[i]), change = table.joint[i].accel_rad_s2 * table.tick_s;
@@ -107,7 +107,7 @@ JointVector braked_joints(const RobotTable& table, const LimiterState& state) no
   return next;
 }
 
-double largest_rate(const RobotTable& table, const LimiterState& state) noexcept {
+double largest_rate(const RobotParams& table, const LimiterState& state) noexcept {
   double largest = 0.0;
   for (Index i = 0; i < table.joints(); ++i) largest = larger(largest, std::fabs(state.rate_rad_s[i]));
   return largest;

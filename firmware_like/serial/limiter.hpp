@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "firmware_like/serial/robot_table.hpp"
+#include "firmware_like/serial/robot_params.hpp"
 
 namespace liana::serial {
 
@@ -25,19 +25,19 @@ struct StepShare {
   double share = 1.0;
   std::uint32_t limits = 0;
 };
-StepShare allowed_share(const RobotTable& table, const JointVector& step_rad, const LimiterState& state) noexcept;
+StepShare allowed_share(const RobotParams& table, const JointVector& step_rad, const LimiterState& state) noexcept;
 
 // One tick towards a reference (which may move). Follows exactly while its rate and acceleration are inside the limits;
 // otherwise it lags and comes back along a braking parabola; it never leaves a joint's range. Below 1, `rate_share` of
 // its rate limit is all that the joint gets that is nearest to it; the others slow down in proportion.
-void limit_motion(const RobotTable& table, const JointVector& reference_rad, LimiterState& state,
+void limit_motion(const RobotParams& table, const JointVector& reference_rad, LimiterState& state,
                   double rate_share = 1.0) noexcept;
 
 // The joints of the next tick when all brake in proportion: as hard as the one that needs longest may. They come to
 // rest together, so the arm stays on its path; joints that stop one by one would let the tip swing aside.
-JointVector braked_joints(const RobotTable& table, const LimiterState& state) noexcept;
+JointVector braked_joints(const RobotParams& table, const LimiterState& state) noexcept;
 
 // Largest |rate| of the command [rad/s].
-double largest_rate(const RobotTable& table, const LimiterState& state) noexcept;
+double largest_rate(const RobotParams& table, const LimiterState& state) noexcept;
 
 }  // namespace liana::serial

@@ -29,12 +29,12 @@ bool is_inertia(const std::array<double, kInertiaElements>& I) noexcept {
 }  // namespace
 
 bool is_body(const LinkMass& body) noexcept {
-  if (!(body.mass_kg >= 0.0 && body.mass_kg <= kMostMass_kg)) return false;
+  if (!(body.mass_kg >= 0.0 && body.mass_kg <= kMaxMass_kg)) return false;
   for (const double center : body.center_m) {
-    if (!is_at_most(center, kMostCenter_m)) return false;
+    if (!is_at_most(center, kMaxCenter_m)) return false;
   }
   for (const double inertia : body.inertia_kgm2) {
-    if (!is_at_most(inertia, kMostInertia_kgm2)) return false;
+    if (!is_at_most(inertia, kMaxInertia_kgm2)) return false;
   }
   return body.mass_kg == 0.0 || is_inertia(body.inertia_kgm2);
 }

@@ -27,9 +27,9 @@ struct MassTable {
 
 static_assert(std::is_trivially_copyable_v<MassTable>);
 
-constexpr double kMostMass_kg = 1e5;
-constexpr double kMostCenter_m = 20.0;
-constexpr double kMostInertia_kgm2 = 1e6;
+constexpr double kMaxMass_kg = 1e5;
+constexpr double kMaxCenter_m = 20.0;
+constexpr double kMaxInertia_kgm2 = 1e6;
 
 // True for what a body can be: finite, within these bounds, an inertia that is positive definite and of which no moment
 // is larger than the other two together; without mass, anything finite.

@@ -24,21 +24,21 @@ struct MotionState {
   JointVector ik_rad{};  // what the limiter is asked for
   LimiterState limiter{};
   ArmKinematics arm{};  // at the commanded joints
-  IkReport ik{};
+  IkResult ik{};
   std::uint32_t limits = 0;  // LimitBit of this tick
 };
 
 // Stands still at the joint angles.
-void reset_motion(const RobotTable& table, const JointVector& joint_rad, MotionState& state) noexcept;
+void reset_motion(const RobotParams& table, const JointVector& joint_rad, MotionState& state) noexcept;
 
 // Takes a usable setpoint into force (kTip, kJoint or kRetreat); the motion goes on from where it is.
-void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionState& state) noexcept;
+void accept_setpoint(const RobotParams& table, const Setpoint& setpoint, MotionState& state) noexcept;
 
 // One tick. With `allowed` false or braking, everything comes to rest along its path. The arm turns about the line that
 // the tip leaves free only while the tip moves: a tip that rests means an arm that rests.
-void advance_motion(const RobotTable& table, bool allowed, MotionState& state) noexcept;
+void advance_motion(const RobotParams& table, bool allowed, MotionState& state) noexcept;
 
 // True when nothing moves any more.
-bool at_rest(const RobotTable& table, const MotionState& state) noexcept;
+bool at_rest(const RobotParams& table, const MotionState& state) noexcept;
 
 }  // namespace liana::serial

@@ -19,28 +19,28 @@ struct Now {
   Wrench given;  // by the arm, base frame
 };
 
-bool is_pushing(PushPhase phase) noexcept { return phase != PushPhase::kNone && phase != PushPhase::kYielding; }
+bool is_pushing(InsertPhase phase) noexcept { return phase != InsertPhase::kNone && phase != InsertPhase::kYielding; }
 
-void enter(PushPhase phase, PushState& state) noexcept {
+void enter(InsertPhase phase, InsertState& state) noexcept {
   state.phase = phase;
   state.phase_ticks = 0;
 }
 
-void end(PushEnd why, PushState& state) noexcept {
+void end(InsertResult why, InsertState& state) noexcept {
   state.end = why;
-  enter(PushPhase::kYielding, state);
+  enter(InsertPhase::kYielding, state);
 }
 
-void begin(const RobotTable& table, const PushInputs& in, PushState& state) noexcept {
+void begin(const RobotParams& table, const InsertInputs& in, InsertState& state) noexcept {
   const Push order = state.order;
-  state = PushState{};
+  state = InsertState{};
   state.order = order;
   state.start = forward_kinematics(table, in.measured_rad).tip_in_base;
   state.adapter_spoke = is_heard(in.adapter) ? 1 : 0;
-  enter(order.tares != 0 ? PushPhase::kTaring : PushPhase::kRelieving, state);
+  enter(order.tares != 0 ? InsertPhase::kTaring : InsertPhase::kRelieving, state);
 }
 
-Now look(const RobotTable& table, const PushInputs& in, const WristState& wrist, PushState& state) noexcept {
+Now look(const RobotParams& table, const InsertInputs& in, const WristState& wrist, InsertState& state) noexcept {
   Now now{forward_kinematics(table, in.measured_rad), {}, {}};
   const Quat& attitude = now.arm.tip_in_base.quaternion;
   now.axis = rotate(attitude, state.order.axis_in_tip);
@@ -53,7 +53,7 @@ Now look(const RobotTable& table, const PushInputs& in, const WristState& wrist,
 }
 
 // The first joint that gives more than it may, or the tip; counted, since impacts are short.
-bool is_overloaded(const RobotTable& table, const PushInputs& in, PushState& state) noexcept {
+bool is_overloaded(const RobotParams& table, const InsertInputs& in, InsertState& state) noexcept {
   const double force_N = norm(state.given.force_N);
   std::int16_t joint = -1;
   bool over = force_N > table.torque.most_force_N;
@@ -73,49 +73,50 @@ bool is_overloaded(const RobotTable& table, const PushInputs& in, PushState& sta
   return false;
 }
 
-PushEnd end_of(const RobotTable& table, const PushInputs& in, const WristState& wrist, const Now& now,
-               PushState& state) noexcept {
-  if (!in.allowed) return PushEnd::kStopped;
+InsertResult end_of(const RobotParams& table, const InsertInputs& in, const WristState& wrist, const Now& now,
+                    InsertState& state) noexcept {
+  if (!in.allowed) return InsertResult::kStopped;
   state.lost = health(wrist);
-  if (state.lost != WristHealth::kGood) return PushEnd::kSensorLost;
-  if (state.phase == PushPhase::kTaring) return PushEnd::kNot;
-  if (is_overloaded(table, in, state)) return PushEnd::kOverload;
-  if (std::fabs(state.travel_m) > state.order.travel_m) return PushEnd::kTravel;
+  if (state.lost != WristHealth::kGood) return InsertResult::kSensorLost;
+  if (state.phase == InsertPhase::kTaring) return InsertResult::kNot;
+  if (is_overloaded(table, in, state)) return InsertResult::kOverload;
+  if (std::fabs(state.travel_m) > state.order.travel_m) return InsertResult::kTravel;
   const Quat turn = multiply(now.arm.tip_in_base.quaternion, conjugate(state.start.quaternion));
-  if (state.aside_m > state.order.aside_m || norm(rotation_vector(turn)) > state.order.turn_rad) return PushEnd::kAside;
-  if (state.phase == PushPhase::kUnloading) return PushEnd::kNot;
-  if (state.adapter_spoke != 0 && !is_heard(in.adapter)) return PushEnd::kAdapterSilent;
-  if (says_captured(in.adapter) && !has_touched(state)) return PushEnd::kEarlyCapture;
-  return PushEnd::kNot;
+  if (state.aside_m > state.order.aside_m || norm(rotation_vector(turn)) > state.order.turn_rad)
+    return InsertResult::kAside;
+  if (state.phase == InsertPhase::kUnloading) return InsertResult::kNot;
+  if (state.adapter_spoke != 0 && !is_heard(in.adapter)) return InsertResult::kAdapterSilent;
+  if (says_captured(in.adapter) && !has_touched(state)) return InsertResult::kEarlyCapture;
+  return InsertResult::kNot;
 }
 
 // The mean over kTareTicks; what is no bias makes no tare.
-void tare(WristState& wrist, PushState& state) noexcept {
+void tare(WristState& wrist, InsertState& state) noexcept {
   state.tare_sum = sum_of(state.tare_sum, wrist.felt);
   if (state.phase_ticks < kTareTicks) return;
   const Wrench mean = scaled(state.tare_sum, 1.0 / kTareTicks);
-  if (norm(mean.force_N) > kMostTare_N || norm(mean.torque_Nm) > kMostTare_Nm) {
+  if (norm(mean.force_N) > kMaxTare_N || norm(mean.torque_Nm) > kMaxTare_Nm) {
     state.lost = WristHealth::kNotAtRest;
-    return end(PushEnd::kSensorLost, state);
+    return end(InsertResult::kSensorLost, state);
   }
   wrist.tare = mean;
-  enter(PushPhase::kRelieving, state);
+  enter(InsertPhase::kRelieving, state);
 }
 
-void relieve(PushState& state) noexcept {
+void relieve(InsertState& state) noexcept {
   const Vec3& axis = state.order.axis_in_tip;
   const Vec3 lateral_N = subtract(state.given.force_N, scale(axis, dot(axis, state.given.force_N)));
   const bool relieved = norm(lateral_N) < kRelieved_N && norm(state.given.torque_Nm) < kRelieved_Nm;
   state.relieved_ticks = relieved ? state.relieved_ticks + 1 : 0;
-  if (state.relieved_ticks >= kRelievedTicks || state.phase_ticks >= kMostRelievingTicks) {
-    enter(PushPhase::kPressing, state);
+  if (state.relieved_ticks >= kRelievedTicks || state.phase_ticks >= kMaxRelievingTicks) {
+    enter(InsertPhase::kPressing, state);
   }
 }
 
 // All of the force is for what resists, and for pins that are in. A pin that slips off an edge is free again: with all
 // of the force it would meet the next wall twice as fast. And what a heavy payload on a base that swings lets the
 // sensor feel is contact for none.
-void feel(const Push& order, PushState& state) noexcept {
+void feel(const Push& order, InsertState& state) noexcept {
   const double felt_N = dot(order.axis_in_tip, state.given.force_N);
   const bool feels_contact = felt_N > kContactShare * order.force_N;
   if (!has_touched(state)) state.touch_ticks = feels_contact ? narrow<std::uint16_t>(state.touch_ticks + 1) : 0;
@@ -126,7 +127,7 @@ void feel(const Push& order, PushState& state) noexcept {
   }
 }
 
-void press(const RobotTable& table, const PushInputs& in, PushState& state) noexcept {
+void press(const RobotParams& table, const InsertInputs& in, InsertState& state) noexcept {
   const Push& order = state.order;
   feel(order, state);
   const bool takes_all = state.resist_ticks >= kResistTicks || pins_are_in(in.adapter);
@@ -134,15 +135,15 @@ void press(const RobotTable& table, const PushInputs& in, PushState& state) noex
   const double pull_m = order.depth_m + order.force_N / order.gains[kStiffness];
   state.approach_m = smaller(pull_m, state.approach_m + order.gains[kApproachSpeed] * table.tick_s);
   if (!says_captured(in.adapter)) return;
-  state.end = PushEnd::kCaptured;
+  state.end = InsertResult::kCaptured;
   state.set_N = 0.0;
-  enter(PushPhase::kUnloading, state);
+  enter(InsertPhase::kUnloading, state);
 }
 
 // Impedance pulls to a point on the axis and to the attitude that the push began with; from capture on both laws are
 // one, without anything that is set.
-Twist velocity_of(const RobotTable& table, const Now& now, const PushState& state) noexcept {
-  const bool unloads = state.phase == PushPhase::kUnloading;
+Twist velocity_of(const RobotParams& table, const Now& now, const InsertState& state) noexcept {
+  const bool unloads = state.phase == InsertPhase::kUnloading;
   const Push& order = state.order;
   LawInputs law{table.tick_s, now.axis, {scale(now.axis, state.set_N), {}}, now.given, {}, {}, 0.0};
   law.axial_damping = order.gains[unloads ? kUnloadDamping : kAxialDamping];
@@ -151,18 +152,18 @@ Twist velocity_of(const RobotTable& table, const Now& now, const PushState& stat
       add(state.start.position_m, scale(rotate(state.start.quaternion, order.axis_in_tip), state.approach_m));
   law.away_m = subtract(pull, tip.position_m);
   law.away_rad = rotation_vector(multiply(state.start.quaternion, conjugate(tip.quaternion)));
-  return law_step(unloads ? PushLaw::kForce : order.law, order.gains, law, state.velocity);
+  return law_step(unloads ? InsertLaw::kForce : order.law, order.gains, law, state.velocity);
 }
 
 // Rates that all joints can have, in the proportion that the tip needs; none goes past the end of its range.
-JointVector bounded_rates(const RobotTable& table, const JointVector& measured_rad, JointVector rate) noexcept {
+JointVector bounded_rates(const RobotParams& table, const JointVector& measured_rad, JointVector rate) noexcept {
   double share = 1.0;
   for (Index i = 0; i < table.joints(); ++i) {
     const double size = std::fabs(rate[i]);
     if (size > table.joint[i].rate_rad_s) share = smaller(share, table.joint[i].rate_rad_s / size);
   }
   for (Index i = 0; i < table.joints(); ++i) {
-    const JointTable& joint = table.joint[i];
+    const JointParams& joint = table.joint[i];
     rate[i] *= share;
     const double room = rate[i] < 0.0 ? measured_rad[i] - joint.low_rad : joint.high_rad - measured_rad[i];
     rate[i] = rate_before_limit(rate[i], room, joint.accel_rad_s2, table.tick_s);
@@ -171,7 +172,7 @@ JointVector bounded_rates(const RobotTable& table, const JointVector& measured_r
 }
 
 // A gear that gives more than kFollowFrom_Nm is let go its way, against what it gives.
-ForceMotion yield(const RobotTable& table, const PushInputs& in) noexcept {
+ForceMotion yield(const RobotParams& table, const InsertInputs& in) noexcept {
   ForceMotion motion;
   motion.holds_place = true;
   for (Index i = 0; i < table.joints(); ++i) {
@@ -186,37 +187,38 @@ ForceMotion yield(const RobotTable& table, const PushInputs& in) noexcept {
 
 }  // namespace
 
-void accept_force(const Setpoint& setpoint, PushState& state) noexcept {
+void accept_force(const Setpoint& setpoint, InsertState& state) noexcept {
   if (setpoint.kind == CommandKind::kFollow) {
-    if (state.phase != PushPhase::kYielding) end(PushEnd::kStopped, state);
+    if (state.phase != InsertPhase::kYielding) end(InsertResult::kStopped, state);
     return;
   }
-  const bool goes_on = state.phase != PushPhase::kNone && state.order.number == setpoint.push.number;
+  const bool goes_on = state.phase != InsertPhase::kNone && state.order.number == setpoint.push.number;
   if (goes_on) return;
-  state = PushState{};
+  state = InsertState{};
   state.order = setpoint.push;
-  enter(PushPhase::kTaring, state);
+  enter(InsertPhase::kTaring, state);
 }
 
-ForceMotion advance_force(const RobotTable& table, const PushInputs& in, WristState& wrist, PushState& state) noexcept {
-  if (is_pushing(state.phase) && state.phase_ticks == 0 && state.phase == PushPhase::kTaring) begin(table, in, state);
+ForceMotion advance_force(const RobotParams& table, const InsertInputs& in, WristState& wrist,
+                          InsertState& state) noexcept {
+  if (is_pushing(state.phase) && state.phase_ticks == 0 && state.phase == InsertPhase::kTaring) begin(table, in, state);
   state.phase_ticks = narrow<std::uint32_t>(std::uint64_t{state.phase_ticks} + 1U);
   const Now now = look(table, in, wrist, state);
   if (is_pushing(state.phase)) {
-    const PushEnd why = end_of(table, in, wrist, now, state);
-    if (why != PushEnd::kNot) end(why, state);
+    const InsertResult why = end_of(table, in, wrist, now, state);
+    if (why != InsertResult::kNot) end(why, state);
   }
   state.set_N = 0.0;
-  if (state.phase == PushPhase::kTaring) tare(wrist, state);
-  if (state.phase == PushPhase::kRelieving) relieve(state);
-  if (state.phase == PushPhase::kPressing) press(table, in, state);
-  if (state.phase == PushPhase::kYielding) return yield(table, in);
-  if (state.phase == PushPhase::kTaring) return {{}, {}, true};
+  if (state.phase == InsertPhase::kTaring) tare(wrist, state);
+  if (state.phase == InsertPhase::kRelieving) relieve(state);
+  if (state.phase == InsertPhase::kPressing) press(table, in, state);
+  if (state.phase == InsertPhase::kYielding) return yield(table, in);
+  if (state.phase == InsertPhase::kTaring) return {{}, {}, true};
   state.velocity = velocity_of(table, now, state);
   const JointVector rate = rates_of_twist(table, now.arm.tip_jacobian, state.velocity);
   const double share = smaller(1.0, table.tick_s / kForwardFilter_s);
   state.forward = sum_of(scaled(state.forward, 1.0 - share), scaled(now.given, share));
-  if (state.phase == PushPhase::kUnloading) state.forward = {};
+  if (state.phase == InsertPhase::kUnloading) state.forward = {};
   return {bounded_rates(table, in.measured_rad, rate), torque_of_wrench(table, now.arm.tip_jacobian, state.forward),
           false};
 }

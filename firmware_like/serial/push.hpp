@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "firmware_like/serial/adapter_watch.hpp"
+#include "firmware_like/serial/adapter_monitor.hpp"
 #include "firmware_like/serial/force_law.hpp"
 #include "firmware_like/serial/setpoint.hpp"
 #include "firmware_like/serial/wrist.hpp"
@@ -13,10 +13,10 @@
 namespace liana::serial {
 
 constexpr std::uint32_t kTareTicks = 25;  // what the sensor says over so long is taken for nothing
-constexpr double kMostTare_N = 15.0;      // more is no bias: something pushes already
-constexpr double kMostTare_Nm = 10.0;
-constexpr std::uint32_t kRelievedTicks = 25;        // the five other axes are free of load for so long ...
-constexpr std::uint32_t kMostRelievingTicks = 500;  // ... or have had their time, before anything is pushed
+constexpr double kMaxTare_N = 15.0;       // more is no bias: something pushes already
+constexpr double kMaxTare_Nm = 10.0;
+constexpr std::uint32_t kRelievedTicks = 25;       // the five other axes are free of load for so long ...
+constexpr std::uint32_t kMaxRelievingTicks = 500;  // ... or have had their time, before anything is pushed
 constexpr double kRelieved_N = 2.0;
 constexpr double kRelieved_Nm = 1.0;
 constexpr double kContactShare = 0.1;       // of the set force, along the axis: the payload has met the adapter ...
@@ -29,7 +29,7 @@ constexpr double kForwardFilter_s = 0.3;         // of F_e in the feed-forward
 constexpr double kFollowFrom_Nm = 20.0;          // a joint gives way above this torque (requirement B29)
 constexpr double kFollow_Nm_per_rad_s = 2000.0;  // by one rad/s for so much more
 
-enum class PushPhase : std::uint8_t {
+enum class InsertPhase : std::uint8_t {
   kNone = 0,       // no push, and nobody gives way
   kTaring = 1,     // stands still
   kRelieving = 2,  // no set force: the five other axes lose what they carry first (requirement B30)
@@ -39,7 +39,7 @@ enum class PushPhase : std::uint8_t {
 };
 
 // Why a push is not pressing any more; the numbers never change meaning.
-enum class PushEnd : std::uint8_t {
+enum class InsertResult : std::uint8_t {
   kNot = 0,
   kCaptured = 1,
   kSensorLost = 2,     // with the fault wrist_sensor_lost
@@ -51,10 +51,10 @@ enum class PushEnd : std::uint8_t {
   kStopped = 8,        // a hold, a stop, an end of commands, or a fault of anything else
 };
 
-struct PushState {
+struct InsertState {
   Push order{};
-  PushPhase phase = PushPhase::kNone;
-  PushEnd end = PushEnd::kNot;
+  InsertPhase phase = InsertPhase::kNone;
+  InsertResult end = InsertResult::kNot;
   std::uint32_t phase_ticks = 0;
   std::uint32_t relieved_ticks = 0;
   Pose start{};      // of the tip, measured, when it began
@@ -75,7 +75,7 @@ struct PushState {
   double travel_m = 0.0;  // along the axis, from the start
   double aside_m = 0.0;
 };
-static_assert(std::is_trivially_copyable_v<PushState>);
+static_assert(std::is_trivially_copyable_v<InsertState>);
 
 // What the joints should do in a tick.
 struct ForceMotion {
@@ -84,7 +84,7 @@ struct ForceMotion {
   bool holds_place = false;  // besides, each is drawn to its target
 };
 
-struct PushInputs {
+struct InsertInputs {
   const JointVector& measured_rad;
   const JointVector& torque_Nm;   // of the joint sensors: what the gears give to the links
   const JointVector& rate_rad_s;  // told in the last tick
@@ -93,13 +93,14 @@ struct PushInputs {
 };
 
 // The payload has met the adapter.
-inline bool has_touched(const PushState& state) noexcept { return state.touch_ticks >= kTouchTicks; }
+inline bool has_touched(const InsertState& state) noexcept { return state.touch_ticks >= kTouchTicks; }
 
 // Takes a usable setpoint of kind kPush or kFollow into force; one with the number of the push under way goes on with
 // it.
-void accept_force(const Setpoint& setpoint, PushState& state) noexcept;
+void accept_force(const Setpoint& setpoint, InsertState& state) noexcept;
 
 // One tick. The sensor's tare is taken here, too.
-ForceMotion advance_force(const RobotTable& table, const PushInputs& in, WristState& wrist, PushState& state) noexcept;
+ForceMotion advance_force(const RobotParams& table, const InsertInputs& in, WristState& wrist,
+                          InsertState& state) noexcept;
 
 }  // namespace liana::serial

@@ -2,8 +2,8 @@
 
 namespace liana::serial {
 
-PushReport push_report(const PushState& push, const WristState& wrist, const AdapterState& adapter) noexcept {
-  PushReport out;
+InsertStatus push_report(const InsertState& push, const WristState& wrist, const AdapterState& adapter) noexcept {
+  InsertStatus out;
   out.number = push.order.number;
   out.phase = push.phase;
   out.end = push.end;

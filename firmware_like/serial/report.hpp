@@ -7,16 +7,16 @@
 #include "firmware_like/math/ik_outcome.hpp"
 #include "firmware_like/math/pose.hpp"
 #include "firmware_like/serial/push.hpp"
-#include "firmware_like/serial/robot_table.hpp"
+#include "firmware_like/serial/robot_params.hpp"
 
 namespace liana::serial {
 
 // How a push goes, and what sensors say (docs/explanation/force-control.md).
-struct PushReport {
+struct InsertStatus {
   std::uint32_t number = 0;  // of the push that was begun last; 0: none yet
-  PushPhase phase = PushPhase::kNone;
-  PushEnd end = PushEnd::kNot;  // why it does not press any more
-  PushLaw law = PushLaw::kForce;
+  InsertPhase phase = InsertPhase::kNone;
+  InsertResult end = InsertResult::kNot;  // why it does not press any more
+  InsertLaw law = InsertLaw::kForce;
   WristHealth wrist = WristHealth::kSilent;
   std::uint8_t touched = 0;  // force of contact was felt
   double set_N = 0.0;        // along the axis, now
@@ -33,7 +33,7 @@ struct PushReport {
   std::array<std::uint8_t, 3> depth_01mm{};
 };
 
-PushReport push_report(const PushState& push, const WristState& wrist, const AdapterState& adapter) noexcept;
+InsertStatus push_report(const InsertState& push, const WristState& wrist, const AdapterState& adapter) noexcept;
 
 struct Report {
   JointVector joint_command_rad{};  // after the limiter
@@ -50,7 +50,7 @@ struct Report {
   std::array<double, 6>
       ik_residual{};             // filtered target less tip of the IK, base frame: position [m], rotation vector [rad]
   JointVector torque_told_Nm{};  // torque drives: feed-forward
-  PushReport push{};
+  InsertStatus push{};
 };
 static_assert(std::is_trivially_copyable_v<Report>);
 

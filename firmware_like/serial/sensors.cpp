@@ -1,6 +1,6 @@
 #include "firmware_like/serial/sensors.hpp"
 
-#include "firmware_like/serial/adapter_watch.hpp"
+#include "firmware_like/serial/adapter_monitor.hpp"
 #include "firmware_like/serial/wrist.hpp"
 
 namespace liana::serial {

@@ -4,7 +4,7 @@
 
 namespace liana::serial {
 
-SerialArm::SerialArm(const RobotTable& table) noexcept
+SerialArm::SerialArm(const RobotParams& table) noexcept
     : table_(table), dynamics_(table, table.torque.masses), friction_(declared_friction(table)) {
   stand();
 }
@@ -39,11 +39,11 @@ void SerialArm::watch_drive(WatchScope scope, bool, std::int32_t drive, Watch& o
 
 // What ended a push, named in the tick after it: until then the arm gives way already.
 void SerialArm::watch(WatchScope, std::uint64_t tick, FaultList& faults) noexcept {
-  if (push_.phase != PushPhase::kYielding || push_.phase_ticks != 0) return;
-  if (push_.end == PushEnd::kSensorLost) {
+  if (push_.phase != InsertPhase::kYielding || push_.phase_ticks != 0) return;
+  if (push_.end == InsertResult::kSensorLost) {
     latch(faults, {FaultNumber::kWristSensorLost, -1, static_cast<std::uint16_t>(push_.lost), tick});
   }
-  if (push_.end == PushEnd::kOverload) {
+  if (push_.end == InsertResult::kOverload) {
     const std::int32_t size = to_counts(push_.overload).value;
     latch(faults, {FaultNumber::kPushOverload, push_.overload_joint, narrow<std::uint16_t>(size), tick});
   }
@@ -55,26 +55,26 @@ void SerialArm::take(const Setpoint& setpoint) noexcept {
   if (is_force(setpoint.kind)) {
     accept_force(setpoint, push_);
   } else {
-    push_.phase = PushPhase::kNone;
+    push_.phase = InsertPhase::kNone;
   }
 }
 
 void SerialArm::stand() noexcept {
   reset_motion(table_, measured_rad(), motion_);
-  push_.phase = PushPhase::kNone;
+  push_.phase = InsertPhase::kNone;
   told_ = TorqueTold{};
 }
 
 ArmStatus SerialArm::status() const noexcept {
   const bool homed = homing_ticks_ >= kHomingTicks;
-  const bool pushes = push_.phase != PushPhase::kNone && push_.phase != PushPhase::kYielding;
+  const bool pushes = push_.phase != InsertPhase::kNone && push_.phase != InsertPhase::kYielding;
   return {homed, !pushes && at_rest(table_, motion_), homed};  // nothing to prepare
 }
 
 // Forces say where the joints go; the target goes with them.
 ForceMotion SerialArm::give_way(bool allowed) noexcept {
   const JointVector measured = measured_rad();
-  const PushInputs in{measured, torque_measured_Nm_, motion_.limiter.rate_rad_s, adapter_, allowed};
+  const InsertInputs in{measured, torque_measured_Nm_, motion_.limiter.rate_rad_s, adapter_, allowed};
   const ForceMotion wanted = advance_force(table_, in, wrist_, push_);
   follow_along(table_, wanted, in.measured_rad, motion_.limiter);
   motion_.ik_rad = motion_.limiter.joint_rad;
@@ -97,22 +97,22 @@ ForceMotion SerialArm::lead() noexcept {
 
 std::uint32_t SerialArm::advance(bool allowed) noexcept {
   ForceMotion wanted;
-  if (gives_torque(table_) && is_force(motion_.to.kind)) {
+  if (is_torque_controlled(table_) && is_force(motion_.to.kind)) {
     wanted = give_way(allowed && !motion_.braking);
   } else {
     advance_motion(table_, allowed, motion_);
-    if (gives_torque(table_)) wanted = lead();
+    if (is_torque_controlled(table_)) wanted = lead();
   }
-  if (gives_torque(table_)) tell_torque(table_, wanted, measured_rad(), motion_.limiter, told_);
+  if (is_torque_controlled(table_)) tell_torque(table_, wanted, measured_rad(), motion_.limiter, told_);
   return motion_.limits;
 }
 
 std::uint32_t SerialArm::propose(const Orders& orders, const DriveCommands&, bool, DriveProposals& out) noexcept {
   if (!orders.live_targets) return 0;
   for (std::size_t i = 0; i < table_.joints(); ++i) {
-    const DriveTable& drive = table_.drive[i];
+    const DriveParams& drive = table_.drive[i];
     out[i].target_counts = counts_at_joint(drive, motion_.limiter.joint_rad[i]);
-    if (!gives_torque(table_)) continue;
+    if (!is_torque_controlled(table_)) continue;
     out[i].mode = DriveMode::kCyclicTorque;
     out[i].torque_permille = drive.direction * told_.torque_Nm[i] / drive.torque_per_permille_Nm;
     out[i].rate_counts_s = drive.direction * told_.rate_rad_s[i] / drive.rad_per_count;

@@ -9,7 +9,7 @@
 #include "firmware_like/safety/supervisor.hpp"
 #include "firmware_like/serial/drive_units.hpp"
 #include "firmware_like/serial/joint_friction.hpp"
-#include "firmware_like/serial/joint_watch.hpp"
+#include "firmware_like/serial/joint_monitor.hpp"
 #include "firmware_like/serial/motion.hpp"
 #include "firmware_like/serial/report.hpp"
 #include "firmware_like/serial/setpoint.hpp"
@@ -21,15 +21,15 @@ constexpr std::uint32_t kHomingTicks = 25;  // encoders have to be heard and pla
 
 class SerialArm {
  public:
-  using Table = RobotTable;
+  using Table = RobotParams;
   using Setpoint = serial::Setpoint;
   using Report = serial::Report;
   using Sensors = serial::Sensors;
 
   // The table must have passed the loader; no other checks are made here.
-  explicit SerialArm(const RobotTable& table) noexcept;
+  explicit SerialArm(const RobotParams& table) noexcept;
 
-  const RobotTable& table() const noexcept { return table_; }
+  const RobotParams& table() const noexcept { return table_; }
   GateLimits gate_limits() const noexcept { return make_gate_limits(table_); }
   LinkLimits link_limits() const noexcept { return make_link_limits(table_); }
 
@@ -45,13 +45,14 @@ class SerialArm {
   bool is_braking() const noexcept { return motion_.braking; }
   void stand() noexcept;
   std::uint32_t advance(bool allowed) noexcept;
-  std::uint32_t propose(const Orders& orders, const DriveCommands& sent, bool is_sound, DriveProposals& out) noexcept;
+  std::uint32_t propose(const Orders& orders, const DriveCommands& sent, bool tensions_valid,
+                        DriveProposals& out) noexcept;
   void report(Report& out) const noexcept;
 
   // What the twin's drives show beside what they are told: nothing, in orbit and without a load.
-  static std::int16_t planned_permille(const RobotTable&, const Report&, std::int32_t) noexcept { return 0; }
+  static std::int16_t planned_permille(const RobotParams&, const Report&, std::int32_t) noexcept { return 0; }
 
-  static bool gives_torque(const RobotTable& table) noexcept { return table.torque.gives_torque != 0; }
+  static bool is_torque_controlled(const RobotParams& table) noexcept { return table.torque.is_torque_controlled != 0; }
   // The sensors that the twin imagines for the next tick.
   static Sensors imagined(const Sensors& last) noexcept { return serial::imagined(last); }
 
@@ -87,15 +88,15 @@ class SerialArm {
   ForceMotion give_way(bool allowed) noexcept;
   ForceMotion lead() noexcept;
 
-  RobotTable table_{};
-  JointWatchState joints_{};
+  RobotParams table_{};
+  JointMonitorState joints_{};
   JointVector torque_measured_Nm_{};
   std::uint32_t homing_ticks_ = 0;
   MotionState motion_{};
   Dynamics dynamics_;
   WristState wrist_{};
   AdapterState adapter_{};
-  PushState push_{};
+  InsertState push_{};
   TorqueTold told_{};
   FrictionFound friction_;
   LinkMass payload_{};  // at the tip, as the newest setpoint that moves the arm says

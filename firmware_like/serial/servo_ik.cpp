@@ -61,7 +61,7 @@ JointVector damped_step(const Jacobian& J, Index joints, std::uint32_t fixed, do
 }
 
 // Sets joints that the step would carry out of their range onto its end and takes their motion from e; returns which.
-std::uint32_t stop_at_ranges(const RobotTable& table, const Jacobian& J, const JointVector& step,
+std::uint32_t stop_at_ranges(const RobotParams& table, const Jacobian& J, const JointVector& step,
                              JointVector& joint_rad, Task& e) noexcept {
   std::uint32_t stopped = 0;
   for (Index i = 0; i < table.joints(); ++i) {
@@ -76,7 +76,7 @@ std::uint32_t stop_at_ranges(const RobotTable& table, const Jacobian& J, const J
 }
 
 // One damped step; returns the joints that were stopped at their ranges.
-std::uint32_t iterate(const RobotTable& table, const Jacobian& J, double damping, const JointVector& wish_rad, Task e,
+std::uint32_t iterate(const RobotParams& table, const Jacobian& J, double damping, const JointVector& wish_rad, Task e,
                       JointVector& joint_rad) noexcept {
   std::uint32_t fixed = 0;
   for (std::int32_t pass = 0; pass < kRangePasses; ++pass) {
@@ -91,7 +91,7 @@ std::uint32_t iterate(const RobotTable& table, const Jacobian& J, double damping
   return fixed;
 }
 
-IkOutcome outcome_of(const RobotTable& table, const Pose& goal, const IkReport& report, double asked) noexcept {
+IkOutcome outcome_of(const RobotParams& table, const Pose& goal, const IkResult& report, double asked) noexcept {
   if (report.position_error_m <= kIkConvergedError && report.attitude_error_rad <= kIkConvergedError)
     return IkOutcome::kConverged;
   if (norm(goal.position_m) > chain_length_m(table)) return IkOutcome::kUnreachable;
@@ -99,9 +99,9 @@ IkOutcome outcome_of(const RobotTable& table, const Pose& goal, const IkReport& 
   return report.limit_mask != 0 ? IkOutcome::kLimited : IkOutcome::kSingular;
 }
 
-IkReport report_of(const RobotTable& table, const Pose& goal, const Pose& tip, double asked,
+IkResult report_of(const RobotParams& table, const Pose& goal, const Pose& tip, double asked,
                    std::uint32_t limit_mask) noexcept {
-  IkReport report;
+  IkResult report;
   report.residual = pose_error(goal, tip);
   const Task& e = report.residual;
   report.position_error_m = norm({e[0], e[1], e[2]});
@@ -113,7 +113,7 @@ IkReport report_of(const RobotTable& table, const Pose& goal, const Pose& tip, d
 
 }  // namespace
 
-IkReport servo_ik(const RobotTable& table, const Pose& goal, const JointVector& wish_rad,
+IkResult servo_ik(const RobotParams& table, const Pose& goal, const JointVector& wish_rad,
                   JointVector& joint_rad) noexcept {
   JointVector wish = wish_rad;
   std::uint32_t limit_mask = 0;
@@ -130,19 +130,19 @@ IkReport servo_ik(const RobotTable& table, const Pose& goal, const JointVector& 
   return report_of(table, goal, arm.tip_in_base, asked, limit_mask);
 }
 
-double far_step(const RobotTable& table, const Pose& goal, JointVector& joint_rad) noexcept {
+double far_step(const RobotParams& table, const Pose& goal, JointVector& joint_rad) noexcept {
   const ArmKinematics arm = forward_kinematics(table, joint_rad);
   const Task e = pose_error(goal, arm.tip_in_base);
   iterate(table, arm.tip_jacobian, kIkDamping + size(e) * size(e), {}, e, joint_rad);
   return size(e);
 }
 
-JointVector rates_of_twist(const RobotTable& table, const Jacobian& jacobian, const Twist& twist) noexcept {
+JointVector rates_of_twist(const RobotParams& table, const Jacobian& jacobian, const Twist& twist) noexcept {
   const Vec3 &v = twist.linear_m_s, &w = twist.angular_rad_s;
   return damped_step(jacobian, table.joints(), 0, kIkDamping, {}, {v[0], v[1], v[2], w[0], w[1], w[2]});
 }
 
-IkReport report_ik(const RobotTable& table, const Pose& goal, const Pose& tip) noexcept {
+IkResult report_ik(const RobotParams& table, const Pose& goal, const Pose& tip) noexcept {
   const double asked = 4.0 * size(pose_error(goal, tip));  // nothing was tried, so nothing is in its way
   return report_of(table, goal, tip, asked, 0);
 }

@@ -23,7 +23,7 @@ constexpr double kIkDamping = 1e-6;         // m2/rad2; directions with a singul
 constexpr double kIkConvergedError = 1e-6;  // m and rad
 
 // How far servo IK got in a tick.
-struct IkReport {
+struct IkResult {
   std::array<double, 6> residual{};  // goal less tip, base frame: position [m], rotation vector [rad]
   double position_error_m = 0.0;
   double attitude_error_rad = 0.0;
@@ -34,17 +34,17 @@ struct IkReport {
 // Moves the joints towards the goal and, with what is left free, by `wish_rad`; never beyond their ranges. The report
 // is of the joints it leaves. Cost: kIkIterations factorisations of 6 x 6 and one more pass over the joints, more only
 // at the ends of ranges.
-IkReport servo_ik(const RobotTable& table, const Pose& tip_goal_in_base, const JointVector& wish_rad,
+IkResult servo_ik(const RobotParams& table, const Pose& tip_goal_in_base, const JointVector& wish_rad,
                   JointVector& joint_rad) noexcept;
 
 // One step towards a goal that may be far away, for searches outside the tick: mu = kIkDamping + |e|^2, because far
 // jumps are what helps there. Returns |e| (m and rad together) before the step.
-double far_step(const RobotTable& table, const Pose& tip_goal_in_base, JointVector& joint_rad) noexcept;
+double far_step(const RobotParams& table, const Pose& tip_goal_in_base, JointVector& joint_rad) noexcept;
 
 // Joint rates [rad/s] of a twist of the tip, the smallest that there are: J^T (J J^T + kIkDamping I)^-1 v.
-JointVector rates_of_twist(const RobotTable& table, const Jacobian& jacobian, const Twist& twist) noexcept;
+JointVector rates_of_twist(const RobotParams& table, const Jacobian& jacobian, const Twist& twist) noexcept;
 
 // The report of joints that stand still.
-IkReport report_ik(const RobotTable& table, const Pose& tip_goal_in_base, const Pose& tip_in_base) noexcept;
+IkResult report_ik(const RobotParams& table, const Pose& tip_goal_in_base, const Pose& tip_in_base) noexcept;
 
 }  // namespace liana::serial

@@ -5,7 +5,7 @@
 namespace liana::serial {
 namespace {
 
-bool inside_ranges(const RobotTable& table, const JointVector& joint_rad) noexcept {
+bool inside_ranges(const RobotParams& table, const JointVector& joint_rad) noexcept {
   for (std::size_t i = 0; i < table.joints(); ++i) {
     if (!(joint_rad[i] >= table.joint[i].low_rad && joint_rad[i] <= table.joint[i].high_rad))
       return false;  // NaN is outside
@@ -15,7 +15,7 @@ bool inside_ranges(const RobotTable& table, const JointVector& joint_rad) noexce
 
 bool is_within(double value, double low, double high) noexcept { return value >= low && value <= high; }
 
-bool is_usable(const TorqueTable& table, const Push& push) noexcept {
+bool is_usable(const TorqueParams& table, const Push& push) noexcept {
   for (std::size_t i = 0; i < kPushGainCount; ++i) {
     if (!is_within(push.gains[i], table.gain_low[i], table.gain_high[i])) return false;
   }
@@ -28,10 +28,10 @@ bool is_usable(const TorqueTable& table, const Push& push) noexcept {
 
 }  // namespace
 
-bool is_usable(const RobotTable& table, const Setpoint& setpoint) noexcept {
+bool is_usable(const RobotParams& table, const Setpoint& setpoint) noexcept {
   if (!is_body(setpoint.payload_at_tip)) return false;
   if (is_joint(setpoint.kind)) return inside_ranges(table, setpoint.joint_rad);
-  if (is_force(setpoint.kind) && table.torque.gives_torque == 0) return false;
+  if (is_force(setpoint.kind) && table.torque.is_torque_controlled == 0) return false;
   if (setpoint.kind == CommandKind::kPush) return is_usable(table.torque, setpoint.push);
   if (setpoint.kind != CommandKind::kTip) return true;
   return is_valid(setpoint.tip_in_base) && setpoint.tip_speed_m_s > 0.0 && is_finite(setpoint.tip_speed_m_s);

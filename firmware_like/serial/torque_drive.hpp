@@ -18,21 +18,21 @@ struct TorqueTold {
 };
 
 // Rated torque [N.m] at the joint.
-constexpr double rated_Nm(const DriveTable& drive) noexcept { return 1000.0 * drive.torque_per_permille_Nm; }
+constexpr double rated_Nm(const DriveParams& drive) noexcept { return 1000.0 * drive.torque_per_permille_Nm; }
 
 // Planned motion: the target's rate and position_gain_per_s of what is missing to it, and the torque that moving the
 // links takes.
-ForceMotion planned_motion(const RobotTable& table, const Dynamics& dynamics, const LimiterState& target,
+ForceMotion planned_motion(const RobotParams& table, const Dynamics& dynamics, const LimiterState& target,
                            const TorqueTold& told) noexcept;
 
 // The target of joints that forces move: it goes with them, no quicker than their rates, so that nothing jumps when
 // they are led again. One that holds its place goes by the wanted rate alone.
-void follow_along(const RobotTable& table, const ForceMotion& wanted, const JointVector& measured_rad,
+void follow_along(const RobotParams& table, const ForceMotion& wanted, const JointVector& measured_rad,
                   LimiterState& target) noexcept;
 
 // What the drives are told for `wanted`, within what they may be told; joints that hold their places are drawn to the
 // target.
-void tell_torque(const RobotTable& table, const ForceMotion& wanted, const JointVector& measured_rad,
+void tell_torque(const RobotParams& table, const ForceMotion& wanted, const JointVector& measured_rad,
                  const LimiterState& target, TorqueTold& told) noexcept;
 
 }  // namespace liana::serial

@@ -19,15 +19,15 @@ struct LoadRecord {
   double contact_N = 0.0;
   double rod_N = 0.0;
   double least_tension_N = 1e9;
-  double least_motor_tension_N = 1e9;
-  double most_motor_tension_N = 0.0;
+  double min_motor_tension_N = 1e9;
+  double max_motor_tension_N = 0.0;
 };
 
 // How hard a model had to work, since its construction; zeros where a model has no such thing.
 struct ArmCounts {
   std::uint64_t mujoco_warnings = 0;
   std::uint64_t contact_slots = 0;  // slots in which collision detection ran
-  int most_sweeps = 0;              // of the friction solver, in one step
+  int max_sweeps = 0;               // of the friction solver, in one step
 };
 
 class Arm {

@@ -47,10 +47,10 @@ CableValues ArmPhysics::payouts_m() const {
 
 void ArmPhysics::settle_cables(const CableValues& payout_m) {
   for (std::size_t c = 0; c < lines_.size(); ++c) {
-    most_sweeps_ = std::max(most_sweeps_, lines_[c].settle(paths_, payout_m[c]));
+    max_sweeps_ = std::max(max_sweeps_, lines_[c].settle(paths_, payout_m[c]));
     record_.least_tension_N = std::min(record_.least_tension_N, lines_[c].least_tension_N());
-    record_.least_motor_tension_N = std::min(record_.least_motor_tension_N, lines_[c].motor_tension_N());
-    record_.most_motor_tension_N = std::max(record_.most_motor_tension_N, lines_[c].motor_tension_N());
+    record_.min_motor_tension_N = std::min(record_.min_motor_tension_N, lines_[c].motor_tension_N());
+    record_.max_motor_tension_N = std::max(record_.max_motor_tension_N, lines_[c].motor_tension_N());
   }
 }
 

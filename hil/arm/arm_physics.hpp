@@ -51,7 +51,7 @@ class ArmPhysics final : public Arm {
 
   Chain& chain() { return chain_; }
   const CablePaths& paths() const { return paths_; }
-  ArmCounts counts() const override { return {chain_.warnings(), contact_slots_, most_sweeps_}; }
+  ArmCounts counts() const override { return {chain_.warnings(), contact_slots_, max_sweeps_}; }
 
  private:
   void settle_cables(const CableValues& payout_m);
@@ -76,7 +76,7 @@ class ArmPhysics final : public Arm {
   double free_step_s_ = kStep_s;
   double stable_step_s_ = kLongestStep_s;
   std::uint64_t contact_slots_ = 0;
-  int most_sweeps_ = 0;
+  int max_sweeps_ = 0;
 };
 
 }  // namespace liana::bench

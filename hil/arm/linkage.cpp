@@ -16,15 +16,15 @@ void centre(Linkage& linkage, std::size_t first, double BendShare::*axis) {
 
 }  // namespace
 
-Linkage uneven_linkage(const RobotConfig& robot, double most_share, std::uint64_t seed) {
+Linkage uneven_linkage(const RobotConfig& robot, double max_share, std::uint64_t seed) {
   Linkage linkage;
-  if (most_share == 0.0) return linkage;
+  if (max_share == 0.0) return linkage;
   Random random(seed, "linkage");
   for (const SegmentConfig& segment : robot.segments) {
     const std::size_t first = linkage.size();
     for (int i = 0; i < segment.modules; ++i) {
-      const double pitch = 1.0 + random.uniform(-most_share, most_share);
-      linkage.push_back({pitch, 1.0 + random.uniform(-most_share, most_share)});
+      const double pitch = 1.0 + random.uniform(-max_share, max_share);
+      linkage.push_back({pitch, 1.0 + random.uniform(-max_share, max_share)});
     }
     centre(linkage, first, &BendShare::pitch);
     centre(linkage, first, &BendShare::yaw);

@@ -17,7 +17,7 @@ struct BendShare {
 // Per module, from the base. Empty: all joints of a segment bend alike.
 using Linkage = std::vector<BendShare>;
 
-// Shares uniform within 1 +- `most_share` by seed, the mean of every segment exactly 1 on each axis; empty for 0.
-Linkage uneven_linkage(const RobotConfig& robot, double most_share, std::uint64_t seed);
+// Shares uniform within 1 +- `max_share` by seed, the mean of every segment exactly 1 on each axis; empty for 0.
+Linkage uneven_linkage(const RobotConfig& robot, double max_share, std::uint64_t seed);
 
 }  // namespace liana::bench

@@ -11,7 +11,7 @@ void TipTool::ask(ToolCommand command) {
   acting_ = false;
 }
 
-ToolReport TipTool::say(std::string phase, std::string reason, double now_s) {
+ToolStatus TipTool::say(std::string phase, std::string reason, double now_s) {
   last_ = {command_->number, std::move(phase), std::move(reason), now_s};
   if (last_.phase != "acting") command_.reset();
   return last_;
@@ -27,7 +27,7 @@ std::optional<std::string> TipTool::why_it_fails(const Vec3& tip_m, const Vec3& 
   return std::nullopt;
 }
 
-std::optional<ToolReport> TipTool::act(double now_s, const Vec3& tip_m, const Vec3& rod_m) {
+std::optional<ToolStatus> TipTool::act(double now_s, const Vec3& tip_m, const Vec3& rod_m) {
   if (!command_ || now_s < command_->begin_s) return std::nullopt;
   if (const auto why = why_it_fails(tip_m, rod_m)) return say("failed", *why, now_s);
   if (!acting_) {
@@ -52,7 +52,7 @@ std::optional<ToolCommand> tool_command(const std::string& message) {
   return ToolCommand{json["number"], json["command"], json["begin_s"]};
 }
 
-std::string tool_message(const ToolReport& report) {
+std::string tool_message(const ToolStatus& report) {
   nlohmann::json message{
       {"op", "tool_report"}, {"number", report.number}, {"phase", report.phase}, {"time_s", report.time_s}};
   if (!report.reason.empty()) message["reason"] = report.reason;

@@ -18,7 +18,7 @@ struct ToolCommand {
 };
 
 // What it says of a command: it acts, then it is done or has failed.
-struct ToolReport {
+struct ToolStatus {
   int number = 0;
   std::string phase;   // acting, done, failed
   std::string reason;  // of a failure
@@ -40,26 +40,26 @@ class TipTool {
   // A new command; one under way is given up without a word.
   void ask(ToolCommand command);
   // At the start of a slot: acts on the command under way. What it has to say comes out once.
-  std::optional<ToolReport> act(double now_s, const Vec3& tip_m, const Vec3& rod_m);
+  std::optional<ToolStatus> act(double now_s, const Vec3& tip_m, const Vec3& rod_m);
   // The rod is out of its seat.
   bool has_rod() const { return has_rod_; }
   // The last word on the last command; phase empty before the first.
-  const ToolReport& last() const { return last_; }
+  const ToolStatus& last() const { return last_; }
 
  private:
-  ToolReport say(std::string phase, std::string reason, double now_s);
+  ToolStatus say(std::string phase, std::string reason, double now_s);
   std::optional<std::string> why_it_fails(const Vec3& tip_m, const Vec3& rod_m) const;
 
   std::optional<ToolCommand> command_;
   bool acting_ = false;
   bool has_rod_ = false;
   ToolDefects defects_;
-  ToolReport last_;
+  ToolStatus last_;
 };
 
 // Reads a message of the topic `tool`; nothing for any other message.
 std::optional<ToolCommand> tool_command(const std::string& message);
 // The request `tool_report` of docs/reference/api.md.
-std::string tool_message(const ToolReport& report);
+std::string tool_message(const ToolStatus& report);
 
 }  // namespace liana::bench

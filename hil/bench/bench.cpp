@@ -20,7 +20,7 @@ constexpr double kRest_rad_s = 0.1 * 3.14159265358979323846 / 180.0;
 constexpr double kRested_s = 0.5;  // in a row: at the ends of a swing the arm stands, too
 
 std::unique_ptr<Plant> make_plant(const BenchOptions& options, const SceneConfig& scene) {
-  if (options.serial_robot && options.serial_robot->gives_torque)
+  if (options.serial_robot && options.serial_robot->is_torque_controlled)
     return std::make_unique<TorquePlant>(*options.serial_robot, scene, options.buses, options, options.faults,
                                          options.seed);
   if (scene.payload)

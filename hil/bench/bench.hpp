@@ -11,7 +11,7 @@
 #include "hil/bench/plant.hpp"
 #include "hil/bench/tip_equipment.hpp"
 #include "hil/bench/truth_log.hpp"
-#include "hil/bus/api_link.hpp"
+#include "hil/bus/api_connection.hpp"
 #include "hil/bus/bus.hpp"
 #include "hil/config/robot_config.hpp"
 #include "hil/config/scene_config.hpp"
@@ -60,8 +60,8 @@ class Bench {
   std::unique_ptr<Plant> plant_;
   FaultInjector injector_;
   std::unique_ptr<TipEquipment> equipment_;
-  ApiLink camera_link_;
-  ApiLink tool_link_;
+  ApiConnection camera_link_;
+  ApiConnection tool_link_;
   TruthLog log_;
   std::vector<std::uint32_t> syncs_;  // per bus, real time
   std::uint64_t last_slot_us_ = 0;    // when the last slot ended, real time

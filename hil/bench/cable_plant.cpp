@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "hil/arm/arm_physics.hpp"
-#include "hil/arm/light_arm.hpp"
+#include "hil/arm/kinematic_arm.hpp"
 #include "hil/bench/pushes.hpp"
 
 namespace liana::bench {
@@ -29,7 +29,7 @@ std::unique_ptr<Arm> make_arm(const RobotConfig& robot, const SceneConfig& scene
                               std::uint64_t seed, const TrueParameters& truth) {
   const double spread_rad = options.spread && !options.fixture ? kStartSpread_rad : 0.0;
   const Theta start = start_pose(robot, options.start_pose, spread_rad, seed);
-  if (options.arm == "light") return std::make_unique<LightArm>(robot, truth, start);
+  if (options.arm == "light") return std::make_unique<KinematicArm>(robot, truth, start);
   if (options.arm != "full")
     throw std::runtime_error("--arm: \"" + options.arm + "\" is no arm model; allowed are full, light");
   auto arm = std::make_unique<ArmPhysics>(robot, scene, truth, start);
@@ -106,7 +106,7 @@ void CablePlant::add_truth(std::vector<double>& row) {
   const Quat& q = tip.attitude;
   for (const double value :
        {p.x, p.y, p.z, q.w, q.x, q.y, q.z, std::min({gap.slit_m, gap.sphere_m, gap.convex_m}), gap.slit_m, gap.sphere_m,
-        loads.contact_N, loads.rod_N, loads.least_tension_N, loads.least_motor_tension_N, loads.most_motor_tension_N,
+        loads.contact_N, loads.rod_N, loads.least_tension_N, loads.min_motor_tension_N, loads.max_motor_tension_N,
         static_cast<double>(drives_.enabled()), since_s_ > 0.0 ? norm(p - tip_before_m_) / since_s_ : 0.0,
         kDegPerRad * fastest_rad_s(), depth_m()})
     row.push_back(value);
@@ -120,7 +120,7 @@ void CablePlant::summarise(nlohmann::json& summary) const {
   summary["physics"] = options_.physics;
   summary["mujoco_warnings"] = counts.mujoco_warnings;
   summary["slots_near_contact"] = counts.contact_slots;
-  summary["friction_sweeps_max"] = counts.most_sweeps;
+  summary["friction_sweeps_max"] = counts.max_sweeps;
   summary["true_parameters"] = {{"EA_N", truth_.EA_N},
                                 {"mu", truth_.mu},
                                 {"hole_radius_m", truth_.hole_radius_m},

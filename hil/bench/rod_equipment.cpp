@@ -18,7 +18,7 @@ std::optional<std::string> RodEquipment::picture(double now_s) {
   return camera_message(*view);
 }
 
-std::optional<ToolReport> RodEquipment::act(double now_s) {
+std::optional<ToolStatus> RodEquipment::act(double now_s) {
   const auto report = tool_.act(now_s, plant_.tip().position_m, rod_.pose.position_m);
   if (!report || !tool_.has_rod()) return report;
   plant_.remove_rod();

@@ -16,7 +16,7 @@ class RodEquipment final : public TipEquipment {
   void look(double now_s) override { camera_.look(now_s, plant_.tip()); }
   std::optional<std::string> picture(double now_s) override;
   void ask(const ToolCommand& command) override { tool_.ask(command); }
-  std::optional<ToolReport> act(double now_s) override;
+  std::optional<ToolStatus> act(double now_s) override;
   void summarise(nlohmann::json& summary) const override;
 
  private:

@@ -26,7 +26,7 @@ class TipEquipment {
   // A command to the tool.
   virtual void ask(const ToolCommand& command) = 0;
   // At the start of a slot: the tool acts; what it has to say comes out once.
-  virtual std::optional<ToolReport> act(double now_s) = 0;
+  virtual std::optional<ToolStatus> act(double now_s) = 0;
   // Adds what there is to say at the end.
   virtual void summarise(nlohmann::json& summary) const = 0;
 };

@@ -18,10 +18,10 @@ constexpr std::size_t kNameBytes = 28;
 constexpr std::size_t kHeaderBytes = 16;
 constexpr std::size_t kFrameBytes = 24;
 
-void check(const Packet& packet, std::uint8_t type, std::size_t least_bytes) {
+void check(const Packet& packet, std::uint8_t type, std::size_t min_bytes) {
   if (!packet.empty() && packet[0] == kError)
     throw std::runtime_error("embedded bus: refused: " + std::string(packet.begin() + 1, packet.end()));
-  if (packet.size() < least_bytes || packet[0] != type)
+  if (packet.size() < min_bytes || packet[0] != type)
     throw std::runtime_error("embedded bus: packet of " + std::to_string(packet.size()) + " bytes is not of type " +
                              std::to_string(type) + "; bus and bench must come from one build");
 }

@@ -11,7 +11,7 @@ namespace liana::bench {
 
 namespace {
 
-constexpr int kMostSlots = 2000000000;
+constexpr int kMaxSlots = 2000000000;
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
@@ -56,7 +56,7 @@ std::vector<std::size_t> read_drives(const JsonFile& file, const std::string& fi
 }
 
 std::uint32_t read_slots(const JsonFile& file, const std::string& field, int low) {
-  return static_cast<std::uint32_t>(file.integer(field, low, kMostSlots));
+  return static_cast<std::uint32_t>(file.integer(field, low, kMaxSlots));
 }
 
 FaultCondition read_condition(const JsonFile& file, const std::string& field, std::size_t theta_count) {

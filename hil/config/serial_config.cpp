@@ -105,7 +105,7 @@ void read_drives(const JsonFile& file, SerialRobotConfig& robot) {
   robot.rated_torque_Nm = robot.peak_torque_Nm = file.number("/drives/rated_torque_Nm", 0.01, 4000.0);
   if (file.has("/drives/peak_torque_Nm"))
     robot.peak_torque_Nm = file.number("/drives/peak_torque_Nm", robot.rated_torque_Nm, 3.0 * robot.rated_torque_Nm);
-  if (file.has("/drives/mode")) robot.gives_torque = is_torque(file, "/drives/mode");
+  if (file.has("/drives/mode")) robot.is_torque_controlled = is_torque(file, "/drives/mode");
   robot.vendor = static_cast<std::uint32_t>(file.number("/drives/identity/vendor", 0.0, kMaxU32));
   robot.product = static_cast<std::uint32_t>(file.number("/drives/identity/product", 0.0, kMaxU32));
   robot.revision = static_cast<std::uint32_t>(file.number("/drives/identity/revision", 0.0, kMaxU32));

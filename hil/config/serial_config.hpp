@@ -51,8 +51,8 @@ struct SerialRobotConfig {
   double gear = 1.0;
   double servo_time_constant_s = 0.0;
   double rated_torque_Nm = 0.0;
-  double peak_torque_Nm = 0.0;  // that the drives can give
-  bool gives_torque = false;    // its drives have joint torque sensors and cyclic synchronous torque
+  double peak_torque_Nm = 0.0;        // that the drives can give
+  bool is_torque_controlled = false;  // its drives have joint torque sensors and cyclic synchronous torque
   std::uint32_t vendor = 0;
   std::uint32_t product = 0;
   std::uint32_t revision = 0;

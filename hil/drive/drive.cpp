@@ -115,7 +115,7 @@ void Drive::begin_reset(bool of_node, FrameList& out) {
 
 // Application objects get their power-on values, too, and a fault is forgotten (CiA 301, 7.3.2.2).
 void Drive::reset_node() {
-  if (gives_torque()) enter_power(PowerState::kSwitchOnDisabled);  // before its objects forget what it did
+  if (is_torque_controlled()) enter_power(PowerState::kSwitchOnDisabled);  // before its objects forget what it did
   objects_ = make_objects(settings_);
   controlword_ = 0;
   following_error_ = false;
@@ -170,7 +170,7 @@ std::uint32_t Drive::guard(const Object& object, std::int64_t value) const {
     return check_pdo_write(objects_, object, value);
   }
   if (object.index != 0x6060 || value == kCyclicSynchronousPosition) return abort_code::kNone;
-  if (!settings_.gives_torque || value != kCyclicSynchronousTorque) return abort_code::kValue;
+  if (!settings_.is_torque_controlled || value != kCyclicSynchronousTorque) return abort_code::kValue;
   return power_ == PowerState::kOperationEnabled ? abort_code::kDeviceState : abort_code::kNone;  // without power only
 }
 
@@ -185,7 +185,7 @@ void Drive::written(const Object& object) {
 // To position control also with power: it takes over where the joint is, and ends what torque was on.
 void Drive::change_mode() {
   const std::int64_t mode = objects_.get(0x6060);
-  if (gives_torque() && mode == kCyclicSynchronousPosition) {
+  if (is_torque_controlled() && mode == kCyclicSynchronousPosition) {
     end_torque();
     if (power_ == PowerState::kOperationEnabled) motor_.set_mode(MotorMode::kFollow);
     motor_.set_target(static_cast<double>(objects_.get(0x607A)) - encoder_offset_counts_);

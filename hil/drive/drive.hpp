@@ -47,13 +47,13 @@ class Drive {
   void move(double step_s, double load_permille);
   // True while its motor gives torque: then the physics ask for it once a millisecond, tell where the motor is, and do
   // not move it.
-  bool gives_torque() const;
+  bool is_torque_controlled() const;
   // Motor torque at the joint [N.m] until the next call; `gear_Nm` is the joint torque sensor, the rest the motor's
   // own.
   double torque_Nm(double step_s, double gear_Nm, double position_counts, double velocity_counts_per_s);
   // Where the motor that gives torque is now, for what the drive reports at the next SYNC.
   void carry(double position_counts, double velocity_counts_per_s) {
-    if (gives_torque()) motor_.carry(position_counts, velocity_counts_per_s);
+    if (is_torque_controlled()) motor_.carry(position_counts, velocity_counts_per_s);
   }
   // What the torque sensor reads now [permille of rated], and by how much the reported position is wrong.
   void set_measured(double permille, double position_error_counts = 0.0);

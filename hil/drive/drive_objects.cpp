@@ -118,7 +118,7 @@ ObjectDictionary make_objects(const DriveSettings& settings) {
   objects.push_back({0x6085, 0, kU32, kReadWrite, false, quick_stop_deceleration(settings), 1, kU32Max});
   const double rated_torque = settings.rated_torque_mNm * settings.dictionary.rated_torque_per_mNm;
   objects.push_back({0x6076, 0, kU32, kReadOnly, false, std::llround(rated_torque), 0, kU32Max});
-  if (settings.gives_torque) add_torque(objects);
+  if (settings.is_torque_controlled) add_torque(objects);
   for (std::uint16_t number = 0; number < 4; ++number) {
     add_pdo(objects, number, settings.node, true);
     add_pdo(objects, number, settings.node, false);

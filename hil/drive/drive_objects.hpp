@@ -21,8 +21,8 @@ struct DriveSettings {
   double gear = 1.0;                  // motor turns per turn behind the gear, to three decimals
   double fastest_counts_per_s = 0.0;  // that it will be told; 0: not known
   double servo_time_constant_s = 0.03;
-  int pull_direction = -1;    // sign of counts that winds cable up
-  bool gives_torque = false;  // has cyclic synchronous torque, and a joint torque sensor
+  int pull_direction = -1;            // sign of counts that winds cable up
+  bool is_torque_controlled = false;  // has cyclic synchronous torque, and a joint torque sensor
   DictionaryConfig dictionary;
 
   // Increments in a unit of 6085.

@@ -61,11 +61,11 @@ void Drive::enter_power(PowerState state) {
       ++counts_.quick_stops;
       [[fallthrough]];
     case PowerState::kFaultReactionActive:
-      if (gives_torque()) return begin_torque_stop();
+      if (is_torque_controlled()) return begin_torque_stop();
       motor_.set_deceleration(static_cast<double>(objects_.get(0x6085)) * settings_.counts_per_speed_unit());
       return motor_.set_mode(MotorMode::kRamp);
     default:
-      if (gives_torque()) end_torque();
+      if (is_torque_controlled()) end_torque();
       return motor_.set_mode(MotorMode::kBraked);
   }
 }
@@ -151,7 +151,7 @@ void Drive::supervise_following(std::uint64_t now_us) {
   const double window = static_cast<double>(objects_.get(0x6065));
   const double error =
       std::fabs(static_cast<double>(objects_.get(0x607A)) - encoder_offset_counts_ - motor_.position_counts());
-  if (power_ != PowerState::kOperationEnabled || gives_torque() || error <= window) {
+  if (power_ != PowerState::kOperationEnabled || is_torque_controlled() || error <= window) {
     following_since_us_ = now_us;
     following_error_ = false;
     return;

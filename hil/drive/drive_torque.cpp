@@ -15,10 +15,10 @@ constexpr double kMilli = 1e-3;
 
 bool Drive::mode_allows_power() const {
   const std::int64_t mode = objects_.get(0x6061);
-  return mode == kCyclicSynchronousPosition || (settings_.gives_torque && mode == kCyclicSynchronousTorque);
+  return mode == kCyclicSynchronousPosition || (settings_.is_torque_controlled && mode == kCyclicSynchronousTorque);
 }
 
-bool Drive::gives_torque() const { return motor_.mode() == MotorMode::kTorque; }
+bool Drive::is_torque_controlled() const { return motor_.mode() == MotorMode::kTorque; }
 
 double Drive::rad_per_count() const { return kTwoPi / (settings_.counts_per_turn * settings_.gear); }
 
@@ -62,7 +62,7 @@ void Drive::end_torque() {
 }
 
 bool Drive::is_at_rest() const {
-  return gives_torque() ? torque_stop_ && torque_stop_->done() : motor_.velocity_counts_per_s() == 0.0;
+  return is_torque_controlled() ? torque_stop_ && torque_stop_->done() : motor_.velocity_counts_per_s() == 0.0;
 }
 
 }  // namespace liana::bench

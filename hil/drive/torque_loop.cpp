@@ -5,7 +5,7 @@
 namespace liana::bench {
 
 double TorqueLoop::step(double step_s, const TorqueGains& gains, const TorqueTarget& target, const GearReading& gear,
-                        double most_Nm) {
+                        double max_Nm) {
   const double slip = target.rate_rad_s - gear.rate_rad_s;
   const double drift = drift_rad_ + step_s * slip;
   const double held = target.feed_forward_Nm + gains.damping_Nms_rad * gains.drift_per_s * drift;
@@ -16,8 +16,8 @@ double TorqueLoop::step(double step_s, const TorqueGains& gains, const TorqueTar
   const double motor = wanted + gains.gain * error + gains.integral_per_s * sum - gains.derivative_s * change;
   last_Nm_ = gear.torque_Nm;
   has_last_ = true;
-  held_Nm_ = std::clamp(held, -most_Nm, most_Nm);
-  if (motor > most_Nm || motor < -most_Nm) return std::clamp(motor, -most_Nm, most_Nm);
+  held_Nm_ = std::clamp(held, -max_Nm, max_Nm);
+  if (motor > max_Nm || motor < -max_Nm) return std::clamp(motor, -max_Nm, max_Nm);
   drift_rad_ = drift;
   sum_Nms_ = sum;
   return motor;

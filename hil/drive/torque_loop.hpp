@@ -25,9 +25,9 @@ struct GearReading {
 
 class TorqueLoop {
  public:
-  // Motor torque at the joint for the next step, within +-most_Nm; while it is at that limit, nothing winds up.
+  // Motor torque at the joint for the next step, within +-max_Nm; while it is at that limit, nothing winds up.
   double step(double step_s, const TorqueGains& gains, const TorqueTarget& target, const GearReading& gear,
-              double most_Nm);
+              double max_Nm);
   // What the joint is asked for beside damping: a stop begins its ramp there.
   double held_Nm() const { return held_Nm_; }
   // Forgets all that it has summed up.

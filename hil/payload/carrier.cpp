@@ -25,7 +25,7 @@ void Carrier::ask(ToolCommand command) {
   way_.reset();
 }
 
-ToolReport Carrier::say(std::string phase, std::string reason, double now_s) {
+ToolStatus Carrier::say(std::string phase, std::string reason, double now_s) {
   last_ = {asked_->number, std::move(phase), std::move(reason), now_s};
   if (last_.phase != "acting") {
     asked_.reset();
@@ -34,7 +34,7 @@ ToolReport Carrier::say(std::string phase, std::string reason, double now_s) {
   return last_;
 }
 
-std::optional<ToolReport> Carrier::begin(double now_s, const CarrySight& sight) {
+std::optional<ToolStatus> Carrier::begin(double now_s, const CarryObservation& sight) {
   if (sight.takes_s <= 0.0) return say("failed", "no arm carries this one from anywhere", now_s);
   if (share_ >= 1.0) return say("failed", "the arm that carries is locked at the site already", now_s);
   if (!sight.arm_rests) return say("failed", "the arm that is carried moves: bring it to rest first", now_s);
@@ -51,7 +51,7 @@ void Carrier::go_on(double now_s, double takes_s) {
   share_ = way_->from + (1.0 - way_->from) * smooth(way_->gone_s / takes_s);
 }
 
-std::optional<ToolReport> Carrier::act(double now_s, const CarrySight& sight) {
+std::optional<ToolStatus> Carrier::act(double now_s, const CarryObservation& sight) {
   if (!asked_ || now_s < asked_->begin_s) return std::nullopt;
   if (!way_) return begin(now_s, sight);
   go_on(now_s, sight.takes_s);

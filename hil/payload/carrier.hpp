@@ -10,7 +10,7 @@
 namespace liana::bench {
 
 // What it knows of the arm that it carries, and of itself.
-struct CarrySight {
+struct CarryObservation {
   double takes_s = 0.0;     // for the whole way; 0: there is no way to go
   bool arm_rests = false;   // the arm that is carried
   bool has_torque = false;  // it, in all its drives; the line that tells so is a wire, as that of an emergency stop
@@ -22,10 +22,10 @@ class Carrier {
   // The command "carry"; one under way is given up without a word.
   void ask(ToolCommand command);
   // At the start of a slot: goes on. What it has to say comes out once, as of the end effector (grapple.hpp).
-  std::optional<ToolReport> act(double now_s, const CarrySight& sight);
+  std::optional<ToolStatus> act(double now_s, const CarryObservation& sight);
   // How much of the way its joints are told to have gone; 1: locked at its end.
   double share() const { return share_; }
-  const ToolReport& last() const { return last_; }
+  const ToolStatus& last() const { return last_; }
 
  private:
   // What is under way.
@@ -38,14 +38,14 @@ class Carrier {
     std::string why;  // it stops
   };
 
-  ToolReport say(std::string phase, std::string reason, double now_s);
-  std::optional<ToolReport> begin(double now_s, const CarrySight& sight);
+  ToolStatus say(std::string phase, std::string reason, double now_s);
+  std::optional<ToolStatus> begin(double now_s, const CarryObservation& sight);
   void go_on(double now_s, double takes_s);
 
   std::optional<ToolCommand> asked_;
   std::optional<Way> way_;
   ToolDefects defects_;
-  ToolReport last_;
+  ToolStatus last_;
   double share_ = 0.0;
 };
 

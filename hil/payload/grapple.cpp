@@ -13,13 +13,13 @@ void Grapple::ask(ToolCommand command) {
   acting_ = false;
 }
 
-ToolReport Grapple::say(std::string phase, std::string reason, double now_s) {
+ToolStatus Grapple::say(std::string phase, std::string reason, double now_s) {
   last_ = {asked_->number, std::move(phase), std::move(reason), now_s};
   if (last_.phase != "acting") asked_.reset();
   return last_;
 }
 
-std::optional<std::string> Grapple::why_it_fails(const GrappleSight& sight) const {
+std::optional<std::string> Grapple::why_it_fails(const GrappleObservation& sight) const {
   if (name_ == "release") {
     if (!sight.has_payload) return "there is no payload to release";
     if (!sight.locked) return "the payload is not locked in the adapter and would drift away";
@@ -36,7 +36,7 @@ std::optional<std::string> Grapple::why_it_fails(const GrappleSight& sight) cons
   return text;
 }
 
-std::optional<ToolReport> Grapple::act(double now_s, const GrappleSight& sight) {
+std::optional<ToolStatus> Grapple::act(double now_s, const GrappleObservation& sight) {
   if (!asked_ || now_s < asked_->begin_s) return std::nullopt;
   if (const auto why = why_it_fails(sight)) return say("failed", *why, now_s);
   if (!acting_) {

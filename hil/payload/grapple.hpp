@@ -10,7 +10,7 @@
 namespace liana::bench {
 
 // What the end effector has before it.
-struct GrappleSight {
+struct GrappleObservation {
   Pose grapple_in_tip{};  // of the payload
   bool has_payload = false;
   bool locked = false;  // the adapter holds the payload for good
@@ -27,21 +27,21 @@ class Grapple {
   void ask(ToolCommand command);
   // At the start of a slot: acts on the command under way. What it has to say comes out once; phase "done" means that
   // it has closed or opened now.
-  std::optional<ToolReport> act(double now_s, const GrappleSight& sight);
+  std::optional<ToolStatus> act(double now_s, const GrappleObservation& sight);
   // The command that the last report is about.
   const std::string& command() const { return name_; }
   // The last word on the last command; phase empty before the first.
-  const ToolReport& last() const { return last_; }
+  const ToolStatus& last() const { return last_; }
 
  private:
-  ToolReport say(std::string phase, std::string reason, double now_s);
-  std::optional<std::string> why_it_fails(const GrappleSight& sight) const;
+  ToolStatus say(std::string phase, std::string reason, double now_s);
+  std::optional<std::string> why_it_fails(const GrappleObservation& sight) const;
 
   std::optional<ToolCommand> asked_;
   std::string name_;
   bool acting_ = false;
   ToolDefects defects_;
-  ToolReport last_;
+  ToolStatus last_;
 };
 
 }  // namespace liana::bench

@@ -39,7 +39,7 @@ void PayloadEquipment::ask(const ToolCommand& command) {
   carries_ ? carrier_.ask(command) : grapple_.ask(command);
 }
 
-std::optional<ToolReport> PayloadEquipment::carry(double now_s) {
+std::optional<ToolStatus> PayloadEquipment::carry(double now_s) {
   const double before = carrier_.share();
   const auto report = carrier_.act(now_s, {.takes_s = plant_.carry_s(),
                                            .arm_rests = plant_.fastest_rad_s() < kRests_rad_s,
@@ -48,7 +48,7 @@ std::optional<ToolReport> PayloadEquipment::carry(double now_s) {
   return report;
 }
 
-std::optional<ToolReport> PayloadEquipment::act(double now_s) {
+std::optional<ToolStatus> PayloadEquipment::act(double now_s) {
   if (carries_) return carry(now_s);
   const PayloadSite& site = *plant_.site();
   const auto report = grapple_.act(now_s, {.grapple_in_tip = relative(plant_.tip(), plant_.grapple()),
@@ -61,7 +61,7 @@ std::optional<ToolReport> PayloadEquipment::act(double now_s) {
 }
 
 void PayloadEquipment::summarise(nlohmann::json& summary) const {
-  const ToolReport& last = carries_ ? carrier_.last() : grapple_.last();
+  const ToolStatus& last = carries_ ? carrier_.last() : grapple_.last();
   summary["tool"] = {{"number", last.number}, {"phase", last.phase}, {"reason", last.reason}};
 }
 

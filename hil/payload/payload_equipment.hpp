@@ -19,12 +19,12 @@ class PayloadEquipment final : public TipEquipment {
   void look(double now_s) override;
   std::optional<std::string> picture(double now_s) override;
   void ask(const ToolCommand& command) override;
-  std::optional<ToolReport> act(double now_s) override;
+  std::optional<ToolStatus> act(double now_s) override;
   void summarise(nlohmann::json& summary) const override;
 
  private:
   Lens lens() const;
-  std::optional<ToolReport> carry(double now_s);
+  std::optional<ToolStatus> carry(double now_s);
 
   TorquePlant& plant_;
   TargetCamera camera_;

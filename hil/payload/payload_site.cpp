@@ -19,7 +19,7 @@ BodyConfig moved_body(const Pose& pose, const BodyConfig& body) {
           {turned(0, 0), turned(1, 1), turned(2, 2), turned(0, 1), turned(0, 2), turned(1, 2)}};
 }
 
-PayloadSite::PayloadSite(const PayloadConfig& payload, const Pose& socket, const AdapterFigures& figures)
+PayloadSite::PayloadSite(const PayloadConfig& payload, const Pose& socket, const AdapterParams& figures)
     : payload_(payload),
       socket_(socket),
       adapter_(figures),

@@ -23,7 +23,7 @@ class PayloadSite {
   static constexpr double kGrappleRadius_m = 0.1;  // beside it there is nothing
 
   // `payload.pose` and `socket` in the root's frame; a payload on the arm lies exactly on the tip.
-  PayloadSite(const PayloadConfig& payload, const Pose& socket, const AdapterFigures& figures);
+  PayloadSite(const PayloadConfig& payload, const Pose& socket, const AdapterParams& figures);
 
   // What is met, on the tip about its origin.
   TipLoad push(const TipState& tip) const;

@@ -65,7 +65,7 @@ TorquePlant::TorquePlant(const SerialRobotConfig& robot, const SceneConfig& scen
   refuse_for_serial(options, faults);
   if (!scene.payload) refuse_payload_faults(faults, "; the scene has none");
   if (const auto from_rad = fetch_rad(robot, scene))
-    way_ = CarryWay{*from_rad, robot.base->joint_rad, robot.base->carry_s};
+    way_ = CarryTravel{*from_rad, robot.base->joint_rad, robot.base->carry_s};
   if (scene.payload) make_site(scene, seed);
   drives_.measure(chain_);
 }
@@ -82,7 +82,7 @@ void TorquePlant::make_site(const SceneConfig& scene, std::uint64_t seed) {
     socket = compose(compose(compose(chain_.tip().pose, plate), beside), socket_in_plate);
   }
   payload.pose = compose(base_at_rest_, payload.pose);
-  site_.emplace(payload, socket, spread_ ? true_adapter(seed) : AdapterFigures{});
+  site_.emplace(payload, socket, spread_ ? true_adapter(seed) : AdapterParams{});
   if (payload.on_arm) chain_.carry(site_->take(chain_.tip().pose));
 }
 

@@ -62,7 +62,7 @@ class TorquePlant final : public Plant {
   };
 
   // Of the joints of the arm that carries.
-  struct CarryWay {
+  struct CarryTravel {
     std::vector<double> from_rad, to_rad;
     double takes_s = 0.0;
     double share = 0.0;
@@ -81,8 +81,8 @@ class TorquePlant final : public Plant {
   bool spread_;
   TrueArm arm_;
   FlexibleChain chain_;
-  std::optional<CarryWay> way_;  // none: it is locked for good
-  Pose base_at_rest_;            // when nothing pushes
+  std::optional<CarryTravel> way_;  // none: it is locked for good
+  Pose base_at_rest_;               // when nothing pushes
   TorqueDrives drives_;
   std::vector<RotorDrive> rotors_;
   WristSensor sensor_;

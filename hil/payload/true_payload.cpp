@@ -27,8 +27,8 @@ PayloadConfig true_payload(const PayloadConfig& payload, std::uint64_t seed) {
   return out;
 }
 
-AdapterFigures true_adapter(std::uint64_t seed) {
-  AdapterFigures figures;
+AdapterParams true_adapter(std::uint64_t seed) {
+  AdapterParams figures;
   Random pins(seed, "adapter");
   figures.friction = pins.uniform(0.05, 0.3);
   figures.stiffness_N_m = 1e4 * std::pow(20.0, pins.uniform(0.0, 1.0));

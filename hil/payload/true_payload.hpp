@@ -17,7 +17,7 @@ SerialRobotConfig true_joints(const SerialRobotConfig& robot, std::uint64_t seed
 PayloadConfig true_payload(const PayloadConfig& payload, std::uint64_t seed);
 
 // Friction of pins 0.05 to 0.3, their walls 1e4 to 2e5 N/m, the capture spring 0.8 to 1.15 of its stiffness.
-AdapterFigures true_adapter(std::uint64_t seed);
+AdapterParams true_adapter(std::uint64_t seed);
 
 // By how much a payload that begins on the arm is beside the adapter's axis, and turned: in the plate's frame, within
 // `start_lateral_m` along x and along y, `start_tilt_rad` in all.

@@ -27,7 +27,7 @@ Vec3 uniform(Random& random, double most) {
 
 }  // namespace
 
-WristSensor::WristSensor(std::uint8_t bus, bool spread, std::uint64_t seed, const WristFigures& figures)
+WristSensor::WristSensor(std::uint8_t bus, bool spread, std::uint64_t seed, const WristParams& figures)
     : figures_(figures), noise_(seed, "wrist sensor"), node_(kNode, bus) {
   if (!spread) return;
   Random bias(seed, "wrist bias");

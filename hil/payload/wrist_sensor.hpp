@@ -12,7 +12,7 @@
 namespace liana::bench {
 
 // All assumed, as those of sensors of this size; forces in N, torques in N m.
-struct WristFigures {
+struct WristParams {
   double force_noise_N = 0.2;  // standard deviation of a reading
   double torque_noise_Nm = 0.05;
   double force_bias_N = 0.5;  // most, of each axis, constant over a run
@@ -44,7 +44,7 @@ class WristSensor {
   static constexpr std::uint32_t kNode = 0x20;
 
   // Noise is drawn from the seed, as it belongs to any sensor; with `spread` a bias, too.
-  WristSensor(std::uint8_t bus, bool spread, std::uint64_t seed, const WristFigures& figures = {});
+  WristSensor(std::uint8_t bus, bool spread, std::uint64_t seed, const WristParams& figures = {});
 
   void suffer(const WristDefects& defects) { defects_ = defects; }
   // Hears the slot's frames and sends what is due; `load` is the mean since the last SYNC (its anti-aliasing filter).
@@ -57,7 +57,7 @@ class WristSensor {
  private:
   void report(const WristReading& reading, FrameList& out);
 
-  WristFigures figures_;
+  WristParams figures_;
   Random noise_;
   TipLoad bias_;
   SelfStartingNode node_;

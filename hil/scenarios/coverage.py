@@ -26,11 +26,11 @@ kTests = {
     2005: ("Force.ABlowAtTheTipEndsThePushAsOverload", "tests/serial/force_test.cpp"),
     5008: (
         "ContactWatch.ABodyThatIsPressedAgainstThePanelIsAFaultThatHoldsWithSegmentAndSize",
-        "tests/closed_loop/contact_watch_test.cpp",
+        "tests/closed_loop/contact_detector_test.cpp",
     ),
     5009: (
         "FrictionWatch.ThePlanFollowsSlowlyAndNeverBeyondWhatTensionsCanCarry",
-        "tests/firmware_like/friction_watch_test.cpp",
+        "tests/firmware_like/friction_estimator_test.cpp",
     ),
     6001: ("Gate.ARefusalBecomesAFaultThatNamesDriveAndCheck", "tests/firmware_like/gate_test.cpp"),
 }

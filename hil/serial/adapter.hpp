@@ -19,7 +19,7 @@ enum class Closure : std::uint8_t { kOpen = 0, kClosing = 1, kClosed = 2, kFaile
 // has its origin in the middle of their tips and its z along them.
 class Adapter {
  public:
-  explicit Adapter(const AdapterFigures& figures = {}) : figures_(figures) {}
+  explicit Adapter(const AdapterParams& figures = {}) : figures_(figures) {}
 
   // What the socket does to the plate, about the plate's origin. Depends on nothing but the plate and the latch.
   TipLoad push(const TipState& plate) const;
@@ -42,7 +42,7 @@ class Adapter {
   void break_latch(bool broken = true) { latch_works_ = !broken; }  // it stays open
   void break_lock(bool broken = true) { lock_works_ = !broken; }    // its drive stops half-way
 
-  const AdapterFigures& figures() const { return figures_; }
+  const AdapterParams& figures() const { return figures_; }
 
  private:
   Vec3 place_on_circle(std::size_t pin) const;
@@ -50,7 +50,7 @@ class Adapter {
   void move_latch(double step_s, const PinValues& true_m);
   void move_lock(double step_s);
 
-  AdapterFigures figures_;
+  AdapterParams figures_;
   std::array<PinDefects, kPins> defects_;
   bool latch_works_ = true;
   bool lock_works_ = true;

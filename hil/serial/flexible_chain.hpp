@@ -18,8 +18,8 @@ namespace liana::bench {
 
 // What its motor does with one joint.
 struct RotorDrive {
-  bool gives_torque = false;  // false: the rotor turns at the given rate whatever is behind it; 0 is a brake
-  double torque_Nm = 0.0;     // at the joint
+  bool is_torque_controlled = false;  // false: the rotor turns at the given rate whatever is behind it; 0 is a brake
+  double torque_Nm = 0.0;             // at the joint
   double rate_rad_s = 0.0;
 };
 

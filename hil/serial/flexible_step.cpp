@@ -54,7 +54,7 @@ FlexibleChain::Gear FlexibleChain::gear(std::size_t i, double step_s) const {
 void FlexibleChain::add_gear(std::size_t i, const RotorDrive& drive, double step_s, Equations& equations) const {
   const std::size_t hinge = base_joints_ + i;
   const auto [given, coupling] = gear(i, step_s);
-  if (!drive.gives_torque) {
+  if (!drive.is_torque_controlled) {
     equations.matrix[hinge][hinge] += coupling;
     equations.right[hinge] += given + coupling * (drive.rate_rad_s - rotors_[i].rate_rad_s);
     return;
@@ -78,7 +78,7 @@ void FlexibleChain::turn_rotor(std::size_t i, const RotorDrive& drive, double st
   const double before = rotor.rate_rad_s;
   const auto [given, coupling] = gear(i, step_s);
   rotor.rate_rad_s = drive.rate_rad_s;
-  if (drive.gives_torque)
+  if (drive.is_torque_controlled)
     rotor.rate_rad_s = before + (step_s * drive.torque_Nm - given + coupling * hinge_change_rad_s) /
                                     (robot_.rotor_inertia_kgm2 + coupling);
   rotor.angle_rad += 0.5 * step_s * (before + rotor.rate_rad_s);

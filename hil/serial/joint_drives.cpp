@@ -24,7 +24,7 @@ DriveSettings joint_drive_settings(const SerialRobotConfig& robot, const BusesCo
   settings.gear = robot.gear;
   settings.fastest_counts_per_s = robot.fastest_counts_per_s;
   settings.servo_time_constant_s = robot.servo_time_constant_s;
-  settings.gives_torque = robot.gives_torque;
+  settings.is_torque_controlled = robot.is_torque_controlled;
   return settings;
 }
 

@@ -16,7 +16,7 @@ Vec3 against(const Vec3& velocity_m_s) {
   return (-1.0 / std::sqrt(dot(velocity_m_s, velocity_m_s) + kSlow_m_s * kSlow_m_s)) * velocity_m_s;
 }
 
-double funnel_length_m(const AdapterFigures& figures) { return figures.funnel_m - figures.entry_m; }
+double funnel_length_m(const AdapterParams& figures) { return figures.funnel_m - figures.entry_m; }
 
 // How deep the pin is in a wall, and the direction in which that grows fastest. Its elastic energy is half the
 // stiffness times the depth squared, without a jump anywhere: that is what keeps contacts from making energy.
@@ -25,7 +25,7 @@ struct Overlap {
   Vec3 gradient;
 };
 
-Overlap overlap_of(const AdapterFigures& figures, const Vec3& at_m) {
+Overlap overlap_of(const AdapterParams& figures, const Vec3& at_m) {
   const double before_face = at_m.z + funnel_length_m(figures);
   const double radius = std::hypot(at_m.x, at_m.y);
   if (before_face <= 0.0 || radius == 0.0) return {};
@@ -36,7 +36,7 @@ Overlap overlap_of(const AdapterFigures& figures, const Vec3& at_m) {
   return {into_wall, {at_m.x / radius, at_m.y / radius, -clearance.slope}};
 }
 
-Vec3 wall_force_N(const AdapterFigures& figures, const PinState& pin) {
+Vec3 wall_force_N(const AdapterParams& figures, const PinState& pin) {
   const auto [depth, gradient] = overlap_of(figures, pin.at_m);
   if (depth <= 0.0) return {};
   const double closing = dot(gradient, pin.velocity_m_s);
@@ -45,7 +45,7 @@ Vec3 wall_force_N(const AdapterFigures& figures, const PinState& pin) {
   return (-press) * gradient + (figures.friction * press * norm(gradient)) * against(sliding);
 }
 
-double spring_force_N(const AdapterFigures& figures, const PinState& pin) {
+double spring_force_N(const AdapterParams& figures, const PinState& pin) {
   if (pin.at_m.z <= 0.0) return 0.0;
   const double rate = pin.velocity_m_s.z, dry = -against({0.0, 0.0, rate}).z;
   const double force =
@@ -60,18 +60,18 @@ double stop_force_N(double stiffness_N_m, double damping_Ns_m, double stop_m, co
 
 }  // namespace
 
-PinClearance clearance_at(const AdapterFigures& figures, double depth_m) {
+PinClearance clearance_at(const AdapterParams& figures, double depth_m) {
   if (depth_m < 0.0) return {figures.entry_m - depth_m, -1.0};
   if (depth_m >= figures.depth_m) return {figures.full_m, 0.0};
   const double slope = (figures.full_m - figures.entry_m) / figures.depth_m;
   return {figures.entry_m + slope * depth_m, slope};
 }
 
-bool is_over_body(const AdapterFigures& figures, const PinState& pin) {
+bool is_over_body(const AdapterParams& figures, const PinState& pin) {
   return std::hypot(pin.at_m.x, pin.at_m.y) < figures.body_m;
 }
 
-Vec3 pin_force_N(const AdapterFigures& figures, const PinDefects& defects, const PinState& pin) {
+Vec3 pin_force_N(const AdapterParams& figures, const PinDefects& defects, const PinState& pin) {
   if (!is_over_body(figures, pin)) return {};
   Vec3 force = wall_force_N(figures, pin);
   force.z += spring_force_N(figures, pin);
@@ -80,7 +80,7 @@ Vec3 pin_force_N(const AdapterFigures& figures, const PinDefects& defects, const
   return force;
 }
 
-double latch_force_N(const AdapterFigures& figures, double closed_m, const PinState& pin) {
+double latch_force_N(const AdapterParams& figures, double closed_m, const PinState& pin) {
   return -figures.latch_N_m * (pin.at_m.z - closed_m) - figures.damping_Ns_m * pin.velocity_m_s.z;
 }
 

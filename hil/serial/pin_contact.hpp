@@ -9,7 +9,7 @@
 namespace liana::bench {
 
 // Assumed: the source says nothing of its adapter but what it holds and how deep it goes.
-struct AdapterFigures {
+struct AdapterParams {
   double circle_m = 0.25;   // radius on which the pins stand
   double body_m = 0.10;     // radius of the socket's body about each hole: beside it there is nothing to meet
   double funnel_m = 0.030;  // radial clearance at its mouth; it narrows at 45 deg
@@ -49,15 +49,15 @@ struct PinClearance {
   double radius_m;
   double slope;
 };
-PinClearance clearance_at(const AdapterFigures& figures, double depth_m);
+PinClearance clearance_at(const AdapterParams& figures, double depth_m);
 
 // Whether the socket's body is before or about the pin at all.
-bool is_over_body(const AdapterFigures& figures, const PinState& pin);
+bool is_over_body(const AdapterParams& figures, const PinState& pin);
 
 // Wall, face beside the funnel, spring, stop and what lies in the hole, on the pin [N].
-Vec3 pin_force_N(const AdapterFigures& figures, const PinDefects& defects, const PinState& pin);
+Vec3 pin_force_N(const AdapterParams& figures, const PinDefects& defects, const PinState& pin);
 
 // Of the latch that closed when the pin was at `closed_m` [N, along z].
-double latch_force_N(const AdapterFigures& figures, double closed_m, const PinState& pin);
+double latch_force_N(const AdapterParams& figures, double closed_m, const PinState& pin);
 
 }  // namespace liana::bench

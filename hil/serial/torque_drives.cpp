@@ -27,7 +27,7 @@ double TorqueDrives::rad_of(std::size_t i, double counts) const {
 
 void TorqueDrives::act(const FlexibleChain& arm, std::vector<RotorDrive>& out) {
   for (std::size_t i = 0; i < size(); ++i) {
-    if (at(i).gives_torque()) {
+    if (at(i).is_torque_controlled()) {
       const double rate_counts_s = sign(i) * arm.rotor_rate_rad_s(i) / arm_.robot.rad_per_count();
       const double felt_Nm = arm_.torque_gain[i] * sign(i) * arm.gear_Nm(i);
       out[i] = {true, sign(i) * at(i).torque_Nm(kLoop_s, felt_Nm, counts_of(i, arm.rotor_rad(i)), rate_counts_s), 0.0};

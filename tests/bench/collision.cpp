@@ -25,7 +25,7 @@ struct Scenario {
 };
 
 // An arm at a random pose among boxes of 0.1 to 0.6 m.
-Scenario scenario(const cable::RobotTable& robot, const cable::ThetaVector& theta, zhu2022::Random& random) {
+Scenario scenario(const cable::RobotParams& robot, const cable::ThetaVector& theta, zhu2022::Random& random) {
   Scenario out;
   const cable::LinkPoints points = link_points(robot, theta);
   for (std::int32_t link = 0; link + 1 < points.count; ++link)
@@ -159,7 +159,7 @@ void compare(const Scenario& ours, const FclScenario& fcl, const ccd_t& ccd) {
   }
 }
 
-void measure(Meter& meter, const cable::RobotTable& robot) {
+void measure(Meter& meter, const cable::RobotParams& robot) {
   zhu2022::Random random(4);
   const ccd_t ccd = ccd_settings();
   std::vector<Scenario> ours;

@@ -17,12 +17,12 @@ constexpr std::int32_t kIterations = 50;  // for near goals, at most
 
 struct Bench {
   Meter meter;
-  cable::RobotTable robot = zhu2022::table();
+  cable::RobotParams robot = zhu2022::table();
   HingeChain chain = hinge_chain(robot);
 };
 
 void forward(Bench& bench) {
-  const cable::RobotTable& robot = bench.robot;
+  const cable::RobotParams& robot = bench.robot;
   const auto poses = random_poses(robot, kCalls);
   for (const cable::ThetaVector& theta : poses) {
     const cable::ArmKinematics ours = forward_kinematics(robot, theta),
@@ -38,7 +38,7 @@ void forward(Bench& bench) {
 }
 
 void cables(Bench& bench) {
-  const cable::RobotTable& robot = bench.robot;
+  const cable::RobotParams& robot = bench.robot;
   const cable::CableLayout layout = cable_layout(robot);
   const auto poses = random_poses(robot, kCalls);
   for (const cable::ThetaVector& theta : poses) {
@@ -57,7 +57,7 @@ void cables(Bench& bench) {
 }
 
 // What a tick does, until the tip is there. Returns how often.
-std::int32_t solve_near(const cable::RobotTable& robot, const IkProblem& problem, cable::ThetaVector& theta) {
+std::int32_t solve_near(const cable::RobotParams& robot, const IkProblem& problem, cable::ThetaVector& theta) {
   theta = problem.from_rad;
   for (std::int32_t i = 1; i <= kIterations; ++i) {
     servo_ik(robot, {problem.tip_in_base, 0}, forward_kinematics(robot, theta), theta);
@@ -78,7 +78,7 @@ std::int32_t solve_near(const HingeChain& chain, const IkProblem& problem, Hinge
 }
 
 void near(Bench& bench) {
-  const cable::RobotTable& robot = bench.robot;
+  const cable::RobotParams& robot = bench.robot;
   const auto problems = near_problems(robot, kCalls);
   cable::ThetaVector theta{};
   HingeVector angle{};
@@ -116,7 +116,7 @@ void near(Bench& bench) {
 void random_goals(Bench& bench) {
   const auto problems = random_problems(bench.robot, kTargets);
   const auto solve = [&](std::size_t i) {
-    return solve::solve_goal(bench.robot, {problems[i].tip_in_base, {}, 0, {}, {}});
+    return inverse_kinematics::solve_goal(bench.robot, {problems[i].tip_in_base, {}, 0, {}, {}});
   };
   if (!RUNNING_ON_VALGRIND) {
     std::size_t solved = 0;

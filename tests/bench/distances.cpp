@@ -18,7 +18,7 @@ constexpr double kRadius_m = 0.03;
 
 // The scene panel_slit: the plates of its slit, and its ball.
 config::SceneConfig plates_and_ball() {
-  const solve::SlitMouth slit = panel_slit();
+  const inverse_kinematics::SlitMouth slit = panel_slit();
   const auto axis = [&](const Vec3& v) { return rotate(slit.frame_in_base.quaternion, v); };
   config::SceneConfig scene;
   for (const double side : {1.0, -1.0}) {
@@ -33,7 +33,7 @@ config::SceneConfig plates_and_ball() {
 }
 
 // Poses in the slit and anywhere.
-std::vector<ThetaVector> poses(const RobotTable& robot) {
+std::vector<ThetaVector> poses(const RobotParams& robot) {
   std::vector<ThetaVector> out = random_poses(robot, kCalls / 2);
   zhu2022::Random random(5);
   while (out.size() < kCalls) {
@@ -46,11 +46,11 @@ std::vector<ThetaVector> poses(const RobotTable& robot) {
 }
 
 void measure(Meter& meter) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const config::SceneConfig scene = plates_and_ball();
   std::vector<LinkPoints> points;
   for (const ThetaVector& theta : poses(robot)) points.push_back(link_points(robot, theta));
-  const std::int32_t apart = clearance::least_apart(robot.segment[0].theta_limit_rad);
+  const std::int32_t apart = clearance::min_apart(robot.segment[0].theta_limit_rad);
   meter.each("arm_clearance", "ours", kCalls,
              [&](std::size_t i) { return clearance::arm_clearance(points[i].axis(), kRadius_m, scene).distance_m(); });
   meter.each("arm_clearance", "every_pair", kCalls, [&](std::size_t i) {

@@ -22,7 +22,7 @@ constexpr double kLambda = 0.01;                              // damping of the 
 constexpr std::array<std::size_t, 4> kTurnOfRow{0, 1, 1, 0};  // odd, even, even, odd: pitch, yaw, yaw, pitch
 
 // (0,-90,odd) (l,0,even) (0,90,even) (l,0,odd), four times a segment.
-KDL::Chain dh_chain(const cable::RobotTable& robot) {
+KDL::Chain dh_chain(const cable::RobotParams& robot) {
   KDL::Chain chain;
   for (std::size_t m = 0; m < 5; ++m) {
     const double l = robot.segment[m].module_length_m;
@@ -62,7 +62,7 @@ KDL::JntArray all_joints(double angle_rad) {
 }
 
 struct Solvers {
-  explicit Solvers(const cable::RobotTable& robot) : chain(dh_chain(robot)) { wdls.setLambda(kLambda); }
+  explicit Solvers(const cable::RobotParams& robot) : chain(dh_chain(robot)) { wdls.setLambda(kLambda); }
 
   // Pose and Jacobian of the reduced angles: the columns of each theta summed.
   cable::ArmKinematics forward(const KDL::JntArray& q) {
@@ -95,7 +95,7 @@ struct Solvers {
   KDL::Jacobian jacobian{kJoints};
 };
 
-void forward(Meter& meter, const cable::RobotTable& robot, Solvers& solvers) {
+void forward(Meter& meter, const cable::RobotParams& robot, Solvers& solvers) {
   const auto poses = random_poses(robot, kCalls);
   std::vector<KDL::JntArray> joints;
   for (const cable::ThetaVector& theta : poses) {
@@ -108,7 +108,7 @@ void forward(Meter& meter, const cable::RobotTable& robot, Solvers& solvers) {
              [&](std::size_t i) { return solvers.forward(joints[i]).tip_in_base.position_m[0]; });
 }
 
-void near(Meter& meter, const cable::RobotTable& robot, Solvers& solvers) {
+void near(Meter& meter, const cable::RobotParams& robot, Solvers& solvers) {
   const auto problems = near_problems(robot, kCalls);
   const KDL::JntArray from = joints_of(problems[0].from_rad);
   KDL::JntArray q(kJoints);
@@ -134,14 +134,14 @@ void near(Meter& meter, const cable::RobotTable& robot, Solvers& solvers) {
   });
 }
 
-bool within_limits(const cable::RobotTable& robot, const KDL::JntArray& q) {
+bool within_limits(const cable::RobotParams& robot, const KDL::JntArray& q) {
   for (unsigned i = 0; i < kJoints; ++i) {
     if (std::fabs(q(i)) > robot.segment[i / 16].theta_limit_rad) return false;
   }
   return true;
 }
 
-void random_goals(Meter& meter, const cable::RobotTable& robot, Solvers& solvers) {
+void random_goals(Meter& meter, const cable::RobotParams& robot, Solvers& solvers) {
   const auto problems = random_problems(robot, kTargets);
   const KDL::JntArray from(kJoints);
   KDL::JntArray q(kJoints);
@@ -169,7 +169,7 @@ void random_goals(Meter& meter, const cable::RobotTable& robot, Solvers& solvers
 int main() try {
   using namespace liana::bench;
   Meter meter;
-  const liana::cable::RobotTable robot = liana::cable::zhu2022::table();
+  const liana::cable::RobotParams robot = liana::cable::zhu2022::table();
   Solvers solvers(robot);
   forward(meter, robot, solvers);
   near(meter, robot, solvers);

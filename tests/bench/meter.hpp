@@ -43,13 +43,13 @@ class Meter {
       for (std::size_t i = 0; i < calls; ++i) once(operation, version, [&] { return call(i); });
       return;
     }
-    double least_ns = std::numeric_limits<double>::max();
+    double min_ns = std::numeric_limits<double>::max();
     for (int round = 0; round < kRounds; ++round) {
-      least_ns = std::min(least_ns, time_ns([&] {
-                            for (std::size_t i = 0; i < calls; ++i) sink_ = call(i);
-                          }));
+      min_ns = std::min(min_ns, time_ns([&] {
+                          for (std::size_t i = 0; i < calls; ++i) sink_ = call(i);
+                        }));
     }
-    nanoseconds_[operation + " " + version].push_back(least_ns / static_cast<double>(calls));
+    nanoseconds_[operation + " " + version].push_back(min_ns / static_cast<double>(calls));
   }
 
   // One call consists of that many equal parts; the page shows one.

@@ -63,11 +63,11 @@ HingeKinematics walk(const HingeChain& chain, TrigOf&& trig_of) {
 
 }  // namespace
 
-HingeChain hinge_chain(const cable::RobotTable& table) {
+HingeChain hinge_chain(const cable::RobotParams& table) {
   HingeChain chain;
   std::size_t i = 0;
   for (std::int32_t m = 0; m < table.segment_count; ++m) {
-    const cable::SegmentTable& segment = table.segment[static_cast<std::size_t>(m)];
+    const cable::SegmentParams& segment = table.segment[static_cast<std::size_t>(m)];
     if (table.segment_count != 5 || segment.modules != 8)
       throw std::runtime_error("bench: the 80-hinge chain wants 5 segments of 8 modules");
     for (std::int32_t k = 0; k < segment.modules; ++k) {
@@ -91,7 +91,7 @@ HingeKinematics hinge_kinematics(const HingeChain& chain, const HingeVector& ang
   return walk(chain, [&](std::size_t i) { return sin_cos(angle_rad[i]); });
 }
 
-cable::ArmKinematics hinge_kinematics_summed(const cable::RobotTable& table, const HingeChain& chain,
+cable::ArmKinematics hinge_kinematics_summed(const cable::RobotParams& table, const HingeChain& chain,
                                              const cable::ThetaVector& theta_rad) {
   std::array<SinCos, cable::kMaxTheta> trig{};
   for (std::size_t k = 0; k < static_cast<std::size_t>(table.theta_count()); ++k) trig[k] = sin_cos(theta_rad[k]);

@@ -20,7 +20,7 @@ struct Hinge {
 using HingeChain = std::array<Hinge, kHinges>;
 
 // The hinges of a table of five segments with eight modules each; throws std::runtime_error on any other.
-HingeChain hinge_chain(const cable::RobotTable& table);
+HingeChain hinge_chain(const cable::RobotParams& table);
 
 struct HingeKinematics {
   Pose tip_in_base{};
@@ -36,7 +36,7 @@ HingeKinematics hinge_kinematics(const HingeChain& chain, const HingeVector& ang
 
 // The same with each theta's sine and cosine taken once, and the columns of each theta summed to 6x10 (eq. 3-12 of the
 // source).
-cable::ArmKinematics hinge_kinematics_summed(const cable::RobotTable& table, const HingeChain& chain,
+cable::ArmKinematics hinge_kinematics_summed(const cable::RobotParams& table, const HingeChain& chain,
                                              const cable::ThetaVector& theta_rad);
 
 // One step of damped least squares over 80 hinges: angle += J^T (J J^T + damping I)^-1 e, from their kinematics and the

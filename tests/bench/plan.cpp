@@ -13,36 +13,37 @@ namespace {
 
 constexpr std::int32_t kWaypoints = 12;
 
-plan::PlanRequest past_a_ball() {
+planner::PlanRequest past_a_ball() {
   config::SceneConfig scene;
   scene.spheres.push_back({"ball", {2.5, 0.0, 0.1}, 0.2});
-  return plan::request_between({0, -5, 0, -5, 0, -5, 0, 0, 0, 0}, {0, 5, 0, 5, 0, 5, 0, 0, 0, 0}, scene);
+  return planner::request_between({0, -5, 0, -5, 0, -5, 0, 0, 0, 0}, {0, 5, 0, 5, 0, 5, 0, 0, 0, 0}, scene);
 }
 
-plan::PlanRequest to_the_edge() {
-  return plan::request_between(zhu2022::kPrepare_deg, zhu2022::kPanelEdge_deg, plan::panel_slit());
+planner::PlanRequest to_the_edge() {
+  return planner::request_between(zhu2022::kPrepare_deg, zhu2022::kPanelEdge_deg, planner::panel_slit());
 }
 
-plan::PlanRequest into_the_slit() {
-  return plan::request_between(zhu2022::kPanelEdge_deg, zhu2022::kPressRod_deg, plan::panel_slit());
+planner::PlanRequest into_the_slit() {
+  return planner::request_between(zhu2022::kPanelEdge_deg, zhu2022::kPressRod_deg, planner::panel_slit());
 }
 
-void measure(Meter& meter, const std::string& operation, plan::PlanRequest request) {
+void measure(Meter& meter, const std::string& operation, planner::PlanRequest request) {
   request.waypoints = kWaypoints;
-  request.max_step_rad = plan::default_max_step_rad(request.robot.table, kWaypoints);
+  request.max_step_rad = planner::default_max_step_rad(request.robot.table, kWaypoints);
   for (const bool straight : {false, true}) {
-    plan::PlanControl control;
+    planner::PlanControl control;
     control.straight_start_only = straight;
-    plan::PlanResult result;
+    planner::PlanResult result;
     const std::string version = straight ? "ipopt_straight" : "ours";
     meter.once(operation, version, [&] {
-      result = plan::plan(request, control);
+      result = planner::plan(request, control);
       return result.objective;
     });
-    if (!straight && result.outcome != plan::PlanOutcome::solved)
+    if (!straight && result.outcome != planner::PlanOutcome::solved)
       throw std::runtime_error(operation + ": " + result.reason);
-    meter.note(operation, version,
-               std::string(plan::name_of(result.outcome)) + ", " + std::to_string(result.iterations) + " iterations");
+    meter.note(
+        operation, version,
+        std::string(planner::name_of(result.outcome)) + ", " + std::to_string(result.iterations) + " iterations");
   }
 }
 

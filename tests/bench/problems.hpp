@@ -21,7 +21,7 @@ constexpr std::size_t kSlowCalls = 16;  // the same where one call takes million
 constexpr std::size_t kTargets = 1000;  // random goals for success rates
 
 // Random poses, every theta within +-15 deg.
-inline std::vector<cable::ThetaVector> random_poses(const cable::RobotTable& robot, std::size_t count,
+inline std::vector<cable::ThetaVector> random_poses(const cable::RobotParams& robot, std::size_t count,
                                                     std::uint64_t seed = 1) {
   zhu2022::Random random(seed);
   std::vector<cable::ThetaVector> poses;
@@ -36,7 +36,7 @@ struct IkProblem {
 };
 
 // Targets 10 mm away in random directions, attitude unchanged.
-inline std::vector<IkProblem> near_problems(const cable::RobotTable& robot, std::size_t count) {
+inline std::vector<IkProblem> near_problems(const cable::RobotParams& robot, std::size_t count) {
   zhu2022::Random random(2);
   std::vector<IkProblem> problems;
   while (problems.size() < count) {
@@ -52,7 +52,7 @@ inline std::vector<IkProblem> near_problems(const cable::RobotTable& robot, std:
 }
 
 // Tips of random poses, from the straight arm.
-inline std::vector<IkProblem> random_problems(const cable::RobotTable& robot, std::size_t count) {
+inline std::vector<IkProblem> random_problems(const cable::RobotParams& robot, std::size_t count) {
   std::vector<IkProblem> problems;
   for (const cable::ThetaVector& theta : random_poses(robot, count, 3))
     problems.push_back({forward_kinematics(robot, theta).tip_in_base, {}});

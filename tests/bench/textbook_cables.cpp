@@ -29,12 +29,12 @@ Matrix3 about_y(double angle) {
 
 }  // namespace
 
-cable::CableVector textbook_lengths(const cable::RobotTable& table, const cable::CableLayout& layout,
+cable::CableVector textbook_lengths(const cable::RobotParams& table, const cable::CableLayout& layout,
                                     const cable::ThetaVector& theta_rad) {
   const double g = table.face_offset_m;
   cable::CableVector length_m{};
   for (std::size_t j = 0; j < static_cast<std::size_t>(table.segment_count); ++j) {
-    const cable::SegmentTable& passed = table.segment[j];
+    const cable::SegmentParams& passed = table.segment[j];
     const Matrix3 pitch = about_z(theta_rad[2 * j]), yaw = about_y(theta_rad[2 * j + 1]);
     for (std::int32_t k = 0; k < passed.modules; ++k) {
       const Matrix3 turn = k % 2 == 0 ? product(pitch, yaw) : product(yaw, pitch);
@@ -52,7 +52,7 @@ cable::CableVector textbook_lengths(const cable::RobotTable& table, const cable:
   return length_m;
 }
 
-cable::CableGeometry textbook_cables(const cable::RobotTable& table, const cable::CableLayout& layout,
+cable::CableGeometry textbook_cables(const cable::RobotParams& table, const cable::CableLayout& layout,
                                      const cable::ThetaVector& theta_rad) {
   cable::CableGeometry out;
   out.length_m = textbook_lengths(table, layout, theta_rad);

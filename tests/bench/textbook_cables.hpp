@@ -7,11 +7,11 @@
 namespace liana::bench {
 
 // Path of every cable from the first disc to its anchor [m]; of the layout only where the holes are.
-cable::CableVector textbook_lengths(const cable::RobotTable& table, const cable::CableLayout& layout,
+cable::CableVector textbook_lengths(const cable::RobotParams& table, const cable::CableLayout& layout,
                                     const cable::ThetaVector& theta_rad);
 
 // The same with d length / d theta, step 1e-5 rad: exact to about 1e-10 m/rad.
-cable::CableGeometry textbook_cables(const cable::RobotTable& table, const cable::CableLayout& layout,
+cable::CableGeometry textbook_cables(const cable::RobotParams& table, const cable::CableLayout& layout,
                                      const cable::ThetaVector& theta_rad);
 
 }  // namespace liana::bench

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "host/control/verification/judge_simulated.hpp"
-#include "host/control/verification/simulation_end.hpp"
+#include "host/control/verification/simulation_verifier.hpp"
 #include "host/model/simulation/simulation.hpp"
 #include "tests/bench/meter.hpp"
 #include "tests/firmware_like/ideal_drives.hpp"
@@ -31,7 +31,7 @@ using Motion = std::function<Setpoint(const Rig& rig, std::int32_t interval)>;
 
 class Verifier {
  public:
-  explicit Verifier(Meter& meter) : meter_(meter), image_(robot_) { prediction_.ticks.reserve(most_ticks_ * 2); }
+  explicit Verifier(Meter& meter) : meter_(meter), image_(robot_) { prediction_.ticks.reserve(max_ticks_ * 2); }
 
   // Carries out a motion from `start_deg` and counts the verification of some of its commands.
   void play(const std::string& name, const zhu2022::Degrees& start_deg, const Motion& motion) {
@@ -60,14 +60,15 @@ class Verifier {
   }
 
   void verify(const std::string& name, const Rig& rig, std::span<const cable::Telecommand> released,
-              const verify::Candidate<CableArm>& candidate) {
+              const verification::Candidate<CableArm>& candidate) {
     image_.next_tick = rig.now;
     image_.controller = rig.controller;
     image_.last_outputs = rig.out;
     bool passed = false;
     meter_.once("verify", name, [&] {
-      verify::Twin<CableArm>::run(image_, released, candidate, most_ticks_, prediction_);
-      const verify::ExecutionVerdict execution = verify::judge_execution<CableArm>(robot_, candidate, prediction_);
+      verification::Twin<CableArm>::run(image_, released, candidate, max_ticks_, prediction_);
+      const verification::ExecutionVerdict execution =
+          verification::judge_execution<CableArm>(robot_, candidate, prediction_);
       passed = execution.passed();
       text_ = execution.text;
       return execution.share;
@@ -76,15 +77,15 @@ class Verifier {
     if (!passed) throw std::runtime_error("bench: a command of " + name + " is refused: " + text_);
   }
 
-  void simulate(const std::string& name, const Rig& rig, const verify::Candidate<CableArm>& candidate) {
+  void simulate(const std::string& name, const Rig& rig, const verification::Candidate<CableArm>& candidate) {
     start_.theta_rad = rig.out.theta_measured_rad;
     start_.rate_rad_s = rig.out.theta_rate_rad_s;
     start_.tension_N = rig.out.tension_measured_N;
     // Whether it passes is no matter here: the published pose in the slit touches it, and costs as much as others.
     meter_.once("simulate", name, [&] {
-      verify::read_sequence(image_, candidate, prediction_, sequence_);
-      return verify::judge_simulated(rules_, sequence_, prediction_.comes_to_rest, simulation_.run(start_, sequence_),
-                                     too_near_)
+      verification::read_sequence(image_, candidate, prediction_, sequence_);
+      return verification::judge_simulated(rules_, sequence_, prediction_.comes_to_rest,
+                                           simulation_.run(start_, sequence_), too_near_)
           .share;
     });
   }
@@ -108,26 +109,26 @@ class Verifier {
   }
 
   // The tip's acceleration and jerk as the shipped table has them.
-  static RobotTable shipped() {
-    RobotTable robot = zhu2022::table();
+  static RobotParams shipped() {
+    RobotParams robot = zhu2022::table();
     robot.limits.tip_accel_m_s2 = 0.14;
     robot.limits.tip_jerk_m_s3 = 1.0;
     return robot;
   }
 
   Meter& meter_;
-  RobotTable robot_ = shipped();
+  RobotParams robot_ = shipped();
   std::uint64_t interval_ = static_cast<std::uint64_t>(robot_.interval_ticks);
-  std::size_t most_ticks_ = verify::max_stop_ticks(robot_.tick_s);
-  verify::TwinImage<CableArm> image_;
-  verify::ReleaseStep<CableArm> release_;
-  verify::Prediction<CableArm> prediction_;
+  std::size_t max_ticks_ = verification::max_stop_ticks(robot_.tick_s);
+  verification::TwinSnapshot<CableArm> image_;
+  verification::IssueStep<CableArm> release_;
+  verification::Prediction<CableArm> prediction_;
   config::SceneConfig scene_ = slit();
-  verify::MotionRules rules_{robot_, scene_, {}, {}};
-  simulate::Simulation simulation_{{robot_, 0.03, 0.4, 0.2}, scene_, verify::kEnough_m};
-  simulate::StartState start_;
-  verify::TooNear too_near_;
-  simulate::JointSequence sequence_;
+  verification::MotionRules rules_{robot_, scene_, {}, {}};
+  simulation::Simulation simulation_{{robot_, 0.03, 0.4, 0.2}, scene_, verification::kEnough_m};
+  simulation::StartState start_;
+  verification::TooNear too_near_;
+  simulation::JointSequence sequence_;
   std::string text_;
 };
 

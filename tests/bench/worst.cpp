@@ -43,14 +43,14 @@ double time_ns(cable::Controller& controller, const cable::Inputs& inputs, cable
 }
 
 // Least time of a tick from a copy of the controller.
-double least_time_ns(const cable::Controller& controller, const cable::Inputs& inputs) {
-  double least_ns = 1e300;
+double min_time_ns(const cable::Controller& controller, const cable::Inputs& inputs) {
+  double min_ns = 1e300;
   for (std::int32_t i = 0; i < kRepeats; ++i) {
     cable::Controller copy = controller;
     cable::Outputs outputs;
-    least_ns = std::min(least_ns, time_ns(copy, inputs, outputs));
+    min_ns = std::min(min_ns, time_ns(copy, inputs, outputs));
   }
-  return least_ns;
+  return min_ns;
 }
 
 struct Found {
@@ -93,7 +93,7 @@ class Search {
       cable::Outputs outputs;
       const double first_ns = time_ns(controller, inputs, outputs);
       if (first_ns > worst_ns && first_ns > enough_ns)
-        worst_ns = std::max(worst_ns, std::min(first_ns, least_time_ns(before, inputs)));
+        worst_ns = std::max(worst_ns, std::min(first_ns, min_time_ns(before, inputs)));
       return outputs;
     });
     keep({one, worst_ns});

@@ -10,7 +10,7 @@ namespace {
 // The next tick's Outputs; shorter where the file ends.
 template <class Arm>
 std::string next_of(std::istream& file) {
-  std::string bytes(record::serialised_outputs_size<Arm>(), '\0');
+  std::string bytes(recording::serialised_outputs_size<Arm>(), '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(file.gcount()));
   return bytes;
@@ -19,12 +19,12 @@ std::string next_of(std::istream& file) {
 template <class Arm>
 void note_first(const std::string& expected, const std::string& answered, Comparison& result) {
   result.first_place = std::max<std::uint64_t>(result.ticks, 1) - 1;
-  if (expected.size() == record::serialised_outputs_size<Arm>())
-    result.first_tick = record::outputs_from<Arm>(expected).tick;
+  if (expected.size() == recording::serialised_outputs_size<Arm>())
+    result.first_tick = recording::outputs_from<Arm>(expected).tick;
   const auto [at, end] = std::mismatch(expected.begin(), expected.end(), answered.begin(), answered.end());
   const bool both = at != expected.end() && end != answered.end();
   result.first_field =
-      both ? record::outputs_field_at<Arm>(static_cast<std::size_t>(at - expected.begin())) : "nothing";
+      both ? recording::outputs_field_at<Arm>(static_cast<std::size_t>(at - expected.begin())) : "nothing";
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ std::string outputs_of(std::uint64_t tick) {
   Outputs<Arm> outputs;
   outputs.tick = tick;
   std::string bytes;
-  record::append_serialised(bytes, outputs);
+  recording::append_serialised(bytes, outputs);
   return bytes;
 }
 
@@ -39,7 +39,7 @@ TYPED_TEST(BitsCompare, EqualTicksDoNotDiffer) {
 
 TYPED_TEST(BitsCompare, EverySingleBitOfOutputsIsComparedAndItsFieldNamed) {
   const std::string run = outputs_of<TypeParam>(7) + outputs_of<TypeParam>(8);
-  const std::size_t size = record::serialised_outputs_size<TypeParam>();
+  const std::size_t size = recording::serialised_outputs_size<TypeParam>();
   for (std::size_t byte = 0; byte < size; ++byte) {
     for (int bit = 0; bit < 8; ++bit) {
       std::string other = run;
@@ -49,7 +49,7 @@ TYPED_TEST(BitsCompare, EverySingleBitOfOutputsIsComparedAndItsFieldNamed) {
       ASSERT_EQ(result.differing_ticks, 1u) << "byte " << byte;
       ASSERT_EQ(result.first_tick, 8u);
       ASSERT_EQ(result.first_place, 1u);
-      ASSERT_EQ(result.first_field, record::outputs_field_at<TypeParam>(byte));
+      ASSERT_EQ(result.first_field, recording::outputs_field_at<TypeParam>(byte));
       ASSERT_FALSE(result.first_field.empty());
     }
   }

@@ -28,7 +28,7 @@ std::uint32_t held_of(const serial::Outputs&) { return 0; }
 template <class T>
 std::string whole(const T& value) {
   std::string bytes;
-  record::append_serialised(bytes, value);
+  recording::append_serialised(bytes, value);
   return bytes;
 }
 
@@ -45,18 +45,18 @@ struct RecordedRun {
 template <class Arm>
 RecordedRun<Arm> read(const std::string& directory, std::uint64_t limit) {
   RecordedRun<Arm> run;
-  record::RecordedCounts counts;
-  record::McapVisitor visitor;
+  recording::RecordedCounts counts;
+  recording::McapVisitor visitor;
   visitor.message = [&](const std::string& topic, std::uint32_t, std::uint64_t, std::string_view data) {
-    if (topic == record::kStartTopic) run.robot = record::parse_image<Arm>(data).table;
-    if (topic == record::kStartTopic) counts = record::counts_of(*run.robot);
-    if (topic == record::kInputsTopic && run.ticks.size() < limit)
-      run.ticks.push_back({whole(record::RecordingDecoder::recorded_inputs<Arm>(data, counts)), {}});
-    if (topic == record::kOutputsTopic && !run.ticks.empty() && run.ticks.back().outputs.empty())
-      run.ticks.back().outputs = whole(record::outputs_from<Arm>(data, counts));
+    if (topic == recording::kStartTopic) run.robot = recording::parse_image<Arm>(data).table;
+    if (topic == recording::kStartTopic) counts = recording::counts_of(*run.robot);
+    if (topic == recording::kInputsTopic && run.ticks.size() < limit)
+      run.ticks.push_back({whole(recording::RecordingDecoder::recorded_inputs<Arm>(data, counts)), {}});
+    if (topic == recording::kOutputsTopic && !run.ticks.empty() && run.ticks.back().outputs.empty())
+      run.ticks.back().outputs = whole(recording::outputs_from<Arm>(data, counts));
   };
-  const record::McapState state = record::read_mcap(directory + "/" + record::kRecordingFile, visitor);
-  if (state != record::McapState::kWhole || !run.robot || run.ticks.empty()) {
+  const recording::McapState state = recording::read_mcap(directory + "/" + recording::kRecordingFile, visitor);
+  if (state != recording::McapState::kWhole || !run.robot || run.ticks.empty()) {
     throw std::runtime_error("recording " + directory +
                              ": not whole, or it does not begin at the start of a run; record it again");
   }
@@ -66,10 +66,10 @@ RecordedRun<Arm> read(const std::string& directory, std::uint64_t limit) {
 // The same Inputs, but for the last bit of one motor position.
 template <class Arm>
 std::string one_bit_off(const std::string& recorded) {
-  Inputs<Arm> inputs = record::RecordingDecoder::inputs<Arm>(recorded);
+  Inputs<Arm> inputs = recording::RecordingDecoder::inputs<Arm>(recorded);
   inputs.drive[0].position_counts ^= 1;
   std::string bytes;
-  record::append_serialised(bytes, inputs);
+  recording::append_serialised(bytes, inputs);
   return bytes;
 }
 
@@ -82,7 +82,7 @@ class Maker {
   void append(const RecordedRun<Arm>& run) {
     mark(kRobotMark<Arm>);
     std::string table;
-    record::append_serialised(table, *run.robot);
+    recording::append_serialised(table, *run.robot);
     tape_ << table;
     controller_.emplace(*run.robot);
     for (std::size_t i = 0; i < run.ticks.size(); ++i) {
@@ -98,9 +98,9 @@ class Maker {
     mark(Mark::kTick);
     tape_ << (summary_.mission_ticks == options_.flip_at ? one_bit_off<Arm>(recorded.inputs) : recorded.inputs);
     expected_ << recorded.outputs;
-    out_ = record::outputs_from<Arm>(recorded.outputs);
+    out_ = recording::outputs_from<Arm>(recorded.outputs);
     note_faults(out_);
-    controller_->tick(record::RecordingDecoder::inputs<Arm>(recorded.inputs));
+    controller_->tick(recording::RecordingDecoder::inputs<Arm>(recorded.inputs));
     ++summary_.mission_ticks;
     const bool changed = out_.state != state_ || held_of(out_) != held_mask_;
     since_change_ = changed ? 0 : since_change_ + 1;
@@ -128,13 +128,13 @@ class Maker {
 
   void follow(const RecordedRun<Arm>& run, std::size_t next, const WhatIf<Arm>& what_if, std::size_t drive) {
     for (std::uint32_t age = 0; age < what_if.ticks && next + age < run.ticks.size(); ++age) {
-      Inputs<Arm> inputs = record::RecordingDecoder::inputs<Arm>(run.ticks[next + age].inputs);
+      Inputs<Arm> inputs = recording::RecordingDecoder::inputs<Arm>(run.ticks[next + age].inputs);
       what_if.change(inputs, age, drive);
       const Outputs<Arm> outputs = controller_->tick(inputs);
       note_faults(outputs);
       std::string asked, answered;
-      record::append_serialised(asked, inputs);
-      record::append_serialised(answered, outputs);
+      recording::append_serialised(asked, inputs);
+      recording::append_serialised(answered, outputs);
       mark(Mark::kTick);
       tape_ << asked;
       expected_ << answered;
@@ -176,16 +176,16 @@ std::uint64_t append_cases(std::istream& lines, std::ostream& tape, std::ostream
   std::uint64_t ticks = 0;
   const worst::Tick tick = [&](cable::Controller& controller, const cable::Inputs& inputs) {
     std::string asked, answered;
-    record::append_serialised(asked, inputs);
+    recording::append_serialised(asked, inputs);
     const cable::Outputs outputs = controller.tick(inputs);
-    record::append_serialised(answered, outputs);
+    recording::append_serialised(answered, outputs);
     tape.put(static_cast<char>(Mark::kTick)) << asked;
     expected << answered;
     ++ticks;
     return outputs;
   };
   std::string table;
-  record::append_serialised(table, cable::zhu2022::table());
+  recording::append_serialised(table, cable::zhu2022::table());
   for (const worst::Case& one : worst::read_cases(lines)) {
     tape.put(static_cast<char>(Mark::kRobot)) << table;
     worst::play(one, worst::started(one, tick), tick);

@@ -22,7 +22,7 @@ std::string next_of(std::istream& file, std::size_t size) {
 
 Count count_from(const std::string& bytes) {
   Count count{};
-  record::Reader reader(bytes);
+  recording::Reader reader(bytes);
   reader("clocks", count.clocks);
   reader("stack_bytes", count.stack_bytes);
   return count;
@@ -52,11 +52,11 @@ MeterSummary summarise(std::istream& outputs, std::istream& meter) {
   const double per_clock = instructions_per_clock(next_of(meter, sizeof(Count)));
   std::vector<double> enabled;
   for (;;) {
-    const std::string answer = next_of(outputs, record::serialised_outputs_size<Arm>()),
+    const std::string answer = next_of(outputs, recording::serialised_outputs_size<Arm>()),
                       counted = next_of(meter, sizeof(Count));
     if (answer.empty() != counted.empty()) throw std::runtime_error("meter: not one count for each tick");
     if (answer.empty()) break;
-    const Outputs<Arm> out = record::outputs_from<Arm>(answer);
+    const Outputs<Arm> out = recording::outputs_from<Arm>(answer);
     const Count count = count_from(counted);
     const double instructions = per_clock * count.clocks;
     ++result.ticks;

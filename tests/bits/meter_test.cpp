@@ -19,7 +19,7 @@ constexpr Count kCalibration{kCalibrationInstructions / 5 * 4, 0};  // 1.25 inst
 
 std::string bytes_of(const std::vector<Count>& counts) {
   std::string bytes;
-  record::Writer writer(bytes);
+  recording::Writer writer(bytes);
   for (const Count& count : counts) {
     writer("clocks", count.clocks);
     writer("stack_bytes", count.stack_bytes);
@@ -33,7 +33,7 @@ std::string ticks_in(const std::vector<OperatingState>& states) {
   for (const OperatingState state : states) {
     ++outputs.tick;
     outputs.state = state;
-    record::append_serialised(bytes, outputs);
+    recording::append_serialised(bytes, outputs);
   }
   return bytes;
 }

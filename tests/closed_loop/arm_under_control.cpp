@@ -36,7 +36,7 @@ std::uint16_t status_after(std::uint16_t controlword) {
 ArmUnderControl::ArmUnderControl(const PlantSetup& setup, const std::string& told)
     : ArmUnderControl(setup, robot_table(told.empty() ? setup.physics : told)) {}
 
-ArmUnderControl::ArmUnderControl(const PlantSetup& setup, const cable::RobotTable& table)
+ArmUnderControl::ArmUnderControl(const PlantSetup& setup, const cable::RobotParams& table)
     : table_(table), plant_(setup), controller_(table_) {
   const cable::CableLayout layout = cable_layout(table_);
   for (std::size_t c = 0; c < as_index(table_.cable_count()); ++c) {
@@ -65,7 +65,7 @@ void ArmUnderControl::read_drives() {
   const cable::CableVector payout = plant_.measured_payout_m();
   const cable::CableVector tension = plant_.measured_tension_N();
   for (std::size_t c = 0; c < as_index(table_.cable_count()); ++c) {
-    const cable::DriveTable& drive = table_.drive[c];
+    const cable::DriveParams& drive = table_.drive[c];
     answer(c, out_.drive[c].controlword);
     in_.drive[c].position_counts = to_counts(counts_at_payout(drive, zero_payout_m_[c], payout[c])).value;
     in_.drive[c].torque_permille = narrow<std::int16_t>(to_counts(tension[c] / drive.newtons_per_permille).value);

@@ -27,7 +27,7 @@ class ArmUnderControl {
   // Plant and core with drives off; `told` names the friction that the core believes (empty: the plant's physics).
   explicit ArmUnderControl(const PlantSetup& setup, const std::string& told = "");
   // The same with a table that need not be the shipped one.
-  ArmUnderControl(const PlantSetup& setup, const cable::RobotTable& table);
+  ArmUnderControl(const PlantSetup& setup, const cable::RobotParams& table);
 
   // Homing, enable, pretension ramp; throws std::runtime_error with the first fault when the arm is not enabled in 10
   // s.
@@ -49,7 +49,7 @@ class ArmUnderControl {
   const cable::Inputs& inputs() const { return in_; }
   const cable::Controller& controller() const { return controller_; }
   Plant& plant() { return plant_; }
-  const cable::RobotTable& table() const { return table_; }
+  const cable::RobotParams& table() const { return table_; }
   TruthError error_against(const cable::ThetaVector& theta_rad) const;
   TruthError error_against_command() const { return error_against(out_.theta_command_rad); }
 
@@ -58,7 +58,7 @@ class ArmUnderControl {
   void answer(std::size_t drive, std::uint16_t controlword);
   cable::CableVector targets_m() const;
 
-  cable::RobotTable table_;
+  cable::RobotParams table_;
   cable::CableVector zero_payout_m_{};
   Plant plant_;
   cable::Controller controller_;

@@ -81,7 +81,7 @@ Stop stop_of(ArmUnderControl& arm) {
     rate = now;
     if (arm.outputs().at_rest == 0) stop.rest_s = t_s;
   }
-  stop.least_N = arm.plant().take_load().least_motor_N;
+  stop.least_N = arm.plant().take_load().min_motor_N;
   stop.faults = arm.outputs().faults.count;
   return stop;
 }

@@ -5,10 +5,10 @@
 #include <functional>
 
 #include "arm_under_control.hpp"
-#include "firmware_like/cable/arm/cable_watch.hpp"
+#include "firmware_like/cable/arm/cable_monitor.hpp"
 #include "firmware_like/math/trig.hpp"
+#include "firmware_like/safety/drive_link_monitor.hpp"
 #include "firmware_like/safety/faults.hpp"
-#include "firmware_like/safety/link_watch.hpp"
 #include "fixture.hpp"
 
 namespace liana::closed_loop {

@@ -30,9 +30,9 @@ class Pushed {
     arm.move_joints(named_pose_rad("panel_edge"), seconds,
                     [&](ArmUnderControl&) { push((time_s_ - begin_s) / kRise_s); });
   }
-  const cable::ContactReport& told() const { return arm.outputs().contact; }
+  const cable::ContactStatus& told() const { return arm.outputs().contact; }
   // What is told lies within so many of its deviations of the truth, along every axis.
-  double most_deviations() const {
+  double max_deviations() const {
     double most = 0.0;
     for (std::size_t i = 0; i < 3; ++i)
       most = std::fmax(most, std::fabs(told().force_N[i] - push_N_[i]) / told().sd_N[i]);
@@ -73,7 +73,7 @@ TEST(ContactForce, APushOnARestingArmIsKnownWithinItsDeviationAndADitherMakesItS
   ASSERT_EQ(push.arm.outputs().faults.count, 0);
   EXPECT_EQ(push.told().state, cable::ContactState::kStuck);
   EXPECT_LE(push.error_N(), 1.5);
-  EXPECT_LE(push.most_deviations(), 3.0);
+  EXPECT_LE(push.max_deviations(), 3.0);
   const Vec3 stuck_sd_N = push.told().sd_N;
 
   cable::Setpoint setpoint;
@@ -102,7 +102,7 @@ TEST(ContactForce, APushOnARestingArmIsKnownWithinItsDeviationAndADitherMakesItS
   EXPECT_LE(most_N, push.arm.table().tension.ceiling_free_N);
   EXPECT_LE(largest_step_N, 2.0) << "of a cable's plan in a tick: nothing jumps";
   EXPECT_LE(push.error_N(), 0.6);
-  EXPECT_LE(push.most_deviations(), 3.0);
+  EXPECT_LE(push.max_deviations(), 3.0);
   EXPECT_LT(norm(push.told().sd_N), norm(stuck_sd_N));  // of the whole force; one axis may be as unsure as before
 }
 

@@ -28,9 +28,9 @@ DrawnHand::DrawnHand(std::uint64_t seed, const HandBounds& bounds) : state_(seed
     if (std::ranges::any_of(channels_, [axis](const auto& c) { return c.first == axis; })) continue;
     const bool turns = axis >= 3;
     Channel c;
-    c.most_speed = (0.15 + 0.85 * uniform()) * (turns ? bounds.rate_rad_s : bounds.speed_m_s);
-    c.most_accel = (0.1 + 0.9 * uniform()) * (turns ? bounds.accel_rad_s2 : bounds.accel_m_s2);
-    c.most_way = (0.2 + 0.8 * uniform()) * (turns ? bounds.turn_rad : bounds.way_m);
+    c.max_speed = (0.15 + 0.85 * uniform()) * (turns ? bounds.rate_rad_s : bounds.speed_m_s);
+    c.max_accel = (0.1 + 0.9 * uniform()) * (turns ? bounds.accel_rad_s2 : bounds.accel_m_s2);
+    c.max_way = (0.2 + 0.8 * uniform()) * (turns ? bounds.turn_rad : bounds.way_m);
     c.period_s = 0.6 + 4.0 * uniform();
     c.chirp = 0.05 + 0.3 * uniform();
     name_ += " " + std::to_string(axis);
@@ -41,21 +41,21 @@ DrawnHand::DrawnHand(std::uint64_t seed, const HandBounds& bounds) : state_(seed
 double DrawnHand::target(Channel& c, double time_s) {
   switch (kind_) {
     case HandKind::kWave: {
-      const double period_s = std::max(c.period_s, 4.0 * c.most_way / c.most_speed);
-      return std::sin(2.0 * 3.14159265358979 * time_s / period_s) > 0.0 ? c.most_way : -c.most_way;
+      const double period_s = std::max(c.period_s, 4.0 * c.max_way / c.max_speed);
+      return std::sin(2.0 * 3.14159265358979 * time_s / period_s) > 0.0 ? c.max_way : -c.max_way;
     }
     case HandKind::kChirp:
-      return c.most_way * std::sin(2.0 * 3.14159265358979 * (0.1 + 0.5 * c.chirp * time_s) * time_s);
+      return c.max_way * std::sin(2.0 * 3.14159265358979 * (0.1 + 0.5 * c.chirp * time_s) * time_s);
     case HandKind::kSteps:
       if (time_s >= c.until_s) {
         c.until_s = time_s + 0.3 + 2.0 * uniform();
-        c.target = c.most_way * (2.0 * uniform() - 1.0);
+        c.target = c.max_way * (2.0 * uniform() - 1.0);
       }
       return c.target;
     case HandKind::kWalk:
       if (time_s >= c.until_s) {
         c.until_s = time_s + 0.1 + 0.4 * uniform();
-        c.target = std::clamp(c.target + 0.6 * c.most_way * (2.0 * uniform() - 1.0), -c.most_way, c.most_way);
+        c.target = std::clamp(c.target + 0.6 * c.max_way * (2.0 * uniform() - 1.0), -c.max_way, c.max_way);
       }
       return c.target;
   }
@@ -64,9 +64,9 @@ double DrawnHand::target(Channel& c, double time_s) {
 
 void DrawnHand::advance(Channel& c, double time_s, double step_s) {
   const double error = target(c, time_s) - c.value;
-  const double stopping = std::sqrt(2.0 * 0.9 * c.most_accel * std::fabs(error));
-  const double wanted = std::copysign(std::min(c.most_speed, stopping), error);
-  c.rate += std::clamp(wanted - c.rate, -c.most_accel * step_s, c.most_accel * step_s);
+  const double stopping = std::sqrt(2.0 * 0.9 * c.max_accel * std::fabs(error));
+  const double wanted = std::copysign(std::min(c.max_speed, stopping), error);
+  c.rate += std::clamp(wanted - c.rate, -c.max_accel * step_s, c.max_accel * step_s);
   c.value += c.rate * step_s;
 }
 

@@ -31,7 +31,7 @@ class DrawnHand {
  private:
   // One coordinate: goes after a target that jumps within speed and acceleration.
   struct Channel {
-    double most_speed = 0.0, most_accel = 0.0, most_way = 0.0;
+    double max_speed = 0.0, max_accel = 0.0, max_way = 0.0;
     double period_s = 0.0, phase = 0.0, chirp = 0.0;
     double value = 0.0, rate = 0.0, target = 0.0, until_s = 0.0;
   };

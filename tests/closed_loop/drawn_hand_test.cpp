@@ -17,7 +17,7 @@ constexpr double kLed_s = 9.0, kBegins_s = 0.3, kLetsGo_s = 7.0;
 constexpr int kSamples = 2;  // in an interval
 
 struct LedByHand {
-  double least_motor_N = 1e9, most_contact_N = 0.0, most_tip_m_s = 0.0;
+  double min_motor_N = 1e9, max_contact_N = 0.0, max_tip_m_s = 0.0;
   std::size_t refused = 0;
   std::int32_t faults = 0;
 };
@@ -41,10 +41,10 @@ LedByHand lead_by_hand(const std::string& pose, std::uint64_t seed, const std::s
     }
     arm.interval([&](ArmUnderControl& now) {
       const Load load = now.plant().take_load();
-      out.least_motor_N = std::min(out.least_motor_N, load.least_motor_N);
-      out.most_contact_N = std::max(out.most_contact_N, load.contact_N);
+      out.min_motor_N = std::min(out.min_motor_N, load.min_motor_N);
+      out.max_contact_N = std::max(out.max_contact_N, load.contact_N);
       const Vec3 here_m = now.plant().tip_in_base().position_m;
-      out.most_tip_m_s = std::max(out.most_tip_m_s, norm(subtract(here_m, tip_m)) / now.table().tick_s);
+      out.max_tip_m_s = std::max(out.max_tip_m_s, norm(subtract(here_m, tip_m)) / now.table().tick_s);
       tip_m = here_m;
     });
   }
@@ -64,11 +64,11 @@ TEST(DrawnHand, LeadsTheArmWithoutSlackContactOrFault) {
   for (const auto& [pose, seed] : hands) {
     const std::string name = pose + std::string(", seed ") + std::to_string(seed);
     const LedByHand led = lead_by_hand(pose, seed);
-    measured(name + ": least tension at any motor", led.least_motor_N, "N");
-    measured(name + ": true tip", led.most_tip_m_s, "m/s");
+    measured(name + ": least tension at any motor", led.min_motor_N, "N");
+    measured(name + ": true tip", led.max_tip_m_s, "m/s");
     measured(name + ": commands refused", static_cast<double>(led.refused), "");
-    EXPECT_GE(led.least_motor_N, 10.0) << name;
-    EXPECT_EQ(led.most_contact_N, 0.0) << name;
+    EXPECT_GE(led.min_motor_N, 10.0) << name;
+    EXPECT_EQ(led.max_contact_N, 0.0) << name;
     EXPECT_EQ(led.faults, 0) << name;
   }
 }

@@ -20,7 +20,7 @@ const config::RobotConfig& robot(const std::string& physics) {
   return loaded.emplace(physics, config::load_robot(CLOSED_LOOP_DATA "/robot.json", physics, buses)).first->second;
 }
 
-const cable::RobotTable& robot_table(const std::string& physics) { return robot(physics).table; }
+const cable::RobotParams& robot_table(const std::string& physics) { return robot(physics).table; }
 
 cable::ThetaVector named_pose_rad(const std::string& name) {
   cable::ThetaVector theta{};

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_params.hpp"
 #include "firmware_like/math/pose.hpp"
 #include "host/model/config/config.hpp"
 
@@ -12,7 +12,7 @@ namespace liana::closed_loop {
 // What the host knows of the arm, and the core's table of it; `physics` chooses the friction that the core is told.
 // Read once per process.
 const config::RobotConfig& robot(const std::string& physics = "nominal");
-const cable::RobotTable& robot_table(const std::string& physics = "nominal");
+const cable::RobotParams& robot_table(const std::string& physics = "nominal");
 // Angles of a named pose of the robot [rad]; throws std::out_of_range for an unknown name.
 cable::ThetaVector named_pose_rad(const std::string& name);
 // Tip pose at a named pose, by the core's kinematics.

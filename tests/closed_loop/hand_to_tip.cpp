@@ -26,8 +26,8 @@ Setpoint goal_at(const Pose& tip, const Led& led) {
   return setpoint;
 }
 
-RobotTable table_with(const std::string& physics, const MotionLimits& limits) {
-  RobotTable table = robot_table(physics);
+RobotParams table_with(const std::string& physics, const MotionLimits& limits) {
+  RobotParams table = robot_table(physics);
   table.limits = limits;
   return table;
 }

@@ -8,7 +8,7 @@
 namespace liana::closed_loop {
 namespace {
 
-constexpr double kMostLag_s = 0.40;
+constexpr double kMaxLag_s = 0.40;
 constexpr double kLeast_N = 15.0;
 
 // Out of it: farther in, the shape would have to be led past the wall as well.
@@ -27,7 +27,7 @@ void expect_in_time(const std::string& name, const Led& led, double speed_m_s) {
   measured(name + ": swing without friction", exact.swing_mm, "mm");
   measured(name + ": swing, friction and spread", real.swing_mm, "mm");
   measured(name + ": least tension", real.least_N, "N");
-  EXPECT_LT(exact.lag_s, kMostLag_s);
+  EXPECT_LT(exact.lag_s, kMaxLag_s);
   EXPECT_GE(real.least_N, kLeast_N);
   EXPECT_EQ(exact.faults + real.faults, 0);
 }

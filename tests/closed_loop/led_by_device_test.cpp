@@ -35,7 +35,7 @@ class LedByDevice {
   explicit LedByDevice(std::uint64_t seed) : arm_(real_arm(kFree, seed), robot_table().limits), arbiter_(arm_.table()) {
     arm_.settle(kFree);
     arbiter::DeviceUse use;
-    use.kind = device::Kind::kHandles;
+    use.kind = device::Kind::kVrControllers;
     use.mapping.scale = kScale;
     use.speed_m_s = kLimit_m_s;
     arbiter_.use_device(arm_.outputs(), use);
@@ -57,7 +57,7 @@ class LedByDevice {
       if (next) in_force = *next;
     }
     EXPECT_EQ(arm_.outputs().faults.count, 0);
-    return arm_.plant().take_load().least_motor_N;
+    return arm_.plant().take_load().min_motor_N;
   }
 
  private:

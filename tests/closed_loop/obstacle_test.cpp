@@ -60,7 +60,7 @@ TEST(Obstacle, TheTipAloneOnAStraightWayLeadsTheArmThroughTheSphere) {
 
 // req:A42
 TEST(Obstacle, SteeringNodeThreeKeepsTheArmTenCentimetresOffTheSphere) {
-  const cable::RobotTable& table = robot_table();
+  const cable::RobotParams& table = robot_table();
   const Leg leg = first_leg(true);
   const Pose from = tip_at("prepare");
   const cable::CableLayout layout = cable_layout(table);

@@ -104,7 +104,7 @@ double Plant::sphere_clearance_m() const { return parts_->arm.clearance().sphere
 
 Load Plant::take_load() {
   const bench::LoadRecord record = parts_->arm.take_record();
-  return {record.contact_N, record.least_tension_N, record.least_motor_tension_N, record.most_motor_tension_N};
+  return {record.contact_N, record.least_tension_N, record.min_motor_tension_N, record.max_motor_tension_N};
 }
 
 void Plant::loosen(std::size_t cable, double length_m) { parts_->loose_m[cable] += length_m; }

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_params.hpp"
 #include "firmware_like/math/pose.hpp"
 
 namespace liana::closed_loop {
@@ -24,9 +24,9 @@ struct PlantSetup {
 // Extremes since the last take_load().
 struct Load {
   double contact_N = 0.0;
-  double least_N = 0.0;        // anywhere along any cable
-  double least_motor_N = 0.0;  // at the motor
-  double most_motor_N = 0.0;
+  double least_N = 0.0;      // anywhere along any cable
+  double min_motor_N = 0.0;  // at the motor
+  double max_motor_N = 0.0;
 };
 
 class Plant {

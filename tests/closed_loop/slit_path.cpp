@@ -40,8 +40,8 @@ void look(ArmUnderControl& arm, std::uint32_t at_zero, SlitRecord& record) {
 void finish(ArmUnderControl& arm, const Pose& goal, SlitRecord& record) {
   const Load load = arm.plant().take_load();
   record.least_N = load.least_N;
-  record.least_motor_N = load.least_motor_N;
-  record.most_motor_N = load.most_motor_N;
+  record.min_motor_N = load.min_motor_N;
+  record.max_motor_N = load.max_motor_N;
   record.contact_N = load.contact_N;
   const std::array<double, 6> error = pose_error(goal, arm.plant().tip_in_base());
   record.tip_goal_mm = 1000.0 * norm({error[0], error[1], error[2]});

@@ -36,8 +36,8 @@ struct SlitRecord {
   double x5_deg = 0.0;              // largest |X5| while the tip is in the slit
   double x4_deg = 0.0;              // largest |X4| since it was brought to 0
   double least_N = 1e9;             // tension anywhere
-  double least_motor_N = 1e9;
-  double most_motor_N = 0.0;
+  double min_motor_N = 1e9;
+  double max_motor_N = 0.0;
   double contact_N = 0.0;
   double estimate_deg = 0.0;  // largest error of measured theta, at the ends of the legs
   double tip_goal_mm = 0.0;   // end: true tip against the last goal, nothing but the core's open loop

@@ -56,12 +56,12 @@ TEST_P(SlitPath, StaysThreeMillimetresOffPanelAndWallAndFiveCentimetresOffTheSph
 
 TEST_P(SlitPath, KeepsEveryCableBetweenFloorAndCeiling) {
   const cable::TensionLimits& limits = robot_table().tension;
-  measured("least tension at a motor", record().least_motor_N, "N");
+  measured("least tension at a motor", record().min_motor_N, "N");
   measured("least tension anywhere", record().least_N, "N");
-  measured("largest tension", record().most_motor_N, "N");
-  EXPECT_GE(record().least_motor_N, limits.floor_motor_N);
+  measured("largest tension", record().max_motor_N, "N");
+  EXPECT_GE(record().min_motor_N, limits.floor_motor_N);
   EXPECT_GE(record().least_N, limits.floor_anywhere_N);
-  EXPECT_LE(record().most_motor_N, limits.ceiling_free_N);
+  EXPECT_LE(record().max_motor_N, limits.ceiling_free_N);
 }
 
 // Physics study, section 3: 4 to 7 mm with feed-forward; the camera repairs the rest.

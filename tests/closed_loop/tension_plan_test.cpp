@@ -15,7 +15,7 @@ PlantSetup exact_plant(const std::string& pose) { return {"ideal", 1, false, pos
 
 // Path and lead, shortened by the elongation of one constant tension: what a controller without a tension plan would
 // send.
-cable::CableVector geometric_payout_m(const cable::RobotTable& table, const cable::ThetaVector& theta_rad) {
+cable::CableVector geometric_payout_m(const cable::RobotParams& table, const cable::ThetaVector& theta_rad) {
   const cable::CableLayout layout = cable_layout(table);
   const cable::CableGeometry geometry = cable_geometry(table, layout, arm_trig(table, theta_rad));
   cable::CableVector payout{};
@@ -32,7 +32,7 @@ class TensionPlan : public ::testing::TestWithParam<const char*> {
 
 // Half of what the study's table gives at 40 N, for its cable is half as stiff: 7 mm at prepare, 10 mm at panel edge.
 TEST_P(TensionPlan, WithoutItAFrictionlessArmStandsMillimetresBesideItsPose) {
-  const cable::RobotTable& table = robot_table("ideal");
+  const cable::RobotParams& table = robot_table("ideal");
   Plant plant(exact_plant(pose()));
   plant.set_joint_damping(15.0);  // only to come to rest sooner
   const cable::CableVector payout = geometric_payout_m(table, named_pose_rad(pose()));

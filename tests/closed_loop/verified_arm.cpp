@@ -26,8 +26,9 @@ VerifiedArm::VerifiedArm(const PlantSetup& setup, bool with_scene)
     : zone_(zone_of(scene_if(with_scene))),
       arm_(setup),
       arbiter_(arm_.table(), zone_),
-      end_(simulate::arm_model(robot(setup.physics)),
-           verify::MotionRules{arm_.table(), scene_if(with_scene), zone_, {}, robot(setup.physics).module_radius_m}) {
+      end_(simulation::arm_model(robot(setup.physics)),
+           verification::MotionRules{
+               arm_.table(), scene_if(with_scene), zone_, {}, robot(setup.physics).module_radius_m}) {
   arm_.boot();
 }
 
@@ -40,7 +41,7 @@ void VerifiedArm::interval(const ArmUnderControl::Observer& observer) {
 void VerifiedArm::verify_next(const cable::Telecommand& in_force) {
   next_ = {};
   const auto interval = static_cast<std::uint64_t>(arm_.table().interval_ticks);
-  verify::TwinImage<CableArm> image(arm_.table());
+  verification::TwinSnapshot<CableArm> image(arm_.table());
   image.next_tick = arm_.inputs().tick + 1;
   image.fresh = false;
   image.controller = arm_.controller();
@@ -49,20 +50,23 @@ void VerifiedArm::verify_next(const cable::Telecommand& in_force) {
   const auto setpoint = arbiter_.next_setpoint(image.next_tick, arm_.outputs());
   end_.watch(image);
   if (!setpoint) return;
-  const verify::Candidate<CableArm> candidate = release_.candidate(*setpoint, 1, image.next_tick + interval, interval);
-  verify::Twin<CableArm>::run(image, {&in_force, 1}, candidate, verify::max_stop_ticks(arm_.table().tick_s),
-                              prediction_);
+  const verification::Candidate<CableArm> candidate =
+      release_.candidate(*setpoint, 1, image.next_tick + interval, interval);
+  verification::Twin<CableArm>::run(image, {&in_force, 1}, candidate, verification::max_stop_ticks(arm_.table().tick_s),
+                                    prediction_);
   end_.begin(image, candidate, prediction_);
-  verify::ExecutionVerdict execution = verify::judge_execution<CableArm>(arm_.table(), candidate, prediction_, zone_);
-  simulation_ = end_.verdict(verify::kWhenever);
-  verify::judge_model(arm_.table(), arm_.outputs(), execution);
+  verification::ExecutionVerdict execution =
+      verification::judge_execution<CableArm>(arm_.table(), candidate, prediction_, zone_);
+  simulation_ = end_.verdict(verification::kWhenever);
+  verification::judge_model(arm_.table(), arm_.outputs(), execution);
   if (const auto released = release_.release(candidate, execution, simulation_)) {
     next_ = *released;
     return;
   }
-  const verify::Verdict& worst = execution.passed() ? static_cast<const verify::Verdict&>(simulation_) : execution;
+  const verification::Verdict& worst =
+      execution.passed() ? static_cast<const verification::Verdict&>(simulation_) : execution;
   refused_.push_back({time_s(), worst.code, worst.text});
-  arbiter_.refused(worst.text, verify::may_swing_less(worst.code));
+  arbiter_.refused(worst.text, verification::may_swing_less(worst.code));
 }
 
 }  // namespace liana::closed_loop

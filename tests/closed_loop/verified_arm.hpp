@@ -7,8 +7,8 @@
 
 #include "arm_under_control.hpp"
 #include "host/control/arbiter/cable_arbiter.hpp"
-#include "host/control/verification/release_step.hpp"
-#include "host/control/verification/simulation_end.hpp"
+#include "host/control/verification/issue_step.hpp"
+#include "host/control/verification/simulation_verifier.hpp"
 #include "host/control/verification/twin.hpp"
 
 namespace liana::closed_loop {
@@ -17,7 +17,7 @@ class VerifiedArm {
  public:
   struct Refused {
     double time_s = 0.0;
-    verify::Refusal code = verify::Refusal::kNone;
+    verification::Refusal code = verification::Refusal::kNone;
     std::string text;
   };
 
@@ -39,11 +39,11 @@ class VerifiedArm {
   arbiter::SpeedZone zone_;
   ArmUnderControl arm_;
   arbiter::CableArbiter arbiter_;
-  verify::SimulationEnd<cable::CableArm> end_;
-  verify::ReleaseStep<cable::CableArm> release_;
-  verify::Prediction<cable::CableArm> prediction_;
+  verification::SimulationVerifier<cable::CableArm> end_;
+  verification::IssueStep<cable::CableArm> release_;
+  verification::Prediction<cable::CableArm> prediction_;
   cable::Telecommand next_{};  // in force from the next interval on
-  verify::SimulationVerdict simulation_;
+  verification::SimulationVerdict simulation_;
   std::vector<Refused> refused_;
 };
 

@@ -12,7 +12,7 @@
 #include "host/apps/mission_runner/evaluate.hpp"
 #include "host/base/json/json.hpp"
 #include "host/model/config/drive_types_of_buses.hpp"
-#include "tests/drives/drive_line.hpp"
+#include "tests/drives/drive_channel.hpp"
 #include "tests/message.hpp"
 
 namespace liana {
@@ -35,9 +35,9 @@ std::string bus_table(const std::string& type, const std::string& bench) {
   const std::string file = folder / (type + "-" + bench + ".lua");
   std::ofstream(file) << "local t = require 'buses.embedded_micro'\nt.drives = { { type = '" << type << "', bench = '"
                       << bench << "', nodes = { 1 } } }\nreturn t\n";
-  script::Activity activity;
-  script::Script script(script::ScriptLimits{}, LIANA_LUA_DIR, activity);
-  const std::string json = script::evaluate(script, LIANA_LUA_DIR, "buses", file);
+  mission_runner::Activity activity;
+  mission_runner::Script script(mission_runner::ScriptLimits{}, LIANA_LUA_DIR, activity);
+  const std::string json = mission_runner::evaluate(script, LIANA_LUA_DIR, "buses", file);
   std::filesystem::remove_all(folder);
   return json;
 }
@@ -55,8 +55,8 @@ bench::DriveSettings settings_of(const std::string& buses_json) {
   return settings;
 }
 
-canopen::DriveExpectation expectation_of(const std::string& buses_json) {
-  canopen::DriveExpectation drive = test::expectation();
+canopen::ExpectedDrive expectation_of(const std::string& buses_json) {
+  canopen::ExpectedDrive drive = test::expectation();
   drive.type = config::drive_types(config::parse_buses(buses_json, "b")).at(1);
   return drive;
 }

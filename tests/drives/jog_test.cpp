@@ -8,18 +8,18 @@
 #include <functional>
 
 #include "firmware_like/drive/pdo.hpp"
-#include "tests/drives/drive_line.hpp"
+#include "tests/drives/drive_channel.hpp"
 
 namespace liana {
 namespace {
 
-using desk::JogEnd;
+using commissioning::JogResult;
 
 constexpr double kRate_hz = 250.0, kBy = 6000.0, kSpeed = 8000.0, kRamp_s = 0.25;
 constexpr std::int32_t kStart = 1000;  // BootedDrive's
 
-canopen::DriveExpectation jogged_drive() {
-  canopen::DriveExpectation drive;
+canopen::ExpectedDrive jogged_drive() {
+  canopen::ExpectedDrive drive;
   drive.vendor = 0x4C49;
   drive.product = drive.revision = drive.serial.emplace(1);
   drive.counts_per_turn = 65536;
@@ -45,8 +45,8 @@ class JogLine : public ::testing::Test {
     EXPECT_EQ(line.boot.state(), canopen::BootState::kOperational) << line.refusals();
   }
 
-  static desk::JogRequest request(double by = kBy) {
-    desk::JogRequest out;
+  static commissioning::JogRequest request(double by = kBy) {
+    commissioning::JogRequest out;
     out.by_counts = by;
     out.counts_per_s = kSpeed;
     out.ramp_s = kRamp_s;
@@ -57,7 +57,7 @@ class JogLine : public ::testing::Test {
 
   // To its end; `each` may do something at every tick.
   void carry_out(
-      desk::Jog& jog, const std::function<void(int)>& each = [](int) {}) {
+      commissioning::Jog& jog, const std::function<void(int)>& each = [](int) {}) {
     for (int tick = 0; tick < 5000 && !jog.is_over(); ++tick) {
       each(tick);
       const DriveCommand told = jog.step(seen());
@@ -98,10 +98,10 @@ class JogLine : public ::testing::Test {
 TEST_F(JogLine, MovesByWhatWasAskedOnABoundedRampAndEndsDisabled) {
   for (const double by : {kBy, -kBy, 700.0}) {
     const double from = line.drive.motor().position_counts();
-    desk::Jog jog(request(by), kRate_hz);
+    commissioning::Jog jog(request(by), kRate_hz);
     targets.clear();
     carry_out(jog);
-    EXPECT_EQ(jog.end(), JogEnd::kArrived);
+    EXPECT_EQ(jog.end(), JogResult::kArrived);
     EXPECT_TRUE(jog.is_off());
     EXPECT_NEAR(line.drive.motor().position_counts() - from, by, 20.0);
     EXPECT_NEAR(jog.moved_counts(), by, 20.0);
@@ -118,11 +118,11 @@ TEST_F(JogLine, MovesByWhatWasAskedOnABoundedRampAndEndsDisabled) {
 }
 
 TEST_F(JogLine, AnInterruptBringsItToRestOnTheWayAndDisablesIt) {
-  desk::Jog jog(request(), kRate_hz);
+  commissioning::Jog jog(request(), kRate_hz);
   carry_out(jog, [&](int tick) {
     if (tick == 100) jog.interrupt();
   });
-  EXPECT_EQ(jog.end(), JogEnd::kInterrupted);
+  EXPECT_EQ(jog.end(), JogResult::kInterrupted);
   EXPECT_TRUE(jog.is_off());
   EXPECT_GT(moved(), 500.0);
   EXPECT_LT(moved(), kBy - 500.0);
@@ -130,42 +130,42 @@ TEST_F(JogLine, AnInterruptBringsItToRestOnTheWayAndDisablesIt) {
 }
 
 TEST_F(JogLine, AnInterruptBeforeItIsEnabledLeavesItDisabled) {
-  desk::Jog jog(request(), kRate_hz);
+  commissioning::Jog jog(request(), kRate_hz);
   carry_out(jog, [&](int tick) {
     if (tick == 2) jog.interrupt();
   });
-  EXPECT_EQ(jog.end(), JogEnd::kInterrupted);
+  EXPECT_EQ(jog.end(), JogResult::kInterrupted);
   EXPECT_EQ(line.drive.counts().quick_stops, 0U);
   EXPECT_NEAR(moved(), 0.0, 1.0);
   expect_disabled();
 }
 
 TEST_F(JogLine, AFaultOfTheDriveEndsItThere) {
-  desk::Jog jog(request(), kRate_hz);
+  commissioning::Jog jog(request(), kRate_hz);
   carry_out(jog, [&](int tick) {
     if (tick == 100) line.drive.raise_fault(0x7305);
   });
-  EXPECT_EQ(jog.end(), JogEnd::kFault);
+  EXPECT_EQ(jog.end(), JogResult::kFault);
   EXPECT_TRUE(jog.is_off());
   EXPECT_EQ(line.emergencies, std::vector<std::uint16_t>{0x7305});
   expect_disabled();
-  desk::Jog again(request(), kRate_hz);
+  commissioning::Jog again(request(), kRate_hz);
   carry_out(again);
-  EXPECT_EQ(again.end(), JogEnd::kFaultBefore);
+  EXPECT_EQ(again.end(), JogResult::kFaultBefore);
   expect_disabled();
-  desk::JogRequest clearing = request(-1000.0);
+  commissioning::JogRequest clearing = request(-1000.0);
   clearing.clears_fault = true;
-  desk::Jog cleared(clearing, kRate_hz);
+  commissioning::Jog cleared(clearing, kRate_hz);
   carry_out(cleared);
-  EXPECT_EQ(cleared.end(), JogEnd::kArrived);
+  EXPECT_EQ(cleared.end(), JogResult::kArrived);
 }
 
 TEST_F(JogLine, AMotorThatDoesNotFollowIsStopped) {
-  desk::Jog jog(request(), kRate_hz);
+  commissioning::Jog jog(request(), kRate_hz);
   carry_out(jog, [&](int tick) {
     if (tick == 60) line.drive.defects().stuck = true;
   });
-  EXPECT_EQ(jog.end(), JogEnd::kRanAway);
+  EXPECT_EQ(jog.end(), JogResult::kRanAway);
   EXPECT_LT(moved(), kBy - 500.0);
   EXPECT_GT(line.drive.counts().quick_stops, 0U);
   expect_disabled();
@@ -173,52 +173,52 @@ TEST_F(JogLine, AMotorThatDoesNotFollowIsStopped) {
 
 // A drive that does not limit its torque by 6072, or has no such object.
 TEST_F(JogLine, AMotorThatNeedsMoreTorqueThanItMayHaveIsStopped) {
-  desk::JogRequest weak = request();
+  commissioning::JogRequest weak = request();
   weak.most_torque_permille = 100.0;
-  desk::Jog light(weak, kRate_hz);
+  commissioning::Jog light(weak, kRate_hz);
   line.drive.set_measured(120.0);
   carry_out(light);
-  EXPECT_EQ(light.end(), JogEnd::kArrived) << "less than a quarter above it";
-  desk::Jog jog(weak, kRate_hz);
+  EXPECT_EQ(light.end(), JogResult::kArrived) << "less than a quarter above it";
+  commissioning::Jog jog(weak, kRate_hz);
   carry_out(jog, [&](int tick) {
     if (tick == 60) line.drive.set_measured(-126.0);
   });
-  EXPECT_EQ(jog.end(), JogEnd::kTorque);
+  EXPECT_EQ(jog.end(), JogResult::kTorque);
   EXPECT_LT(jog.moved_counts(), kBy - 500.0);
   expect_disabled();
 }
 
 TEST_F(JogLine, ADriveThatIsNotHeardAnyMoreIsStoppedAndNotTakenForDisabled) {
-  desk::Jog jog(request(), kRate_hz);
+  commissioning::Jog jog(request(), kRate_hz);
   carry_out(jog, [&](int tick) {
     if (tick == 60) line.drive.defects().no_reports = true;
   });
-  EXPECT_EQ(jog.end(), JogEnd::kReportsLost);
+  EXPECT_EQ(jog.end(), JogResult::kReportsLost);
   EXPECT_FALSE(jog.is_off()) << "nobody knows";
   expect_disabled();
 }
 
 TEST_F(JogLine, ALostHeartbeatStopsIt) {
-  desk::Jog jog(request(), kRate_hz);
+  commissioning::Jog jog(request(), kRate_hz);
   carry_out(jog, [&](int tick) {
     if (tick >= 60) ++heartbeat_age_ticks;
   });
-  EXPECT_EQ(jog.end(), JogEnd::kHeartbeatLost);
+  EXPECT_EQ(jog.end(), JogResult::kHeartbeatLost);
   EXPECT_LT(moved(), kBy - 500.0);
   expect_disabled();
 }
 
 TEST_F(JogLine, ADriveThatCannotBeEnabledIsGivenUp) {
   line.drive.set_safe_torque_off();
-  desk::Jog jog(request(), kRate_hz);
+  commissioning::Jog jog(request(), kRate_hz);
   carry_out(jog);
-  EXPECT_EQ(jog.end(), JogEnd::kNotEnabled);
+  EXPECT_EQ(jog.end(), JogResult::kNotEnabled);
   EXPECT_FALSE(jog.was_enabled());
   expect_disabled();
 }
 
 TEST(JogBounds, LetOutWhatLiesBetweenStartAndGoalAndNotFartherThanAStep) {
-  constexpr desk::JogBounds bounds{-50, 100, 10.0};
+  constexpr commissioning::JogBounds bounds{-50, 100, 10.0};
   for (const auto& [before, target, allowed] :
        {std::tuple{0, std::int64_t{10}, true}, std::tuple{0, std::int64_t{11}, false},
         std::tuple{0, std::int64_t{-10}, true}, std::tuple{0, std::int64_t{-11}, false},
@@ -230,11 +230,11 @@ TEST(JogBounds, LetOutWhatLiesBetweenStartAndGoalAndNotFartherThanAStep) {
 
 // The zero of an encoder may be anywhere: at the end of what 607A can say nothing wraps.
 TEST(JogBounds, AtTheEndOfTheNumbersItStops) {
-  desk::JogRequest request;
+  commissioning::JogRequest request;
   request.by_counts = 1000.0;
   request.counts_per_s = 5000.0;
   request.window_counts = 1e5;
-  desk::Jog jog(request, kRate_hz);
+  commissioning::Jog jog(request, kRate_hz);
   DriveFeedback seen{0x0637, 0, 2147483600, 0, 0, 0, 0, 1};
   std::int32_t most = 0;
   for (int i = 0; i < 1000 && !jog.is_over(); ++i) {
@@ -243,7 +243,7 @@ TEST(JogBounds, AtTheEndOfTheNumbersItStops) {
     most = std::max(most, told.target_counts);
     if ((told.controlword & 0x0F) != 0x0F) seen.statusword = 0x0250;
   }
-  EXPECT_EQ(jog.end(), JogEnd::kBounds);
+  EXPECT_EQ(jog.end(), JogResult::kBounds);
   EXPECT_GT(most, 2147483600);
 }
 

@@ -10,7 +10,7 @@
 #include <random>
 #include <set>
 
-#include "tests/drives/drive_line.hpp"
+#include "tests/drives/drive_channel.hpp"
 
 namespace liana {
 namespace {
@@ -122,8 +122,8 @@ MadeUp make_up(std::uint32_t seed) {
   return drive;
 }
 
-canopen::DriveExpectation expectation() {
-  canopen::DriveExpectation drive = test::expectation();
+canopen::ExpectedDrive expectation() {
+  canopen::ExpectedDrive drive = test::expectation();
   drive.serial = 1001;
   return drive;
 }
@@ -142,7 +142,7 @@ TEST(MadeUpDictionaries, EachBootsOrIsRefusedWithEveryReasonNamed) {
   std::set<Place> too_slow;
   for (std::uint32_t seed = 1; seed <= 50; ++seed) {
     const MadeUp drive = make_up(seed);
-    canopen::DriveExpectation expected = expectation();
+    canopen::ExpectedDrive expected = expectation();
     expected.type.times = drive.allowed;
     test::BootedDrive bench(expected, drive.settings);
     bench.power_us = as_us(drive.power_s);

@@ -13,12 +13,12 @@ namespace {
 using zhu2022::Random;
 
 // Where a hole of one cable is, in the frame of a disc `x_m` after the joint centre.
-Vec3 hole(const RobotTable& robot, double phase_rad, double x_m) {
+Vec3 hole(const RobotParams& robot, double phase_rad, double x_m) {
   return {x_m, robot.hole_radius_m * std::cos(phase_rad), robot.hole_radius_m * std::sin(phase_rad)};
 }
 
 // The same path measured with a string: hole to hole, joint by joint, in the order of the physical axes.
-double string_length_m(const RobotTable& robot, const ThetaVector& theta, std::size_t own_segment, double phase_rad) {
+double string_length_m(const RobotParams& robot, const ThetaVector& theta, std::size_t own_segment, double phase_rad) {
   const double g = robot.face_offset_m;
   double sum = 0.0;
   for (std::size_t m = 0; m <= own_segment; ++m) {
@@ -35,7 +35,7 @@ double string_length_m(const RobotTable& robot, const ThetaVector& theta, std::s
 
 // req:A11
 TEST(Cables, LengthsAreThoseOfAStringThroughTheHoles) {
-  for (const RobotTable& robot : {zhu2022::table(), zhu2022::uneven_table()}) {
+  for (const RobotParams& robot : {zhu2022::table(), zhu2022::uneven_table()}) {
     Random random(1);
     for (std::int32_t i = 0; i < 200; ++i) {
       const ThetaVector theta = random.theta(robot, 20.0);
@@ -52,7 +52,7 @@ TEST(Cables, LengthsAreThoseOfAStringThroughTheHoles) {
 }
 
 TEST(Cables, PartsAddUpToTheLength) {
-  const RobotTable robot = zhu2022::uneven_table();
+  const RobotParams robot = zhu2022::uneven_table();
   Random random(2);
   const CableGeometry geometry = geometry_at(robot, random.theta(robot, 20.0));
   for (std::size_t c = 0; c < 10; ++c) {
@@ -64,7 +64,7 @@ TEST(Cables, PartsAddUpToTheLength) {
 
 // req:A5
 TEST(Cables, ZeroLengthIsTheStraightWayToTheLastDisc) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const CableLayout layout = cable_layout(robot);
   for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
     const double modules = 8.0 * static_cast<double>(c / 3 + 1);
@@ -76,7 +76,7 @@ TEST(Cables, ZeroLengthIsTheStraightWayToTheLastDisc) {
 
 TEST(Cables, JacobianEqualsFiniteDifferencesAtZeroNearZeroAndElsewhere) {
   constexpr double kStep = 1e-5;
-  for (const RobotTable& robot : {zhu2022::table(), zhu2022::uneven_table()}) {
+  for (const RobotParams& robot : {zhu2022::table(), zhu2022::uneven_table()}) {
     Random random(3);
     for (std::int32_t i = 0; i < 100; ++i) {
       const ThetaVector theta = i == 0 ? ThetaVector{} : random.theta(robot, i < 10 ? 1e-8 / kDegree : 20.0);
@@ -95,7 +95,7 @@ TEST(Cables, JacobianEqualsFiniteDifferencesAtZeroNearZeroAndElsewhere) {
 }
 
 TEST(Cables, SegmentsBehindTheAnchorDoNotTouchACable) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   Random random(4);
   const CableGeometry geometry = geometry_at(robot, random.theta(robot, 20.0));
   for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
@@ -110,7 +110,7 @@ TEST(Cables, SegmentsBehindTheAnchorDoNotTouchACable) {
 // The lengths of three cables do not sum to a constant: that is why angles from lengths are a least-squares problem
 // (mission, A3).
 TEST(Cables, ThreeLengthsOfABentSegmentDoNotSumToTheStraightOnes) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   ThetaVector theta{};
   theta[0] = 15.0 * kDegree;
   const CableGeometry bent = geometry_at(robot, theta), straight = geometry_at(robot, ThetaVector{});
@@ -120,7 +120,7 @@ TEST(Cables, ThreeLengthsOfABentSegmentDoNotSumToTheStraightOnes) {
 }
 
 TEST(Cables, WrapIsTheBendOfAllJointsOfTheSegment) {
-  const RobotTable robot = zhu2022::uneven_table();
+  const RobotParams robot = zhu2022::uneven_table();
   Random random(5);
   for (std::int32_t i = 0; i < 100; ++i) {
     const ThetaVector theta = random.theta(robot, 20.0);

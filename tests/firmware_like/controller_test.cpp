@@ -67,7 +67,7 @@ TEST(Controller, PretensionComesAsARamp) {
   Inputs inputs = rig.drives.inputs(0);
   for (std::size_t c = 0; c < zhu2022::kCables; ++c)
     inputs.drive[c].position_counts += rig.robot.drive[c].direction * 300;  // 0.43 mm loose
-  std::int32_t most_counts = 0;
+  std::int32_t max_counts = 0;
   for (std::int32_t i = 0; i < 1300; ++i) {
     inputs.tick = rig.now++;
     inputs.request = i == 60 ? Request::kEnable : Request::kNone;
@@ -82,12 +82,12 @@ TEST(Controller, PretensionComesAsARamp) {
     for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
       DriveFeedback& drive = inputs.drive[c];
       drive.statusword = IdealDrives::answer_to(rig.out.drive[c].controlword, drive.statusword);
-      most_counts = std::max(most_counts, std::abs(rig.out.drive[c].target_counts - drive.position_counts));
+      max_counts = std::max(max_counts, std::abs(rig.out.drive[c].target_counts - drive.position_counts));
       drive.position_counts = rig.out.drive[c].target_counts;
     }
   }
   EXPECT_EQ(rig.out.state, OperatingState::kEnabled);
-  EXPECT_LE(most_counts, 3);  // 1 mm/s; the cables' top speed is 28 counts a tick
+  EXPECT_LE(max_counts, 3);  // 1 mm/s; the cables' top speed is 28 counts a tick
 }
 
 // req:A11 req:A17
@@ -108,7 +108,7 @@ TEST(Controller, FollowsATipTelecommandWithTheMeasuredArm) {
 TEST(Controller, FollowsAJointTelecommandExactly) {
   Rig rig;
   // These drives' arm has no mass: one that is told of mass looks pushed when it turns at once.
-  for (SegmentTable& segment : rig.robot.segment) segment.module_mass_kg = 0.0;
+  for (SegmentParams& segment : rig.robot.segment) segment.module_mass_kg = 0.0;
   rig.controller = decltype(rig.controller)(rig.robot);
   rig.enable();
   const ThetaVector goal = zhu2022::plus(rig.out.theta_command_rad, zhu2022::Random(1).theta(rig.robot, 1.0));
@@ -281,7 +281,7 @@ TEST(Controller, HeldAnglesOutOfTheirLimitsAreFault1001AndNeverFollowed) {
 
 // The last limit before the drives: cables never wind faster than the table says, whatever tension is planned.
 TEST(Controller, DrumsNeverTurnFasterThanTheTablesCableSpeed) {
-  RobotTable robot = zhu2022::table();
+  RobotParams robot = zhu2022::table();
   robot.limits.cable_speed_m_s = 1e-4;
   const ThetaVector pose = zhu2022::radians(zhu2022::kPrepare_deg);
   Controller controller(robot);

@@ -12,7 +12,7 @@ namespace {
 
 struct Bench {
   explicit Bench(double mu = 0.0) : robot(zhu2022::table(mu)) {}
-  RobotTable robot;
+  RobotParams robot;
   ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
   CableLayout layout = cable_layout(robot);
   ArmTrig trig = arm_trig(robot, theta);
@@ -89,7 +89,7 @@ TEST(Damping, TheShiftIsNeverMoreThanACorrection) {
 // amplitude after `time_s`.
 double amplitude_after(double frequency_hz, bool damped, double time_s) {
   const Bench bench;
-  const RobotTable& robot = bench.robot;
+  const RobotParams& robot = bench.robot;
   const double w = 2.0 * kPi * frequency_hz, start = 0.02 * kDegree;
   constexpr std::int32_t kSubsteps = 40;
   const double h = robot.tick_s / kSubsteps;

@@ -31,7 +31,7 @@ TEST(Dither, GrowsAndEndsWithoutAJumpHoweverItIsAskedFor) {
 }
 
 TEST(Dither, FitsWhereEveryTensionStaysBetweenFloorAndCeiling) {
-  const RobotTable table = zhu2022::table();
+  const RobotParams table = zhu2022::table();
   CableVector planned_N{};
   planned_N.fill(60.0);
   EXPECT_TRUE(dither_fits(table, planned_N, 0.3));

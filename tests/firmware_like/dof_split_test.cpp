@@ -13,7 +13,7 @@
 namespace liana::cable {
 namespace {
 
-using namespace solve;
+using namespace inverse_kinematics;
 
 using zhu2022::bit;
 using zhu2022::Random;
@@ -22,7 +22,7 @@ using zhu2022::Random;
 
 // req:A39
 TEST(DofSplit, TheRootOfTheLastSegmentsFollowsFromTheTipAndTheirAngles) {
-  for (const RobotTable& robot : {zhu2022::table(), zhu2022::uneven_table()}) {
+  for (const RobotParams& robot : {zhu2022::table(), zhu2022::uneven_table()}) {
     Random random(7);
     for (std::int32_t i = 0; i < 100; ++i) {
       const ThetaVector theta = random.theta(robot, 20.0);
@@ -42,8 +42,8 @@ TEST(DofSplit, TheRootOfTheLastSegmentsFollowsFromTheTipAndTheirAngles) {
 // To its end: S2's pose fixed, S1 solved for S2's root; together they put the tip where it should be.
 // req:A39
 TEST(DofSplit, SolvingTheFirstSegmentsForTheRootOfTheOthersPutsTheTipOnItsGoal) {
-  const RobotTable robot = zhu2022::table();
-  RobotTable first = robot;
+  const RobotParams robot = zhu2022::table();
+  RobotParams first = robot;
   first.segment_count = 4;
   ThetaVector theta = zhu2022::radians(zhu2022::kPressRod_deg);
   const Pose goal = forward_kinematics(robot, theta).tip_in_base;
@@ -62,7 +62,7 @@ TEST(DofSplit, SolvingTheFirstSegmentsForTheRootOfTheOthersPutsTheTipOnItsGoal) 
 }
 
 TEST(DofSplit, PlanarPitchesAreThoseOfTheLastSegments) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   EXPECT_EQ(planar_pitches(robot, 0), 0u);
   EXPECT_EQ(planar_pitches(robot, 1), bit(9));
   EXPECT_EQ(planar_pitches(robot, 2), bit(7) | bit(9));
@@ -74,7 +74,7 @@ TEST(DofSplit, PlanarPitchesAreThoseOfTheLastSegments) {
 
 // A straight arm along x into a slit whose mouth is at `mouth_m`.
 std::int32_t planar_of_straight_arm(double mouth_m, const PlanarSwitch& when, std::int32_t before) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const SlitMouth mouth{{{mouth_m, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, 2.0, 0.02, 1.0};
   return planar_segments(robot, link_points(robot, ThetaVector{}), mouth, when, before);
 }
@@ -99,7 +99,7 @@ TEST(DofSplit, OnTheWayOutSegmentsAreReleasedFartherAwayThanTheyWereTaken) {
 }
 
 TEST(DofSplit, AnArmBesideOrBehindTheSlitNeedsNoPlanarSegments) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const LinkPoints links = link_points(robot, ThetaVector{});
   const PlanarSwitch when{0.2, 0.05};
   const Quat level{1.0, 0.0, 0.0, 0.0};
@@ -111,7 +111,7 @@ TEST(DofSplit, AnArmBesideOrBehindTheSlitNeedsNoPlanarSegments) {
 // The published poses: nothing planar at the panel edge, segments 4 and 5 at the press rod.
 // req:A40
 TEST(DofSplit, ThePublishedPosesGetTheirCombinations) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const SlitMouth mouth = panel_slit();
   const auto planar_at = [&](const zhu2022::Degrees& theta_deg) {
     return planar_segments(robot, link_points(robot, zhu2022::radians(theta_deg)), mouth, PlanarSwitch{}, 0);

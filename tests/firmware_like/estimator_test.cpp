@@ -19,7 +19,7 @@ struct Measured {
   TensionRatio ratio{};
 };
 
-Measured measured_at(const RobotTable& robot, const ThetaVector& theta, const SlipState& slip) {
+Measured measured_at(const RobotParams& robot, const ThetaVector& theta, const SlipState& slip) {
   const CableLayout layout = cable_layout(robot);
   const ArmTrig trig = arm_trig(robot, theta);
   const CableGeometry geometry = cable_geometry(robot, layout, trig);
@@ -28,7 +28,7 @@ Measured measured_at(const RobotTable& robot, const ThetaVector& theta, const Sl
   return {payout_for(robot, layout, geometry.part_m, ratio, motor_N), motor_N, ratio};
 }
 
-CableModel model_at(const RobotTable& robot, const CableLayout& layout, const ThetaVector& theta) {
+CableModel model_at(const RobotParams& robot, const CableLayout& layout, const ThetaVector& theta) {
   CableModel model;
   model.theta_rad = theta;
   update_cable_geometry(robot, layout, arm_trig(robot, theta), model.geometry);
@@ -37,7 +37,7 @@ CableModel model_at(const RobotTable& robot, const CableLayout& layout, const Th
 }
 
 // As for an arm that is not commanded: the model follows the estimate.
-void run(const RobotTable& robot, const Measured& measured, std::int32_t ticks, EstimatorState& state) {
+void run(const RobotParams& robot, const Measured& measured, std::int32_t ticks, EstimatorState& state) {
   const CableLayout layout = cable_layout(robot);
   for (std::int32_t i = 0; i < ticks; ++i) {
     estimate(robot, layout, model_at(robot, layout, state.theta_rad), measured.ratio, measured.payout_m,
@@ -47,7 +47,7 @@ void run(const RobotTable& robot, const Measured& measured, std::int32_t ticks, 
 
 // req:A11
 TEST(Estimator, FindsAnyPoseFromZeroWithinThirtyTicks) {
-  for (const RobotTable& robot : {zhu2022::table(), zhu2022::uneven_table()}) {
+  for (const RobotParams& robot : {zhu2022::table(), zhu2022::uneven_table()}) {
     Random random(1);
     for (std::int32_t i = 0; i < 300; ++i) {
       const ThetaVector theta = random.theta(robot, 20.0);
@@ -62,7 +62,7 @@ TEST(Estimator, FindsAnyPoseFromZeroWithinThirtyTicks) {
 }
 
 TEST(Estimator, TakesTheElongationOutOfTheLengths) {
-  const RobotTable robot = zhu2022::table(0.0);
+  const RobotParams robot = zhu2022::table(0.0);
   const ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
   Measured measured = measured_at(robot, theta, SlipState{});
   EstimatorState right, wrong;
@@ -74,7 +74,7 @@ TEST(Estimator, TakesTheElongationOutOfTheLengths) {
 }
 
 TEST(Estimator, FollowsAMovingArmWithAFractionOfATicksMotion) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const ThetaVector step = Random(2).theta(robot, 2.0 * robot.tick_s);  // 2 deg/s
   ThetaVector theta{};
   EstimatorState state;
@@ -86,7 +86,7 @@ TEST(Estimator, FollowsAMovingArmWithAFractionOfATicksMotion) {
 }
 
 TEST(Estimator, AWrongZeroShowsInTheResidual) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   Measured measured = measured_at(robot, zhu2022::radians(zhu2022::kPrepare_deg), SlipState{});
   measured.payout_m[7] += 0.010;
   EstimatorState state;
@@ -95,7 +95,7 @@ TEST(Estimator, AWrongZeroShowsInTheResidual) {
 }
 
 TEST(Estimator, TakesTheFirstTensionAsItIsAndFiltersTheOthers) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   Measured measured = measured_at(robot, ThetaVector{}, SlipState{});
   EstimatorState state;
   run(robot, measured, 1, state);
@@ -108,7 +108,7 @@ TEST(Estimator, TakesTheFirstTensionAsItIsAndFiltersTheOthers) {
 
 // A wild measurement moves the estimate by a bounded step, and it comes back.
 TEST(Estimator, OneWildMeasurementIsBoundedAndForgotten) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const ThetaVector theta = zhu2022::radians(zhu2022::kPressRod_deg);
   const Measured measured = measured_at(robot, theta, SlipState{});
   EstimatorState state;
@@ -124,7 +124,7 @@ TEST(Estimator, OneWildMeasurementIsBoundedAndForgotten) {
 
 // The motors' angles serve as the place of linearisation: a deflected arm is found to second order.
 TEST(Estimator, FindsADeflectedArmToHalfTheSquareOfItsDeflection) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const CableLayout layout = cable_layout(robot);
   Random random(4);
   for (const double deflection_deg : {0.1, 0.3, 1.0, 3.0}) {
@@ -146,7 +146,7 @@ TEST(Estimator, FindsADeflectedArmToHalfTheSquareOfItsDeflection) {
 
 // req:A2 req:A11
 TEST(CableSolver, UndoesTheCableJacobian) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const CableLayout layout = cable_layout(robot);
   Random random(3);
   CableSolver solver;
@@ -163,7 +163,7 @@ TEST(CableSolver, UndoesTheCableJacobian) {
 }
 
 TEST(CableSolver, GivesZeroWhenNoCableTurnsAnAngle) {
-  RobotTable robot = zhu2022::table();
+  RobotParams robot = zhu2022::table();
   robot.hole_radius_m = 0.0;
   const CableLayout layout = cable_layout(robot);
   CableSolver solver;

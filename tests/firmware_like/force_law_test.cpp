@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "firmware_like/serial/adapter_watch.hpp"
+#include "firmware_like/serial/adapter_monitor.hpp"
 #include "firmware_like/serial/sensor_pdo.hpp"
 #include "firmware_like/serial/wrist.hpp"
 
@@ -14,8 +14,8 @@ namespace liana::serial {
 namespace {
 
 // M_d 500 kg and 100 kg.m2, K_D 4000, 3000 and 1500, K_P 3000 and 900.
-PushGains gains() {
-  PushGains gains{};
+InsertGains gains() {
+  InsertGains gains{};
   gains[kPushMass] = 500.0;
   gains[kPushInertia] = 100.0;
   gains[kAxialDamping] = 4000.0;
@@ -38,7 +38,7 @@ LawInputs free_push() {
 
 struct Row {
   const char* why;
-  PushLaw law;
+  InsertLaw law;
   Wrench given;
   Vec3 away_m;
   Vec3 drives_N;
@@ -47,18 +47,18 @@ struct Row {
 
 TEST(ForceLaw, DrivesTheTipAsWorkedOutByHand) {
   const Row rows[] = {
-      {"no force yet: all of it", PushLaw::kForce, {}, {}, {0, 0, 30}, {0, 0, 0}},
-      {"the set force is met", PushLaw::kForce, {{0, 0, 30}, {}}, {}, {0, 0, 0}, {0, 0, 0}},
-      {"across the axis 1 N is nothing", PushLaw::kForce, {{0.6, 0.8, 30}, {}}, {}, {0, 0, 0}, {0, 0, 0}},
-      {"and of more the rest counts", PushLaw::kForce, {{3, 4, 30}, {}}, {}, {-2.4, -3.2, 0}, {0, 0, 0}},
-      {"turning has 0.5 N m", PushLaw::kForce, {{0, 0, 30}, {0, 1.5, 0}}, {}, {0, 0, 0}, {0, -1.0, 0}},
+      {"no force yet: all of it", InsertLaw::kForce, {}, {}, {0, 0, 30}, {0, 0, 0}},
+      {"the set force is met", InsertLaw::kForce, {{0, 0, 30}, {}}, {}, {0, 0, 0}, {0, 0, 0}},
+      {"across the axis 1 N is nothing", InsertLaw::kForce, {{0.6, 0.8, 30}, {}}, {}, {0, 0, 0}, {0, 0, 0}},
+      {"and of more the rest counts", InsertLaw::kForce, {{3, 4, 30}, {}}, {}, {-2.4, -3.2, 0}, {0, 0, 0}},
+      {"turning has 0.5 N m", InsertLaw::kForce, {{0, 0, 30}, {0, 1.5, 0}}, {}, {0, 0, 0}, {0, -1.0, 0}},
       {"impedance: stiffness less what is given",
-       PushLaw::kImpedance,
+       InsertLaw::kImpedance,
        {{0, 0, 6}, {}},
        {0, 0, 0.01},
        {0, 0, 24},
        {0, 0, 0}},
-      {"impedance has no dead band", PushLaw::kImpedance, {{0.5, 0, 0}, {}}, {}, {-0.5, 0, 0}, {0, 0, 0}},
+      {"impedance has no dead band", InsertLaw::kImpedance, {{0.5, 0, 0}, {}}, {}, {-0.5, 0, 0}, {0, 0, 0}},
   };
   for (const Row& row : rows) {
     LawInputs in = free_push();
@@ -77,7 +77,7 @@ TEST(ForceLaw, InFreeMotionTheTipComesToSetForceOverDamping) {
   Twist v;
   double after_time_constant = 0.0;
   for (int i = 1; i <= 1000; ++i) {
-    v = law_step(PushLaw::kForce, gains(), free_push(), v);
+    v = law_step(InsertLaw::kForce, gains(), free_push(), v);
     if (i == 31) after_time_constant = v.linear_m_s[2];
   }
   EXPECT_NEAR(v.linear_m_s[2], 30.0 / 4000.0, 1e-9);
@@ -89,7 +89,7 @@ TEST(ForceLaw, InFreeMotionTheTipComesToSetForceOverDamping) {
 TEST(ForceLaw, WhateverTheGainsItNeverSwingsBackOnItsOwn) {
   for (const double mass : {1e-6, 1.0, 5000.0}) {
     for (const double damping : {1e-6, 100.0, 1e6}) {
-      PushGains wild = gains();
+      InsertGains wild = gains();
       wild[kPushMass] = mass;
       LawInputs in = free_push();
       in.set = {};
@@ -97,7 +97,7 @@ TEST(ForceLaw, WhateverTheGainsItNeverSwingsBackOnItsOwn) {
       Twist v{{0, 0, 0.1}, {}};
       for (int i = 0; i < 100; ++i) {
         const double before = v.linear_m_s[2];
-        v = law_step(PushLaw::kForce, wild, in, v);
+        v = law_step(InsertLaw::kForce, wild, in, v);
         ASSERT_GE(v.linear_m_s[2], 0.0);
         ASSERT_LE(v.linear_m_s[2], before);
       }

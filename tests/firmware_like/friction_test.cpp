@@ -11,7 +11,7 @@ namespace {
 using zhu2022::Random;
 
 struct Arm {
-  RobotTable robot = zhu2022::table();
+  RobotParams robot = zhu2022::table();
   CableLayout layout = cable_layout(robot);
   CableGeometry at(const ThetaVector& theta) const { return cable_geometry(robot, layout, arm_trig(robot, theta)); }
   TensionRatio ratio(const ThetaVector& theta, const SlipState& slip) const {

@@ -195,7 +195,7 @@ TEST_F(Gate, TorqueMayReachItsLimitAndNotMore) {
 }
 
 TEST_F(Gate, CountsThatDoNotFitInto32BitsAreRefusedNotWrapped) {
-  limits_.drive[1].least_counts = -1e12;
+  limits_.drive[1].min_counts = -1e12;
   previous_[1].target_counts = kIntMin;
   proposal_[1].target_counts = static_cast<double>(kIntMin) + 10.0;
   expect_passed("just inside 32 bits");

@@ -11,14 +11,14 @@
 namespace liana::cable {
 namespace {
 
-using namespace solve;
+using namespace inverse_kinematics;
 
 using zhu2022::kX4AndX5;
 using zhu2022::kX5;
 using zhu2022::Random;
 
 // Whatever it says, the angles must keep limits and held values, and "converged" must be true.
-void expect_honest(const RobotTable& robot, const GoalIkProblem& problem, const GoalIkResult& result) {
+void expect_honest(const RobotParams& robot, const GoalIkProblem& problem, const GoalIkResult& result) {
   const double error = error_of(robot, problem.tip_in_base, result.theta_rad);
   ASSERT_TRUE(!result.converged || error <= 1e-6) << error;
   ASSERT_NEAR(std::hypot(result.position_error_m, result.attitude_error_rad), error, 1e-9);
@@ -29,7 +29,7 @@ void expect_honest(const RobotTable& robot, const GoalIkProblem& problem, const 
 }
 
 // A goal that some pose within +-15 deg with the same held angles has.
-GoalIkProblem random_goal(const RobotTable& robot, Random& random, std::uint32_t held, bool from_nearby) {
+GoalIkProblem random_goal(const RobotParams& robot, Random& random, std::uint32_t held, bool from_nearby) {
   GoalIkProblem problem;
   ThetaVector solution = random.theta(robot, 15.0);
   for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
@@ -45,7 +45,7 @@ GoalIkProblem random_goal(const RobotTable& robot, Random& random, std::uint32_t
 // req:A38
 TEST(GoalIk, FindsRandomGoalsWithTenNineAndEightVariables) {
   constexpr std::int32_t kGoals = 300;
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   for (const std::uint32_t held : {0u, kX5, kX4AndX5}) {
     for (const bool from_nearby : {false, true}) {
       Random random(1);
@@ -68,7 +68,7 @@ TEST(GoalIk, FindsRandomGoalsWithTenNineAndEightVariables) {
 
 // Singular targets: convergence is slow there, and no restart would help.
 TEST(GoalIk, FindsStraightNearlyStraightAndFullyBentArms) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   Random random(4);
   for (const double bend_deg : {0.0, 1e-4, 0.1, 1.0, 20.0}) {
     for (std::int32_t i = 0; i < 30; ++i) {
@@ -88,7 +88,7 @@ TEST(GoalIk, FindsStraightNearlyStraightAndFullyBentArms) {
 }
 
 TEST(GoalIk, UnreachableGoalsAreSaidToBeUnreachable) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   for (const Vec3& far : {Vec3{4.5, 0, 0}, Vec3{0, 6, 0}, Vec3{0, 0, -1e3}}) {
     GoalIkProblem problem;
     problem.tip_in_base.position_m = far;
@@ -102,7 +102,7 @@ TEST(GoalIk, UnreachableGoalsAreSaidToBeUnreachable) {
 
 // req:A41
 TEST(GoalIk, HeldAnglesMayHaveAnyValueAndKeepIt) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   GoalIkProblem problem;
   ThetaVector solution = zhu2022::radians(zhu2022::kPressRod_deg);
   solution[8] = problem.held_rad[8] = 0.7 * kDegree;
@@ -116,7 +116,7 @@ TEST(GoalIk, HeldAnglesMayHaveAnyValueAndKeepIt) {
 // When the targets can all be met, they are.
 // req:A44
 TEST(GoalIk, MeetsNodeTargetsThatTheGoalsOwnShapeHas) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   Random random(2);
   double worst_m = 0.0;
   for (std::int32_t i = 0; i < 10; ++i) {
@@ -140,7 +140,7 @@ TEST(GoalIk, MeetsNodeTargetsThatTheGoalsOwnShapeHas) {
 }
 
 TEST(GoalIk, ANodeIsBroughtWithinItsThresholdAndHardlyFarther) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const ThetaVector start = zhu2022::radians(zhu2022::kPanelEdge_deg);
   const ArmKinematics arm = forward_kinematics(robot, start);
   ShapeProblem problem{{arm.tip_in_base, 0}, {}, {}};
@@ -155,7 +155,7 @@ TEST(GoalIk, ANodeIsBroughtWithinItsThresholdAndHardlyFarther) {
 }
 
 TEST(GoalIk, TheReachOfANodeIsWhatItsTargetAloneWouldBring) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
   const ArmKinematics arm = forward_kinematics(robot, theta);
   const IkGoal goal{arm.tip_in_base, 0};
@@ -176,7 +176,7 @@ TEST(GoalIk, TheReachOfANodeIsWhatItsTargetAloneWouldBring) {
 
 // req:A42
 TEST(GoalIk, ReportsTheReachOfEveryControlPoint) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   GoalIkProblem problem;
   problem.from_rad = zhu2022::radians(zhu2022::kPanelEdge_deg);
   const ArmKinematics arm = forward_kinematics(robot, problem.from_rad);
@@ -194,7 +194,7 @@ TEST(GoalIk, ReportsTheReachOfEveryControlPoint) {
 }
 
 TEST(GoalIk, TheSameQuestionHasTheSameAnswerToTheLastBit) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   Random random(3);
   for (std::int32_t i = 0; i < 10; ++i) {
     const GoalIkProblem problem = random_goal(robot, random, kX5, false);
@@ -205,7 +205,7 @@ TEST(GoalIk, TheSameQuestionHasTheSameAnswerToTheLastBit) {
 }
 
 TEST(GoalIk, AGoalThatIsAlreadyMetTakesNoIteration) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   GoalIkProblem problem;
   problem.from_rad = zhu2022::radians(zhu2022::kPanelEdge_deg);
   problem.tip_in_base = forward_kinematics(robot, problem.from_rad).tip_in_base;

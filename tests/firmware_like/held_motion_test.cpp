@@ -13,7 +13,7 @@
 namespace liana::cable {
 namespace {
 
-using namespace solve;
+using namespace inverse_kinematics;
 
 using zhu2022::bit;
 using zhu2022::Random;
@@ -63,7 +63,7 @@ class HeldMotion : public testing::Test {
   }
   double command_error() const { return zhu2022::length(pose_error(state_.filter.pose, tip())); }
 
-  RobotTable robot_ = zhu2022::table();
+  RobotParams robot_ = zhu2022::table();
   MotionState state_{};
   double largest_change_ = 0.0;  // of the rates that the IK asks for, from tick to tick [rad/s]
   double largest_step_ = 0.0;    // of the angles [rad]

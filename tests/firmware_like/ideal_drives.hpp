@@ -21,7 +21,7 @@ namespace liana::cable {
 class IdealDrives {
  public:
   // Cables pulled as planned at `theta_rad`, drives switched off.
-  IdealDrives(const RobotTable& robot, const ThetaVector& theta_rad) : robot_(robot) {
+  IdealDrives(const RobotParams& robot, const ThetaVector& theta_rad) : robot_(robot) {
     const CableLayout layout = cable_layout(robot);
     const ArmTrig trig = arm_trig(robot, theta_rad);
     const CableGeometry geometry = cable_geometry(robot, layout, trig);
@@ -81,7 +81,7 @@ class IdealDrives {
     }
   }
 
-  RobotTable robot_;
+  RobotParams robot_;
   DriveFeedbacks drive_{};
 };
 
@@ -128,7 +128,7 @@ struct Rig {
     return setpoint;
   }
 
-  RobotTable robot = zhu2022::table();
+  RobotParams robot = zhu2022::table();
   Controller controller;
   IdealDrives drives;
   Outputs out{};

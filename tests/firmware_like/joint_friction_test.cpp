@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kDeclared_Nm = 8.0, kViscous_Nms = 40.0;
 
-RobotTable rubbing_table() {
-  RobotTable table = micro::table();
-  table.torque.gives_torque = 1;
+RobotParams rubbing_table() {
+  RobotParams table = micro::table();
+  table.torque.is_torque_controlled = 1;
   table.torque.coulomb_Nm = kDeclared_Nm;
   table.torque.viscous_Nms_per_rad = kViscous_Nms;
   return table;
@@ -33,7 +33,7 @@ class FrictionOfJoints : public testing::Test {
   }
   double told_Nm() const { return found_[1].coulomb_Nm; }
 
-  RobotTable table_ = rubbing_table();
+  RobotParams table_ = rubbing_table();
   FrictionFound found_ = declared_friction(table_);
 };
 
@@ -61,7 +61,7 @@ TEST_F(FrictionOfJoints, OfASwingIsItsMean) {
 }
 
 TEST_F(FrictionOfJoints, IsNotFoundInSlidesThatAreShortOrSlowOrTurnRound) {
-  turn(kLeastSlide_s, 0.01, 12.0);  // the first second does not count
+  turn(kMinSlide_s, 0.01, 12.0);  // the first second does not count
   turn(0.1, 0.0, 0.0);
   turn(60.0, 0.9 * kSlides_rad_s, 12.0);
   turn(0.1, 0.0, 0.0);

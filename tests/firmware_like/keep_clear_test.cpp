@@ -9,12 +9,12 @@
 namespace liana::cable {
 namespace {
 
-using namespace solve;
+using namespace inverse_kinematics;
 
 using zhu2022::Random;
 
 // Least distance of every link to a point, segment by segment, from the link points alone.
-double missing_from_points_m(const RobotTable& robot, const ThetaVector& theta, const KeepClear& target) {
+double missing_from_points_m(const RobotParams& robot, const ThetaVector& theta, const KeepClear& target) {
   const LinkPoints points = link_points(robot, theta);
   double sum_m = 0.0;
   std::size_t link = 0;
@@ -39,7 +39,7 @@ KeepClearTargets one(const Vec3& centre_m, double distance_m, double weight = 1.
 
 TEST(KeepClear, MissingClearanceIsThatOfTheLinkPoints) {
   Random random(1);
-  for (const RobotTable& robot : {zhu2022::table(), zhu2022::uneven_table()}) {
+  for (const RobotParams& robot : {zhu2022::table(), zhu2022::uneven_table()}) {
     for (std::int32_t i = 0; i < 10; ++i) {
       const ThetaVector theta = random.theta(robot, 15.0);
       const KeepClearTargets targets = one(random.vector(1.5), 1.0, 0.7);
@@ -53,7 +53,7 @@ TEST(KeepClear, MissingClearanceIsThatOfTheLinkPoints) {
 TEST(KeepClear, ThePullIsTheNegativeGradient) {
   Random random(2);
   constexpr double kStep = 1e-6;
-  for (const RobotTable& robot : {zhu2022::table(), zhu2022::uneven_table()}) {
+  for (const RobotParams& robot : {zhu2022::table(), zhu2022::uneven_table()}) {
     for (std::int32_t i = 0; i < 20; ++i) {
       const ThetaVector theta = random.theta(robot, 15.0);
       const ArmKinematics arm = forward_kinematics(robot, theta);
@@ -79,7 +79,7 @@ TEST(KeepClear, ThePullIsTheNegativeGradient) {
 }
 
 TEST(KeepClear, TheArmsMiddleMakesWayWhileTheTipStays) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const ThetaVector start = zhu2022::radians(zhu2022::kPanelEdge_deg);
   const ArmKinematics arm = forward_kinematics(robot, start);
   ShapeProblem problem{{arm.tip_in_base, 0}, {}, {}};
@@ -93,7 +93,7 @@ TEST(KeepClear, TheArmsMiddleMakesWayWhileTheTipStays) {
 }
 
 TEST(KeepClear, TheTickPushesTheArmsMiddleAwayWithinItsRatesWhileTheTipStays) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
   ShapeState shape;
   const ArmKinematics start = forward_kinematics(robot, theta);
@@ -115,7 +115,7 @@ TEST(KeepClear, TheTickPushesTheArmsMiddleAwayWithinItsRatesWhileTheTipStays) {
 }
 
 TEST(KeepClear, TheGoalIkFindsAShapeThatKeepsClear) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   Random random(3);
   std::int32_t clear = 0;
   for (std::int32_t i = 0; i < 20; ++i) {
@@ -132,7 +132,7 @@ TEST(KeepClear, TheGoalIkFindsAShapeThatKeepsClear) {
 }
 
 TEST(KeepClear, UnusedFarAndCoincidentTargetsPushNothing) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const ThetaVector theta{};
   const ArmKinematics arm = forward_kinematics(robot, theta);
   const NullSpace space = null_space(arm.tip_jacobian, robot.theta_count(), 0);

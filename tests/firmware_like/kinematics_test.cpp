@@ -71,7 +71,7 @@ struct Chain {
   std::vector<Pose> nodes{Pose{}};
 };
 
-Chain chain_of(const RobotTable& robot, const ThetaVector& theta) {
+Chain chain_of(const RobotParams& robot, const ThetaVector& theta) {
   Chain chain;
   Pose at;
   for (std::size_t m = 0; m < static_cast<std::size_t>(robot.segment_count); ++m) {
@@ -111,7 +111,7 @@ double jacobian_difference(const Jacobian& a, const Jacobian& b) {
 }
 
 // Central differences with a step h; the error is h^2 and rounding / h.
-Jacobian difference_jacobian(const RobotTable& robot, const ThetaVector& theta, double h) {
+Jacobian difference_jacobian(const RobotParams& robot, const ThetaVector& theta, double h) {
   Jacobian J;
   for (std::size_t k = 0; k < static_cast<std::size_t>(robot.theta_count()); ++k) {
     ThetaVector more = theta, less = theta;
@@ -125,7 +125,7 @@ Jacobian difference_jacobian(const RobotTable& robot, const ThetaVector& theta, 
 
 // req:A35 req:A36 req:A51
 TEST(Kinematics, GoldenTipSegmentEndsAndJacobianAreMetTo1e9) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   ASSERT_GE(golden().at("cases").size(), 13u);
   for (const Json& entry : golden().at("cases")) {
     const ArmKinematics arm = forward_kinematics(robot, golden_theta(entry));
@@ -145,7 +145,7 @@ TEST(Kinematics, GoldenTipSegmentEndsAndJacobianAreMetTo1e9) {
 
 // req:A11
 TEST(Kinematics, GoldenCableLengthsAreMetTo1e9) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const CableLayout layout = cable_layout(robot);
   for (const Json& entry : golden().at("cases")) {
     const CableGeometry geometry = cable_geometry(robot, layout, arm_trig(robot, golden_theta(entry)));
@@ -161,7 +161,7 @@ TEST(Kinematics, GoldenCableLengthsAreMetTo1e9) {
 // The rows (0,-90,odd) (l,0,even) (0,90,even) (l,0,odd), four times per segment.
 // req:A3 req:A34 req:A35
 TEST(Kinematics, ClosedFormEqualsTheSourcesSixteenRowsPerSegment) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   Random random(1);
   for (std::int32_t i = 0; i < 200; ++i) {
     const ThetaVector theta = random.theta(robot, 20.0);
@@ -181,7 +181,7 @@ TEST(Kinematics, ClosedFormEqualsTheSourcesSixteenRowsPerSegment) {
 TEST(Kinematics, ClosedFormEqualsTheChainOfModulesForOtherArms) {
   Random random(2);
   for (const std::int32_t modules : {1, 2, 3, 7, 8, 9, 15, 16}) {
-    RobotTable robot = zhu2022::uneven_table();
+    RobotParams robot = zhu2022::uneven_table();
     robot.segment[1].modules = modules;
     for (std::int32_t i = 0; i < 50; ++i) {
       const ThetaVector theta = random.theta(robot, 20.0);
@@ -200,7 +200,7 @@ TEST(Kinematics, ClosedFormEqualsTheChainOfModulesForOtherArms) {
 // J6x10 = J6x80 S.
 // req:A4 req:A36
 TEST(Kinematics, ReducedJacobianEqualsTheEightyJointJacobianSummed) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   Random random(3);
   for (std::int32_t i = 0; i < 500; ++i) {
     const ThetaVector theta = random.theta(robot, i < 400 ? 20.0 : 1e-6);
@@ -213,7 +213,7 @@ TEST(Kinematics, ReducedJacobianEqualsTheEightyJointJacobianSummed) {
 // Also where the straight arm makes closed forms divide by zero.
 // req:A36
 TEST(Kinematics, ReducedJacobianEqualsFiniteDifferences) {
-  for (const RobotTable& robot : {zhu2022::table(), zhu2022::uneven_table()}) {
+  for (const RobotParams& robot : {zhu2022::table(), zhu2022::uneven_table()}) {
     Random random(4);
     for (std::int32_t i = 0; i < 60; ++i) {
       const ThetaVector theta = i == 0 ? ThetaVector{} : random.theta(robot, i < 10 ? 1e-8 / kDegree : 20.0);
@@ -224,7 +224,7 @@ TEST(Kinematics, ReducedJacobianEqualsFiniteDifferences) {
 }
 
 TEST(Kinematics, NodeColumnsAreTheNodesOwnDerivatives) {
-  const RobotTable robot = zhu2022::uneven_table();
+  const RobotParams robot = zhu2022::uneven_table();
   Random random(5);
   constexpr double kStep = 1e-5;
   for (std::int32_t i = 0; i < 20; ++i) {
@@ -244,7 +244,7 @@ TEST(Kinematics, NodeColumnsAreTheNodesOwnDerivatives) {
 }
 
 TEST(Kinematics, LinkPointsAreTheModulesOfTheChain) {
-  const RobotTable robot = zhu2022::uneven_table();
+  const RobotParams robot = zhu2022::uneven_table();
   Random random(6);
   const ThetaVector theta = random.theta(robot, 20.0);
   const LinkPoints links = link_points(robot, theta);

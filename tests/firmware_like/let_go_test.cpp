@@ -15,7 +15,7 @@
 namespace liana::cable {
 namespace {
 
-using safety_bench::kPatience;
+using safety_bench::kTimeout_s;
 
 constexpr std::size_t kCable = 7, kFirst = 6, kEnd = 9;  // of segment 3
 
@@ -36,7 +36,7 @@ class LetGo : public testing::Test {
   }
   // Cable that is let out since the start [m], by its target.
   double out_m(std::size_t cable) const {
-    const DriveTable& drive = rig_.robot.drive[cable];
+    const DriveParams& drive = rig_.robot.drive[cable];
     return drive.direction * drive.metres_per_count *
            (rig_.out.drive[cable].target_counts - start_[cable].target_counts);
   }
@@ -51,9 +51,9 @@ TEST_F(LetGo, OneLostSampleLetsTheWholeSegmentGoInTheSameTick) {
   EXPECT_EQ(rig_.out.faults.count, 0) << "one wrong sample is no fault";
   for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
     if (c >= kFirst && c < kEnd) {
-      EXPECT_GE(out_m(c), kLetGo_m) << c;
+      EXPECT_GE(out_m(c), kSegmentRelease_m) << c;
     } else {
-      EXPECT_LE(out_m(c), kLetGoStep_m - kLetGo_m) << c;
+      EXPECT_LE(out_m(c), kLetGoStep_m - kSegmentRelease_m) << c;
     }
     EXPECT_LE(out_m(c), kLetGoStep_m) << c;
   }
@@ -73,7 +73,7 @@ TEST_F(LetGo, ASampleFarBelowNothingLetsNothingGo) {
   torque_permille = static_cast<std::int16_t>(-torque_permille);
   rig_.out = rig_.controller.tick(inputs);
   EXPECT_EQ(rig_.out.faults.count, 0);
-  for (std::size_t c = kFirst; c < kEnd; ++c) EXPECT_LE(out_m(c), kLetGoStep_m - kLetGo_m) << c;
+  for (std::size_t c = kFirst; c < kEnd; ++c) EXPECT_LE(out_m(c), kLetGoStep_m - kSegmentRelease_m) << c;
 }
 
 TEST_F(LetGo, ThreeLostSamplesAreABreakThatStopsWithPowerThenBrakes) {
@@ -86,7 +86,7 @@ TEST_F(LetGo, ThreeLostSamplesAreABreakThatStopsWithPowerThenBrakes) {
   std::uint32_t ticks = 0;
   for (; ticks < 1000 && rig_.out.state != OperatingState::kFault; ++ticks) tick(true);
   EXPECT_EQ(rig_.out.state, OperatingState::kFault);
-  EXPECT_LE(ticks, 125 + kPatience.rest + kPatience.braking + 10)
+  EXPECT_LE(ticks, 125 + kTimeout_s.rest + kTimeout_s.braking + 10)
       << "5 mm are wound back at 10 mm/s, where drives have no lag";
   EXPECT_EQ(rig_.out.faults.count, 1) << "the cables that were let go are not slack";
 }
@@ -110,11 +110,11 @@ TEST_F(LetGo, WhileReadingsAreInDoubtTwoSamplesAreNeeded) {
   tick(true);
   EXPECT_LE(out_m(kCable), 1e-4);
   tick(true);
-  EXPECT_GE(out_m(kCable), kLetGo_m);
+  EXPECT_GE(out_m(kCable), kSegmentRelease_m);
 }
 
 TEST(PlanWithout, BalancesEveryOtherSegmentNearTheFloorWithoutTheLooseOne) {
-  const RobotTable robot = zhu2022::table(0.0);
+  const RobotParams robot = zhu2022::table(0.0);
   const CableLayout layout = cable_layout(robot);
   zhu2022::Random random(3);
   for (std::int32_t i = 0; i < 200; ++i) {
@@ -140,7 +140,7 @@ TEST(PlanWithout, BalancesEveryOtherSegmentNearTheFloorWithoutTheLooseOne) {
 }
 
 TEST(Sparing, ASegmentWithASlippedCableIsPulledLessOneWithASlackCableMore) {
-  const RobotTable robot = zhu2022::table(0.0);
+  const RobotParams robot = zhu2022::table(0.0);
   const CableLayout layout = cable_layout(robot);
   FaultList faults{};
   latch(faults, {FaultNumber::kCableSlip, 4, 0, 1});
@@ -156,7 +156,7 @@ TEST(Sparing, ASegmentWithASlippedCableIsPulledLessOneWithASlackCableMore) {
 }
 
 TEST(Sparing, LessLiftLowersThePlanOfItsSegmentAndKeepsTheFloor) {
-  const RobotTable robot = zhu2022::table(0.0);
+  const RobotParams robot = zhu2022::table(0.0);
   const CableLayout layout = cable_layout(robot);
   const ArmTrig trig = arm_trig(robot, zhu2022::radians(zhu2022::kPrepare_deg));
   const CableGeometry geometry = cable_geometry(robot, layout, trig);

@@ -15,12 +15,12 @@ using zhu2022::Random;
 constexpr double kRounding = 1e-12;
 
 // What the last step of a braking parabola may go too far: less than a tick's change of rate can make good.
-double overshoot_rad(const RobotTable& robot) {
+double overshoot_rad(const RobotParams& robot) {
   return robot.limits.theta_accel_rad_s2 * robot.tick_s * robot.tick_s / 8.0;
 }
 
 // One tick; checks rate and acceleration of the command and that the reported rate is the real one.
-void step(const RobotTable& robot, const CableGeometry& geometry, const ThetaVector& reference, LimiterState& state) {
+void step(const RobotParams& robot, const CableGeometry& geometry, const ThetaVector& reference, LimiterState& state) {
   const LimiterState before = state;
   limit_motion(robot, geometry, reference, state);
   for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
@@ -39,7 +39,7 @@ LimiterState at_rest_at(const ThetaVector& theta) {
 }
 
 // Steps, ramps and noise in turn, some far faster than any limit.
-ThetaVector next_reference(const RobotTable& robot, Random& random, std::int32_t tick, std::int32_t kind,
+ThetaVector next_reference(const RobotParams& robot, Random& random, std::int32_t tick, std::int32_t kind,
                            const ThetaVector& before) {
   if (kind % 3 == 0) return tick % 50 == 0 ? random.theta(robot, 20.0) : before;
   if (kind % 3 == 1) return zhu2022::plus(before, random.theta(robot, 0.02));
@@ -47,7 +47,7 @@ ThetaVector next_reference(const RobotTable& robot, Random& random, std::int32_t
 }
 
 TEST(Limiter, AThousandRandomReferencesNeverPassRateOrAcceleration) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   Random random(1);
   for (std::int32_t kind = 0; kind < 1000; ++kind) {
     ThetaVector reference = random.theta(robot, 10.0);
@@ -62,7 +62,7 @@ TEST(Limiter, AThousandRandomReferencesNeverPassRateOrAcceleration) {
 }
 
 TEST(Limiter, FollowsToTheLastBitInsideTheLimits) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const ThetaVector start = zhu2022::radians(zhu2022::kPrepare_deg);
   LimiterState state = at_rest_at(start);
   const CableGeometry geometry = geometry_at(robot, start);
@@ -76,7 +76,7 @@ TEST(Limiter, FollowsToTheLastBitInsideTheLimits) {
 }
 
 TEST(Limiter, AStepIsReachedExactlyWithAtMostTheStatedOvershoot) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   Random random(2);
   for (std::int32_t i = 0; i < 30; ++i) {
     const ThetaVector from = random.theta(robot, 15.0), to = zhu2022::plus(from, random.theta(robot, 4.0));
@@ -98,7 +98,7 @@ TEST(Limiter, AStepIsReachedExactlyWithAtMostTheStatedOvershoot) {
 }
 
 TEST(Limiter, CatchesUpWithAMovingReferenceWithoutPassingIt) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   LimiterState state = at_rest_at(ThetaVector{});
   const CableGeometry geometry = geometry_at(robot, ThetaVector{});
   ThetaVector reference{};
@@ -115,7 +115,7 @@ TEST(Limiter, CatchesUpWithAMovingReferenceWithoutPassingIt) {
 // A reference that runs against a joint limit and stands there: a lagging command, on its way at full rate, must not
 // swing past it.
 TEST(Limiter, ALaggingCommandStopsBeforeTheJointLimitWithoutBrakingHarderThanItMay) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const double limit = robot.segment[0].theta_limit_rad;
   const CableGeometry geometry = geometry_at(robot, ThetaVector{});
   Random random(3);
@@ -138,7 +138,7 @@ TEST(Limiter, ALaggingCommandStopsBeforeTheJointLimitWithoutBrakingHarderThanItM
 }
 
 TEST(Limiter, EveryLimitThatActsIsNamed) {
-  RobotTable robot = zhu2022::table();
+  RobotParams robot = zhu2022::table();
   robot.limits.cable_speed_m_s = 1000.0;
   const CableGeometry geometry = geometry_at(robot, ThetaVector{});
   LimiterState state = at_rest_at(ThetaVector{});
@@ -152,7 +152,7 @@ TEST(Limiter, EveryLimitThatActsIsNamed) {
 }
 
 TEST(Limiter, CablesStayUnderTheirSpeedWhenAllAnglesMoveAtOnce) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   Random random(3);
   for (std::int32_t i = 0; i < 50; ++i) {
     const ThetaVector far = random.theta(robot, 20.0);
@@ -170,7 +170,7 @@ TEST(Limiter, CablesStayUnderTheirSpeedWhenAllAnglesMoveAtOnce) {
 }
 
 TEST(Limiter, ResetStandsStillWhereItIsTold) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const ThetaVector pose = zhu2022::radians(zhu2022::kPressRod_deg);
   LimiterState state = at_rest_at(pose);
   EXPECT_EQ(largest_rate(robot, state), 0.0);

@@ -31,8 +31,8 @@ constexpr std::array<DhRow, kJoints> kDhRows{{
 }};
 
 // The arm at 250 Hz with T_c = 20 ms.
-inline RobotTable table() {
-  RobotTable robot;
+inline RobotParams table() {
+  RobotParams robot;
   robot.joint_count = static_cast<std::int32_t>(kJoints);
   for (std::size_t i = 0; i < kJoints; ++i) {
     robot.joint[i] = {kDhRows[i], -kRange_deg * kDegree, kRange_deg * kDegree, 4.0 * kDegree, 4.0 * kDegree};
@@ -46,8 +46,8 @@ inline RobotTable table() {
 }
 
 // Another arm within the capacity: six joints, offsets, other twists and uneven ranges.
-inline RobotTable six_joint_table() {
-  RobotTable robot = table();
+inline RobotParams six_joint_table() {
+  RobotParams robot = table();
   robot.joint_count = 6;
   for (std::size_t i = 0; i < 6; ++i) robot.joint[i].dh.offset_rad = (10.0 * static_cast<double>(i) - 20.0) * kDegree;
   robot.joint[1].dh = {75.0 * kDegree, 0.1, -0.2, 0.3};
@@ -76,7 +76,7 @@ class Random {
 };
 
 // Joints anywhere in `share` of their ranges.
-inline JointVector random_joints(const RobotTable& robot, Random& random, double share = 1.0) {
+inline JointVector random_joints(const RobotParams& robot, Random& random, double share = 1.0) {
   JointVector joint{};
   for (std::size_t i = 0; i < robot.joints(); ++i) {
     const double middle = 0.5 * (robot.joint[i].low_rad + robot.joint[i].high_rad);
@@ -85,17 +85,17 @@ inline JointVector random_joints(const RobotTable& robot, Random& random, double
   return joint;
 }
 
-// Every joint turned by up to `most_rad`, inside its range.
-inline JointVector near(const RobotTable& robot, const JointVector& joint_rad, Random& random, double most_rad) {
+// Every joint turned by up to `max_rad`, inside its range.
+inline JointVector near(const RobotParams& robot, const JointVector& joint_rad, Random& random, double max_rad) {
   JointVector joint = joint_rad;
   for (std::size_t i = 0; i < robot.joints(); ++i) {
     joint[i] =
-        std::clamp(joint[i] + random.uniform(-most_rad, most_rad), robot.joint[i].low_rad, robot.joint[i].high_rad);
+        std::clamp(joint[i] + random.uniform(-max_rad, max_rad), robot.joint[i].low_rad, robot.joint[i].high_rad);
   }
   return joint;
 }
 
-inline bool within_ranges(const RobotTable& robot, const JointVector& joint_rad) {
+inline bool within_ranges(const RobotParams& robot, const JointVector& joint_rad) {
   for (std::size_t i = 0; i < robot.joints(); ++i) {
     if (!(joint_rad[i] >= robot.joint[i].low_rad && joint_rad[i] <= robot.joint[i].high_rad)) return false;
   }
@@ -109,7 +109,7 @@ inline double largest_difference(const JointVector& a, const JointVector& b) {
 }
 
 // det(J J^T), the square of the volume that the joints' columns span: how far from a singular pose.
-inline double determinant(const RobotTable& robot, const Jacobian& J) {
+inline double determinant(const RobotParams& robot, const Jacobian& J) {
   std::array<std::array<double, 6>, 6> A{};
   for (std::size_t i = 0; i < robot.joints(); ++i) {
     const std::array<double, 6> c{J.linear[i][0],  J.linear[i][1],  J.linear[i][2],

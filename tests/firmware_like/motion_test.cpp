@@ -51,7 +51,7 @@ class Motion : public testing::Test {
     return setpoint;
   }
 
-  RobotTable robot_ = zhu2022::table();
+  RobotParams robot_ = zhu2022::table();
   CableLayout layout_ = cable_layout(robot_);
   MotionState state_{};
   std::uint32_t limits_seen_ = 0;

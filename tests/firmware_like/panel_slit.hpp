@@ -6,11 +6,11 @@
 
 namespace liana::cable {
 
-using namespace solve;
+using namespace inverse_kinematics;
 
 // Its plane is that of the press rod's pose, its room the half gap of 50 mm less 30 mm of arm.
 inline SlitMouth panel_slit() {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const Pose rod = forward_kinematics(robot, zhu2022::radians(zhu2022::kPressRod_deg)).tip_in_base;
   const Vec3 n = rotate(rod.quaternion, {0.0, 1.0, 0.0});
   const Vec3 along = subtract({1.0, 0.0, 0.0}, scale(n, n[0]));

@@ -8,7 +8,7 @@
 
 namespace liana::cable {
 
-inline CableGeometry geometry_at(const RobotTable& robot, const ThetaVector& theta) {
+inline CableGeometry geometry_at(const RobotParams& robot, const ThetaVector& theta) {
   return cable_geometry(robot, cable_layout(robot), arm_trig(robot, theta));
 }
 
@@ -22,7 +22,7 @@ inline SlipState random_slip(zhu2022::Random& random) {
 
 inline double pose_difference(const Pose& a, const Pose& b) { return zhu2022::length(pose_error(a, b)); }
 
-inline double error_of(const RobotTable& robot, const Pose& goal, const ThetaVector& theta) {
+inline double error_of(const RobotParams& robot, const Pose& goal, const ThetaVector& theta) {
   return pose_difference(goal, forward_kinematics(robot, theta).tip_in_base);
 }
 

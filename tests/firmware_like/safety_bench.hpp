@@ -6,8 +6,8 @@
 #include <cstdint>
 
 #include "firmware_like/cable/arm/drive_limits.hpp"
-#include "firmware_like/cable/arm/tension_watch.hpp"
-#include "firmware_like/safety/link_watch.hpp"
+#include "firmware_like/cable/arm/tension_monitor.hpp"
+#include "firmware_like/safety/drive_link_monitor.hpp"
 
 namespace liana::cable::safety_bench {
 
@@ -21,13 +21,13 @@ constexpr std::uint16_t kStatusFaultReaction = 0x021F;
 constexpr std::uint16_t kStatusFault = 0x0218;
 
 constexpr std::int32_t kDrives = 6;
-constexpr Patience kPatience = patience(0.004);
+constexpr Patience kTimeout_s = patience(0.004);
 constexpr double kMetresPerCount = 1e-6;
 constexpr double kZeroPayout_m = 1.3;
 
 // Two segments of eight modules with three cables each; the limits are those of zhu2022.
-inline RobotTable table() {
-  RobotTable robot{};
+inline RobotParams table() {
+  RobotParams robot{};
   robot.segment_count = 2;
   for (std::size_t m = 0; m < 2; ++m) {
     robot.segment[m].modules = 8;
@@ -74,8 +74,8 @@ inline CycleInputs healthy(std::uint16_t statusword, std::uint64_t tick = 1) {
 struct Watchdogs {
   LinkLimits link_limits = make_link_limits(table());
   TensionWatchLimits tension_limits = make_tension_watch_limits(table());
-  LinkWatchState link{};
-  TensionWatchState tension{};
+  DriveLinkMonitorState link{};
+  TensionMonitorState tension{};
 
   // How many conditions are wrong now.
   std::int32_t run(WatchScope scope, const CycleInputs& inputs, const DriveCommands& sent, const CableVector& tension_N,

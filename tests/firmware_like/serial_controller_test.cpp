@@ -210,7 +210,7 @@ TEST(SerialController, ADriveThatDoesNotFollowIsAFault) {
 
 // The gate's limits in drive units: a full-rate step passes, a faster one, one out of range and another mode do not.
 TEST(SerialController, TheGateKnowsRangeRateAndModeOfEveryJoint) {
-  const RobotTable robot = micro::table();
+  const RobotParams robot = micro::table();
   const GateLimits limits = make_gate_limits(robot);
   DriveProposals proposals{};
   DriveCommands previous{};

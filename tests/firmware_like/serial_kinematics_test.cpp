@@ -55,7 +55,7 @@ TEST(SerialKinematics, JacobianAgreesWithTheProductOfExponentials) {
   }
 }
 
-void expect_jacobian_is_the_derivative(const RobotTable& robot, const JointVector& joint) {
+void expect_jacobian_is_the_derivative(const RobotParams& robot, const JointVector& joint) {
   constexpr double kStep_rad = 1e-6;
   const Jacobian J = forward_kinematics(robot, joint).tip_jacobian;
   for (std::size_t i = 0; i < robot.joints(); ++i) {
@@ -73,14 +73,14 @@ void expect_jacobian_is_the_derivative(const RobotTable& robot, const JointVecto
 
 TEST(SerialKinematics, JacobianIsTheDerivativeOfTheTip) {
   Random random(1);
-  for (const RobotTable& robot : {micro::table(), micro::six_joint_table()}) {
+  for (const RobotParams& robot : {micro::table(), micro::six_joint_table()}) {
     for (std::int32_t i = 0; i < 500; ++i)
       expect_jacobian_is_the_derivative(robot, micro::random_joints(robot, random));
   }
 }
 
 TEST(SerialKinematics, TwistIsTheJacobianTimesTheRates) {
-  const RobotTable robot = micro::table();
+  const RobotParams robot = micro::table();
   Random random(2);
   const Jacobian J = forward_kinematics(robot, micro::random_joints(robot, random)).tip_jacobian;
   JointVector rate{};
@@ -96,7 +96,7 @@ TEST(SerialKinematics, TwistIsTheJacobianTimesTheRates) {
 // The payload study found 4.93 m from the base flange to the tip.
 // req:B1
 TEST(SerialKinematics, NoTipIsFartherAwayThanTheChainIsLong) {
-  const RobotTable robot = micro::table();
+  const RobotParams robot = micro::table();
   Random random(3);
   double farthest_m = 0.0;
   for (std::int32_t i = 0; i < 20000; ++i) {

@@ -21,7 +21,7 @@ LimiterState at_rest_at(const JointVector& joint) {
 }
 
 // One tick; checks range, rate and acceleration of the command, and that the reported rate is the real one.
-void step(const RobotTable& robot, const JointVector& reference, LimiterState& state) {
+void step(const RobotParams& robot, const JointVector& reference, LimiterState& state) {
   const LimiterState before = state;
   limit_motion(robot, reference, state);
   ASSERT_TRUE(micro::within_ranges(robot, state.joint_rad));
@@ -35,8 +35,8 @@ void step(const RobotTable& robot, const JointVector& reference, LimiterState& s
 }
 
 // Joints that differ in all their limits.
-RobotTable uneven_robot() {
-  RobotTable robot = micro::six_joint_table();
+RobotParams uneven_robot() {
+  RobotParams robot = micro::six_joint_table();
   for (std::size_t i = 0; i < robot.joints(); ++i) {
     robot.joint[i].rate_rad_s *= 1.0 + 0.2 * static_cast<double>(i);
     robot.joint[i].accel_rad_s2 *= 2.0 - 0.3 * static_cast<double>(i);
@@ -45,7 +45,7 @@ RobotTable uneven_robot() {
 }
 
 // Steps, ramps and noise in turn, some far faster than any limit.
-JointVector next_reference(const RobotTable& robot, Random& random, std::int32_t tick, std::int32_t kind,
+JointVector next_reference(const RobotParams& robot, Random& random, std::int32_t tick, std::int32_t kind,
                            const JointVector& before) {
   if (kind % 3 == 0) return tick % 50 == 0 ? micro::random_joints(robot, random) : before;
   if (kind % 3 == 1) return micro::near(robot, before, random, 0.02 * kDegree);
@@ -53,7 +53,7 @@ JointVector next_reference(const RobotTable& robot, Random& random, std::int32_t
 }
 
 TEST(SerialLimiter, AThousandRandomReferencesNeverPassRangeRateOrAcceleration) {
-  const RobotTable robot = uneven_robot();
+  const RobotParams robot = uneven_robot();
   Random random(1);
   for (std::int32_t kind = 0; kind < 1000; ++kind) {
     JointVector reference = micro::random_joints(robot, random);
@@ -67,7 +67,7 @@ TEST(SerialLimiter, AThousandRandomReferencesNeverPassRangeRateOrAcceleration) {
 }
 
 TEST(SerialLimiter, AReferenceInsideTheLimitsIsFollowedExactly) {
-  const RobotTable robot = uneven_robot();
+  const RobotParams robot = uneven_robot();
   LimiterState state = at_rest_at({});
   JointVector reference{};
   double rate = 0.0;
@@ -81,7 +81,7 @@ TEST(SerialLimiter, AReferenceInsideTheLimitsIsFollowedExactly) {
 }
 
 TEST(SerialLimiter, EveryLimitThatActsNamesItself) {
-  const RobotTable robot = micro::table();
+  const RobotParams robot = micro::table();
   LimiterState state = at_rest_at({});
   JointVector far{};
   far[2] = robot.joint[2].high_rad;
@@ -97,7 +97,7 @@ TEST(SerialLimiter, EveryLimitThatActsNamesItself) {
   EXPECT_NEAR(state.joint_rad[2], robot.joint[2].high_rad, 1e-6);
 }
 
-LimiterState moving(const RobotTable& robot, Random& random) {
+LimiterState moving(const RobotParams& robot, Random& random) {
   LimiterState state = at_rest_at(micro::random_joints(robot, random, 0.5));
   for (std::size_t i = 0; i < robot.joints(); ++i)
     state.rate_rad_s[i] = robot.joint[i].rate_rad_s * random.uniform(-1.0, 1.0);
@@ -106,7 +106,7 @@ LimiterState moving(const RobotTable& robot, Random& random) {
 
 // The path is kept: the joints' rates keep their proportion until all are zero.
 TEST(SerialLimiter, BrakingJointsKeepTheirProportionAndComeToRestTogether) {
-  const RobotTable robot = uneven_robot();
+  const RobotParams robot = uneven_robot();
   Random random(2);
   for (std::int32_t i = 0; i < 200; ++i) {
     const LimiterState start = moving(robot, random);
@@ -126,7 +126,7 @@ TEST(SerialLimiter, BrakingJointsKeepTheirProportionAndComeToRestTogether) {
 }
 
 TEST(SerialLimiter, TheAllowedShareOfAStepPassesUnchanged) {
-  const RobotTable robot = uneven_robot();
+  const RobotParams robot = uneven_robot();
   Random random(3);
   std::int32_t cut = 0;
   for (std::int32_t i = 0; i < 2000; ++i) {
@@ -147,7 +147,7 @@ TEST(SerialLimiter, TheAllowedShareOfAStepPassesUnchanged) {
 // Where a base has swung, the joints stand off their targets as force begins: what is verified then goes by the
 // targets.
 TEST(FollowAlong, ATargetThatForcesLeadGoesNoQuickerThanItsJointsAndGetsThere) {
-  const RobotTable robot = uneven_robot();
+  const RobotParams robot = uneven_robot();
   JointVector measured{};
   for (std::size_t i = 0; i < robot.joints(); ++i) measured[i] = i % 2 == 0 ? 0.05 : -0.08;
   LimiterState target = at_rest_at({});

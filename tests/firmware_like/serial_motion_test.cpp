@@ -11,7 +11,7 @@ namespace {
 
 using micro::Random;
 
-MotionState standing_at(const RobotTable& robot, const JointVector& joint) {
+MotionState standing_at(const RobotParams& robot, const JointVector& joint) {
   MotionState state;
   reset_motion(robot, joint, state);
   return state;
@@ -33,7 +33,7 @@ Setpoint tip_setpoint(const Pose& tip, double speed_m_s = 0.1) {
 }
 
 // One tick; range, rate, acceleration and jumps of the command are checked.
-void tick(const RobotTable& robot, MotionState& state, bool allowed = true) {
+void tick(const RobotParams& robot, MotionState& state, bool allowed = true) {
   const LimiterState before = state.limiter;
   advance_motion(robot, allowed, state);
   ASSERT_TRUE(micro::within_ranges(robot, state.limiter.joint_rad));
@@ -44,7 +44,7 @@ void tick(const RobotTable& robot, MotionState& state, bool allowed = true) {
   }
 }
 
-void run(const RobotTable& robot, std::int32_t ticks, MotionState& state, bool allowed = true) {
+void run(const RobotParams& robot, std::int32_t ticks, MotionState& state, bool allowed = true) {
   for (std::int32_t i = 0; i < ticks; ++i) {
     tick(robot, state, allowed);
     if (testing::Test::HasFatalFailure()) return;
@@ -52,7 +52,7 @@ void run(const RobotTable& robot, std::int32_t ticks, MotionState& state, bool a
 }
 
 // As the arbiter does it: a setpoint per interval, on the way.
-void lead_joints(const RobotTable& robot, const JointVector& from, const JointVector& to, double duration_s,
+void lead_joints(const RobotParams& robot, const JointVector& from, const JointVector& to, double duration_s,
                  MotionState& state) {
   const auto intervals = static_cast<std::int32_t>(duration_s / (robot.tick_s * robot.interval_ticks));
   for (std::int32_t i = 1; i <= intervals; ++i) {
@@ -71,7 +71,7 @@ double tip_distance(const MotionState& state, const Pose& goal) {
 }
 
 TEST(SerialMotion, JointsArriveExactlyWhereTheyAreLed) {
-  const RobotTable robot = micro::table();
+  const RobotParams robot = micro::table();
   const JointVector start = micro::radians(micro::kBent_deg);
   JointVector goal = start;
   for (std::size_t i = 0; i < robot.joints(); ++i) goal[i] += (i % 2 == 0 ? 3.0 : -2.0) * kDegree;
@@ -83,7 +83,7 @@ TEST(SerialMotion, JointsArriveExactlyWhereTheyAreLed) {
 }
 
 TEST(SerialMotion, TheTipArrivesAndTheJointsStandStill) {
-  const RobotTable robot = micro::table();
+  const RobotParams robot = micro::table();
   MotionState state = standing_at(robot, micro::radians(micro::kBent_deg));
   Pose goal = state.arm.tip_in_base;
   goal.position_m = add(goal.position_m, {0.2, -0.1, 0.15});
@@ -96,7 +96,7 @@ TEST(SerialMotion, TheTipArrivesAndTheJointsStandStill) {
 }
 
 TEST(SerialMotion, TheTipStaysOnItsStraightLine) {
-  const RobotTable robot = micro::table();
+  const RobotParams robot = micro::table();
   MotionState state = standing_at(robot, micro::radians(micro::kBent_deg));
   const Pose start = state.arm.tip_in_base;
   Pose goal = start;
@@ -112,7 +112,7 @@ TEST(SerialMotion, TheTipStaysOnItsStraightLine) {
 }
 
 TEST(SerialMotion, ASetpointsSpeedBoundsTheTip) {
-  const RobotTable robot = micro::table();
+  const RobotParams robot = micro::table();
   MotionState state = standing_at(robot, micro::radians(micro::kBent_deg));
   Pose goal = state.arm.tip_in_base;
   goal.position_m[2] += 0.3;
@@ -128,7 +128,7 @@ TEST(SerialMotion, ASetpointsSpeedBoundsTheTip) {
 
 // A stop within a second from anywhere on the way, and without leaving the limits on the way down.
 TEST(SerialMotion, StopsWhenItIsNoLongerAllowed) {
-  const RobotTable robot = micro::table();
+  const RobotParams robot = micro::table();
   Random random(1);
   for (std::int32_t i = 0; i < 40; ++i) {
     MotionState state = standing_at(robot, micro::random_joints(robot, random, 0.7));
@@ -156,7 +156,7 @@ TEST(SerialMotion, StopsWhenItIsNoLongerAllowed) {
 
 // The spare joint goes towards the middle of its range while the tip moves, and not while it rests.
 TEST(SerialMotion, TheArmTurnsOnlyWhileTheTipMoves) {
-  const RobotTable robot = micro::table();
+  const RobotParams robot = micro::table();
   MotionState state = standing_at(robot, micro::radians({200, -117, -97, 139, 125, 107, 250}));
   const JointVector start = state.limiter.joint_rad;
   Pose goal = state.arm.tip_in_base;
@@ -166,7 +166,7 @@ TEST(SerialMotion, TheArmTurnsOnlyWhileTheTipMoves) {
 }
 
 TEST(SerialMotion, GoesFromJointsToTipAndBackWithoutAJump) {
-  const RobotTable robot = micro::table();
+  const RobotParams robot = micro::table();
   const JointVector start = micro::radians(micro::kBent_deg);
   MotionState state = standing_at(robot, start);
   JointVector there = start;
@@ -182,7 +182,7 @@ TEST(SerialMotion, GoesFromJointsToTipAndBackWithoutAJump) {
 
 // A goal out of reach leads to a stretched arm that says so and can be led back.
 TEST(SerialMotion, ComesBackFromAGoalOutOfReach) {
-  const RobotTable robot = micro::table();
+  const RobotParams robot = micro::table();
   MotionState state = standing_at(robot, micro::radians(micro::kBent_deg));
   const Pose home = state.arm.tip_in_base;
   Pose far = home;
@@ -196,7 +196,7 @@ TEST(SerialMotion, ComesBackFromAGoalOutOfReach) {
 }
 
 TEST(SerialMotion, OnlyUsableSetpointsAreUsable) {
-  const RobotTable robot = micro::table();
+  const RobotParams robot = micro::table();
   const Pose tip = forward_kinematics(robot, {}).tip_in_base;
   const double nan = std::nan("");
   EXPECT_TRUE(is_usable(robot, tip_setpoint(tip)));
@@ -205,7 +205,7 @@ TEST(SerialMotion, OnlyUsableSetpointsAreUsable) {
                                      {LinkMass{}, true},
                                      {LinkMass{nan, good.center_m, good.inertia_kgm2}, false},
                                      {LinkMass{-1.0, good.center_m, good.inertia_kgm2}, false},
-                                     {LinkMass{2.0 * kMostMass_kg, good.center_m, good.inertia_kgm2}, false},
+                                     {LinkMass{2.0 * kMaxMass_kg, good.center_m, good.inertia_kgm2}, false},
                                      {LinkMass{500.0, {0.0, nan, 0.0}, good.inertia_kgm2}, false},
                                      {LinkMass{500.0, good.center_m, {}}, false},
                                      {LinkMass{500.0, good.center_m, {80.0, 80.0, 170.0, 0.0, 0.0, 0.0}}, false},

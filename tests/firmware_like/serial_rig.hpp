@@ -70,7 +70,7 @@ struct Rig {
     return setpoint;
   }
 
-  RobotTable robot = table();
+  RobotParams robot = table();
   Controller controller;
   DriveFeedbacks drive{};
   Outputs out{};

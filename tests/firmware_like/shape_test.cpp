@@ -9,13 +9,13 @@
 namespace liana::cable {
 namespace {
 
-using namespace solve;
+using namespace inverse_kinematics;
 
 using zhu2022::kX4AndX5;
 using zhu2022::kX5;
 using zhu2022::Random;
 
-ArmKinematics arm_at(const RobotTable& robot, const ThetaVector& theta) { return forward_kinematics(robot, theta); }
+ArmKinematics arm_at(const RobotParams& robot, const ThetaVector& theta) { return forward_kinematics(robot, theta); }
 
 double tip_rate(const Jacobian& J, const ThetaVector& v) {
   Vec3 linear{}, angular{};
@@ -34,13 +34,13 @@ NodeTargets target_of(std::int32_t node, const Vec3& position_m, double weight =
 
 void count_on(ShapeState& shape) { shape.tick = (shape.tick + 1) % kShapeTicks; }
 
-double distance_m(const RobotTable& robot, const ThetaVector& theta, const NodeTarget& target) {
+double distance_m(const RobotParams& robot, const ThetaVector& theta, const NodeTarget& target) {
   return norm(
       subtract(target.position_m, arm_at(robot, theta).node_in_base[static_cast<std::size_t>(target.node)].position_m));
 }
 
 // Shape motion for `ticks` with the tip brought back by the servo IK, as the tick does it.
-void run(const RobotTable& robot, const NodeTargets& nodes, std::uint32_t held, std::int32_t ticks,
+void run(const RobotParams& robot, const NodeTargets& nodes, std::uint32_t held, std::int32_t ticks,
          ThetaVector& theta) {
   const IkGoal goal{arm_at(robot, theta).tip_in_base, held};
   ShapeState shape;
@@ -54,7 +54,7 @@ void run(const RobotTable& robot, const NodeTargets& nodes, std::uint32_t held, 
 
 // req:A45
 TEST(Shape, TheMiddleNodeComesFirstUnlessWeightsSayOtherwise) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   for (const std::int32_t node : {1, 2, 4, 5})
     EXPECT_LT(default_node_weight(robot, node), default_node_weight(robot, 3));
 }
@@ -62,7 +62,7 @@ TEST(Shape, TheMiddleNodeComesFirstUnlessWeightsSayOtherwise) {
 // A true projector, not a damped inverse.
 // req:A43
 TEST(Shape, ProjectedVectorsDoNotMoveTheTip) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   Random random(1);
   for (const std::uint32_t held : {0u, kX5, kX4AndX5, (1u << 3) | kX4AndX5}) {
     for (std::int32_t i = 0; i < 300; ++i) {
@@ -80,7 +80,7 @@ TEST(Shape, ProjectedVectorsDoNotMoveTheTip) {
 }
 
 TEST(Shape, TheNullSpaceHasTheDimensionThatTheTipLeaves) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const ThetaVector bent = Random(2).theta(robot, 15.0);
   for (const auto& [held, dimension] :
        {std::pair{0u, 4}, std::pair{kX5, 3}, std::pair{kX4AndX5, 2}, std::pair{0x3F8u, 0}}) {
@@ -91,7 +91,7 @@ TEST(Shape, TheNullSpaceHasTheDimensionThatTheTipLeaves) {
 }
 
 TEST(Shape, ProjectionIsSymmetricSoThatDescentStaysDescent) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   Random random(3);
   for (std::int32_t i = 0; i < 100; ++i) {
     const NullSpace space = null_space(arm_at(robot, random.theta(robot, 20.0)).tip_jacobian, robot.theta_count(), kX5);
@@ -105,7 +105,7 @@ TEST(Shape, ProjectionIsSymmetricSoThatDescentStaysDescent) {
 
 // The pull of a model at rest is the negative gradient of the weighted excesses along the null space.
 TEST(Shape, TheModelsPullIsDownhill) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
   NodeTargets nodes = target_of(3, {1.0, 0.2, 0.5}, 2.0);
   nodes[1] = {1, {0.7, -0.1, 0.3}, 0.5, 0.05};
@@ -131,7 +131,7 @@ TEST(Shape, TheModelsPullIsDownhill) {
 // Nothing happens within the threshold.
 // req:A43
 TEST(Shape, OnlyNodesBeyondTheirThresholdCount) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
   const ArmKinematics arm = arm_at(robot, theta);
   const Vec3 at = arm.node_in_base[3].position_m;
@@ -152,7 +152,7 @@ TEST(Shape, OnlyNodesBeyondTheirThresholdCount) {
 // Towards a target that another shape with the same tip has, up to the balance with centring.
 // req:A42 req:A43
 TEST(Shape, TheNodeDistanceFallsWhileTheTipStays) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
   ThetaVector other = theta;
   run(robot, target_of(3, add(arm_at(robot, theta).node_in_base[3].position_m, {0.3, 0.1, 0.2})), 0, 1500, other);
@@ -174,7 +174,7 @@ TEST(Shape, TheNodeDistanceFallsWhileTheTipStays) {
 // Weights decide between targets that contradict each other: node 3 with the larger weight wins.
 // req:A44
 TEST(Shape, TheHeavierNodeComesCloser) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const ThetaVector start = zhu2022::radians(zhu2022::kPanelEdge_deg);
   const ArmKinematics arm = arm_at(robot, start);
   std::array<double, 2> third_m{}, second_m{};
@@ -191,7 +191,7 @@ TEST(Shape, TheHeavierNodeComesCloser) {
 }
 
 TEST(Shape, MovesStayWithinLimitsAndBelowTheirShareOfTheRate) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   Random random(4);
   for (std::int32_t i = 0; i < 100; ++i) {
     ThetaVector theta = random.theta(robot, 20.0);
@@ -217,7 +217,7 @@ TEST(Shape, MovesStayWithinLimitsAndBelowTheirShareOfTheRate) {
 
 // The pitch of the segment that enters the slit next is drawn to zero more than the others.
 TEST(Shape, ThePitchAheadOfThePlanarPartComesIntoThePlaneFirst) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   ThetaVector theta = zhu2022::radians({3, 2, -4, 3, 3, -2, 4, -5, 0, 3});
   const ThetaVector start = theta;
   ThetaVector without_lead = start;
@@ -231,7 +231,7 @@ TEST(Shape, ThePitchAheadOfThePlanarPartComesIntoThePlaneFirst) {
 // At every kind of pose: nearly straight, at limits, with rival nodes, with held thetas.
 // req:A43
 TEST(Shape, TheMoveOfATickDoesNotMoveTheTip) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   Random random(5);
   for (const std::uint32_t held : {0u, kX5, kX4AndX5}) {
     for (std::int32_t i = 0; i < 200; ++i) {
@@ -251,7 +251,7 @@ TEST(Shape, TheMoveOfATickDoesNotMoveTheTip) {
 
 // No null-space point within bounds is nearer, in the metric of the model, than the one found.
 TEST(Shape, LimitsAreBoundsOfTheSameProblem) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   Random random(6);
   std::int32_t bounded = 0;
   for (std::int32_t i = 0; i < 300; ++i) {
@@ -300,7 +300,7 @@ TEST(Shape, LimitsAreBoundsOfTheSameProblem) {
 // 500 cases against the best of 50 solves by tests/numbers/planning_shape.cpp.
 // req:A44
 TEST(Shape, TheTickEndsWhereTheOfflineSolveFromTheSameStartEnds) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   Random random(7);
   std::int32_t same = 0;
   for (std::int32_t i = 0; i < 10; ++i) {
@@ -321,7 +321,7 @@ TEST(Shape, TheTickEndsWhereTheOfflineSolveFromTheSameStartEnds) {
 
 // A target that jumps to and fro, into limits and back: rates change by no more than their share of the acceleration.
 TEST(Shape, MotionIsSmoothWhateverTheTargetsDo) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   Random random(8);
   const double accel = kShapeBesideTip.accel_share * robot.limits.theta_accel_rad_s2 * robot.tick_s;
   for (std::int32_t i = 0; i < 10; ++i) {
@@ -344,10 +344,10 @@ TEST(Shape, MotionIsSmoothWhateverTheTargetsDo) {
 // Three segments leave the tip nothing to spare; eight leave ten directions.
 TEST(Shape, ArmsOfOtherSizesKeepTheirTipToo) {
   Random random(9);
-  RobotTable eight = zhu2022::table();
+  RobotParams eight = zhu2022::table();
   eight.segment_count = 8;
   for (std::size_t m = 5; m < 8; ++m) eight.segment[m] = zhu2022::segment(8, 3, 24.0 * static_cast<double>(m));
-  for (const RobotTable& robot : {zhu2022::uneven_table(), eight}) {
+  for (const RobotParams& robot : {zhu2022::uneven_table(), eight}) {
     const ThetaVector theta = random.theta(robot, 15.0);
     ShapeState shape;
     const ArmKinematics arm = arm_at(robot, theta);

@@ -93,7 +93,7 @@ TEST(SupervisorTable, NoStateIsLeftWithoutEndWhateverTheDrivesDo) {
     const ArmStatus arm{true, false, false};
     std::uint32_t ticks = 0;
     const std::uint32_t bound =
-        kPatience.path_stop + kPatience.quick_stop + kPatience.off_budget + kPatience.reset_budget + 10;
+        kTimeout_s.path_stop + kTimeout_s.quick_stop + kTimeout_s.off_budget + kTimeout_s.reset_budget + 10;
     bool ended = false;
     for (; ticks < bound && !ended; ++ticks) {
       inputs.request = Request::kStop;

@@ -64,7 +64,7 @@ class Operation : public ::testing::Test {
     return false;
   }
 
-  RobotTable robot_ = table();
+  RobotParams robot_ = table();
   LinkLimits limits_ = make_link_limits(robot_);
   GateLimits gate_limits_ = make_gate_limits(robot_, zero_payout_m());
   Watchdogs watchdogs_{};
@@ -124,7 +124,7 @@ TEST_F(Operation, OneDriveThatDoesNotEnableAbortsAllWithinTheBudgetAndIsNamed) {
     inputs_.drive[4].statusword = status;
     stuck_drive_ = 4;
     tick(Request::kEnable);
-    const int limit = static_cast<int>(2 * kPatience.powering);
+    const int limit = static_cast<int>(2 * kTimeout_s.powering);
     EXPECT_LE(ticks_until(OperatingState::kStopping, limit), limit);
     EXPECT_TRUE(has(faults_, FaultNumber::kDriveEnableTimeout, 4));
     EXPECT_EQ(faults_.fault[0].detail, status);
@@ -152,7 +152,7 @@ TEST(PatienceOfTheSupervisor, IsTheSameInSecondsAtEveryRate) {
 TEST_F(Operation, APretensionRampThatNeverEndsIsATimeout) {
   arm_.prepared = false;
   tick(Request::kEnable);
-  const int limit = static_cast<int>(kPatience.preparing) + 100;
+  const int limit = static_cast<int>(kTimeout_s.preparing) + 100;
   EXPECT_LE(ticks_until(OperatingState::kFault, limit), limit);
   EXPECT_TRUE(has(faults_, FaultNumber::kDriveEnableTimeout, -1));
 }
@@ -200,8 +200,8 @@ TEST_F(Operation, DisableStopsAlongThePathThenBrakesThenPowersDown) {
   for (int i = 0; i < 100; ++i) tick();
   EXPECT_EQ(orders_.goal, DriveGoal::kOperationEnabled) << "still decelerating";
   arm_.at_rest = true;
-  for (std::uint32_t i = 1; i < kPatience.rest; ++i) EXPECT_EQ(tick().goal, DriveGoal::kOperationEnabled);
-  for (std::uint32_t i = 0; i < kPatience.braking; ++i) EXPECT_EQ(tick().goal, DriveGoal::kSwitchedOn);
+  for (std::uint32_t i = 1; i < kTimeout_s.rest; ++i) EXPECT_EQ(tick().goal, DriveGoal::kOperationEnabled);
+  for (std::uint32_t i = 0; i < kTimeout_s.braking; ++i) EXPECT_EQ(tick().goal, DriveGoal::kSwitchedOn);
   for (std::uint32_t i = 0; i < kOffTicks; ++i) {
     EXPECT_EQ(tick().goal, DriveGoal::kDisabled);
     EXPECT_EQ(orders_.state, OperatingState::kStopping);
@@ -216,11 +216,11 @@ TEST_F(Operation, RestThatIsInterruptedIsCountedAgain) {
   arm_.at_rest = false;
   tick(Request::kStop);
   arm_.at_rest = true;
-  for (std::uint32_t i = 1; i < kPatience.rest; ++i) tick();
+  for (std::uint32_t i = 1; i < kTimeout_s.rest; ++i) tick();
   arm_.at_rest = false;
   tick();
   arm_.at_rest = true;
-  for (std::uint32_t i = 1; i < kPatience.rest; ++i) EXPECT_EQ(tick().goal, DriveGoal::kOperationEnabled);
+  for (std::uint32_t i = 1; i < kTimeout_s.rest; ++i) EXPECT_EQ(tick().goal, DriveGoal::kOperationEnabled);
   EXPECT_EQ(tick().goal, DriveGoal::kSwitchedOn);
 }
 
@@ -228,7 +228,7 @@ TEST_F(Operation, AStopThatNeverComesToRestEndsInAQuickStop) {
   enable();
   arm_.at_rest = false;
   tick(Request::kStop);
-  for (std::uint32_t i = 1; i < kPatience.path_stop; ++i) EXPECT_EQ(tick().goal, DriveGoal::kOperationEnabled);
+  for (std::uint32_t i = 1; i < kTimeout_s.path_stop; ++i) EXPECT_EQ(tick().goal, DriveGoal::kOperationEnabled);
   EXPECT_EQ(tick().goal, DriveGoal::kQuickStop);
   EXPECT_LE(ticks_until(OperatingState::kDisabled, 20), 20);
 }
@@ -288,7 +288,7 @@ TEST_F(Operation, AHoldFaultIsNotClearedWhileTheArmStillMoves) {
 TEST_F(Operation, ACauseThatPersistsTurnsAHoldIntoAStop) {
   enable();
   tension_N_[2] = 450.0;
-  for (std::uint32_t i = 1; i < kAlarmDebounceTicks + kPatience.persist - 1; ++i)
+  for (std::uint32_t i = 1; i < kAlarmDebounceTicks + kTimeout_s.persist - 1; ++i)
     ASSERT_EQ(tick().state, OperatingState::kEnabled) << i;
   EXPECT_EQ(tick().state, OperatingState::kStopping);
   EXPECT_LE(ticks_until(OperatingState::kFault, 100), 100);
@@ -306,12 +306,12 @@ TEST_F(Operation, ACauseThatPersistsDoesNotStopARetreatThatMovesButCountsAnewAft
   for (std::uint32_t i = 1; i < kAlarmDebounceTicks; ++i) tick();
   in_force_ = CommandKind::kRetreat;
   arm_.at_rest = false;
-  for (std::uint32_t i = 0; i < 3 * kPatience.persist; ++i) {
+  for (std::uint32_t i = 0; i < 3 * kTimeout_s.persist; ++i) {
     ASSERT_EQ(tick().state, OperatingState::kEnabled) << i;
     ASSERT_EQ(orders_.may_move, MayMove::kRetreat) << i;
   }
   arm_.at_rest = true;  // its end, or whatever holds it up
-  for (std::uint32_t i = 1; i < kPatience.persist; ++i) ASSERT_EQ(tick().state, OperatingState::kEnabled) << i;
+  for (std::uint32_t i = 1; i < kTimeout_s.persist; ++i) ASSERT_EQ(tick().state, OperatingState::kEnabled) << i;
   EXPECT_EQ(tick().state, OperatingState::kStopping);
 }
 
@@ -320,7 +320,7 @@ TEST_F(Operation, AnotherCommandThanARetreatDoesNotKeepACauseFromStoppingTheArm)
   tension_N_[2] = 450.0;
   in_force_ = CommandKind::kJoint;
   arm_.at_rest = false;
-  for (std::uint32_t i = 1; i < kAlarmDebounceTicks + kPatience.persist - 1; ++i)
+  for (std::uint32_t i = 1; i < kAlarmDebounceTicks + kTimeout_s.persist - 1; ++i)
     ASSERT_EQ(tick().state, OperatingState::kEnabled) << i;
   EXPECT_EQ(tick().state, OperatingState::kStopping);
 }
@@ -333,7 +333,7 @@ TEST_F(Operation, ADriveThatGoesSilentQuickStopsTheOthersInTheSameTick) {
   EXPECT_FALSE(orders_.live_targets);
   for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i)
     EXPECT_EQ(sent_[i].controlword, kQuickStopCommand);
-  const int limit = static_cast<int>(kPatience.quick_stop + kPatience.off_budget) + 2;
+  const int limit = static_cast<int>(kTimeout_s.quick_stop + kTimeout_s.off_budget) + 2;
   EXPECT_LE(ticks_until(OperatingState::kFault, limit), limit)
       << "a drive that cannot confirm does not hold the others up for ever";
   EXPECT_TRUE(has(faults_, FaultNumber::kDriveStopTimeout, 3));
@@ -380,7 +380,7 @@ TEST_F(Operation, AClearWhoseCauseIsStillThereReportsItAndStaysInFault) {
   tick();
   EXPECT_EQ(tick().state, OperatingState::kFault);
   tick(Request::kClear);
-  for (std::uint32_t i = 0; i < kPatience.reset_budget; ++i) tick();
+  for (std::uint32_t i = 0; i < kTimeout_s.reset_budget; ++i) tick();
   EXPECT_EQ(orders_.goal, DriveGoal::kDisabled) << "back from resetting";
   EXPECT_EQ(orders_.state, OperatingState::kFault);
   EXPECT_EQ(state_.clear.missing, kNoDriveInFault | kCausesGone);

@@ -19,7 +19,7 @@ struct Planned {
   TensionPlan plan;
 };
 
-Planned plan_at(const RobotTable& robot, const ThetaVector& theta, const SlipState& slip) {
+Planned plan_at(const RobotParams& robot, const ThetaVector& theta, const SlipState& slip) {
   const CableLayout layout = cable_layout(robot);
   Planned out;
   const ArmTrig trig = arm_trig(robot, theta);
@@ -30,7 +30,7 @@ Planned plan_at(const RobotTable& robot, const ThetaVector& theta, const SlipSta
 }
 
 // Torque of all cables on every theta [N m], friction included.
-ThetaVector torque_of(const RobotTable& robot, const Planned& at, const CableVector& motor_N) {
+ThetaVector torque_of(const RobotParams& robot, const Planned& at, const CableVector& motor_N) {
   ThetaVector torque{};
   for (std::size_t c = 0; c < static_cast<std::size_t>(robot.cable_count()); ++c) {
     for (std::size_t k = 0; k < kMaxTheta; ++k)
@@ -39,14 +39,14 @@ ThetaVector torque_of(const RobotTable& robot, const Planned& at, const CableVec
   return torque;
 }
 
-double least(const RobotTable& robot, const CableVector& motor_N) {
+double least(const RobotParams& robot, const CableVector& motor_N) {
   return *std::min_element(motor_N.begin(), motor_N.begin() + robot.cable_count());
 }
 
 // req:A8
 TEST(Tension, TwoThousandPosesAreInBalanceAndOverTheFloorWhateverTheFriction) {
   for (const double mu : {0.0, zhu2022::kMu}) {
-    const RobotTable robot = zhu2022::table(mu);
+    const RobotParams robot = zhu2022::table(mu);
     Random random(1);
     for (std::int32_t i = 0; i < 2000; ++i) {
       const SlipState slip = random_slip(random);  // compilers would take two arguments in either order
@@ -66,14 +66,14 @@ TEST(Tension, TwoThousandPosesAreInBalanceAndOverTheFloorWhateverTheFriction) {
 }
 
 TEST(Tension, TheStraightArmIsPulledEvenlyAtThePlannedLevel) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const Planned at = plan_at(robot, ThetaVector{}, SlipState{});
   for (std::size_t c = 0; c < zhu2022::kCables; ++c) EXPECT_NEAR(at.plan.motor_N[c], robot.tension.plan_N, 3.0) << c;
   EXPECT_FALSE(at.plan.floor_acted);
 }
 
 TEST(Tension, RaisingTheFloorSaysSo) {
-  RobotTable robot = zhu2022::table();
+  RobotParams robot = zhu2022::table();
   robot.tension.floor_motor_N = 60.0;  // above the planned level
   const Planned at = plan_at(robot, zhu2022::radians(zhu2022::kPanelEdge_deg), SlipState{});
   EXPECT_TRUE(at.plan.floor_acted);
@@ -82,13 +82,13 @@ TEST(Tension, RaisingTheFloorSaysSo) {
 }
 
 TEST(Tension, ACeilingThatIsPassedSaysSo) {
-  RobotTable robot = zhu2022::table();
+  RobotParams robot = zhu2022::table();
   robot.tension.ceiling_free_N = 41.0;
   EXPECT_TRUE(plan_at(robot, zhu2022::radians(zhu2022::kPanelEdge_deg), SlipState{}).plan.ceiling_exceeded);
 }
 
 TEST(Tension, OtherCableCountsAndPhasesBalanceToo) {
-  const RobotTable robot = zhu2022::uneven_table();
+  const RobotParams robot = zhu2022::uneven_table();
   Random random(2);
   for (std::int32_t i = 0; i < 500; ++i) {
     const Planned at = plan_at(robot, random.theta(robot, 20.0), random_slip(random));
@@ -100,7 +100,7 @@ TEST(Tension, OtherCableCountsAndPhasesBalanceToo) {
 
 TEST(Tension, CablesThatCannotTurnBothAnglesAreNamedUnbalanced) {
   for (const double apart_rad : {0.0, 1e-7}) {
-    RobotTable robot = zhu2022::table();
+    RobotParams robot = zhu2022::table();
     robot.segment[2].cable_phase_rad = {0.25 * kPi, 1.25 * kPi, 0.25 * kPi + apart_rad,
                                         0.0};  // all in one plane, or nearly
     EXPECT_FALSE(plan_at(robot, ThetaVector{}, SlipState{}).plan.balanced) << apart_rad;
@@ -111,7 +111,7 @@ TEST(Tension, CablesThatCannotTurnBothAnglesAreNamedUnbalanced) {
 // the steps shrink.
 TEST(Tension, PlansAreSmoothAlongRandomPaths) {
   constexpr double kSlope_N_rad = 700.0;
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const SlipState slip{};
   for (const double step_deg : {0.1, 0.001}) {
     Random random(3);
@@ -132,7 +132,7 @@ TEST(Tension, PlansAreSmoothAlongRandomPaths) {
 // No kinks either: the second difference falls with the square of the step (a kink's falls with the step).
 TEST(Tension, PlansHaveNoKinksAlongRandomPaths) {
   constexpr double kCurvature_N_rad2 = 60000.0;
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   for (std::uint64_t path = 0; path < 60; ++path) {
     Random random(path);
     const ThetaVector from = random.theta(robot, 12.0), step = random.theta(robot, 0.02);
@@ -147,7 +147,7 @@ TEST(Tension, PlansHaveNoKinksAlongRandomPaths) {
 }
 
 // Tensions that follow from unstretched lengths at a pose, without friction: T = EA (path + lead - payout) / payout.
-CableVector tension_from(const RobotTable& robot, const CableGeometry& geometry, const CableVector& payout_m) {
+CableVector tension_from(const RobotParams& robot, const CableGeometry& geometry, const CableVector& payout_m) {
   CableVector tension{};
   for (std::size_t c = 0; c < static_cast<std::size_t>(robot.cable_count()); ++c) {
     tension[c] = robot.cable_EA_N * (geometry.length_m[c] + robot.lead_m - payout_m[c]) / payout_m[c];
@@ -156,7 +156,7 @@ CableVector tension_from(const RobotTable& robot, const CableGeometry& geometry,
 }
 
 // Where the arm comes to rest when the motors stand at `payout_m`: Newton on the torque with the elastic stiffness.
-ThetaVector rest_pose(const RobotTable& robot, const CableVector& payout_m, ThetaVector theta) {
+ThetaVector rest_pose(const RobotParams& robot, const CableVector& payout_m, ThetaVector theta) {
   for (std::int32_t i = 0; i < 60; ++i) {
     const Planned at = plan_at(robot, theta, SlipState{});
     ThetaVector step = torque_of(robot, at, tension_from(robot, at.geometry, payout_m));
@@ -179,13 +179,13 @@ ThetaVector rest_pose(const RobotTable& robot, const CableVector& payout_m, Thet
   return theta;
 }
 
-double tip_distance_m(const RobotTable& robot, const ThetaVector& a, const ThetaVector& b) {
+double tip_distance_m(const RobotParams& robot, const ThetaVector& a, const ThetaVector& b) {
   return norm(subtract(forward_kinematics(robot, a).tip_in_base.position_m,
                        forward_kinematics(robot, b).tip_in_base.position_m));
 }
 
 TEST(Tension, AGeometricCommandLeavesATorqueThatPlannedTensionsDoNot) {
-  const RobotTable robot = zhu2022::table(0.0);
+  const RobotParams robot = zhu2022::table(0.0);
   const CableLayout layout = cable_layout(robot);
   for (const auto& pose : {zhu2022::kPrepare_deg, zhu2022::kPanelEdge_deg, zhu2022::kPressRod_deg}) {
     const ThetaVector theta = zhu2022::radians(pose);
@@ -207,7 +207,7 @@ TEST(Tension, AGeometricCommandLeavesATorqueThatPlannedTensionsDoNot) {
 }
 
 TEST(Tension, PayoutIsShorterThanThePathByWhatTheTensionStretches) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const CableLayout layout = cable_layout(robot);
   const Planned at = plan_at(robot, zhu2022::radians(zhu2022::kPrepare_deg), SlipState{});
   const CableVector slack_m = payout_for(robot, layout, at.geometry.part_m, at.ratio, CableVector{});
@@ -221,7 +221,7 @@ TEST(Tension, PayoutIsShorterThanThePathByWhatTheTensionStretches) {
 
 // Where friction takes tension away, the cable stretches less and the motor has to give more.
 TEST(Tension, PayoutCountsTheStretchOfEveryPieceAtItsOwnTension) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const CableLayout layout = cable_layout(robot);
   SlipState inwards;
   for (auto& row : inwards.sigma) row.fill(1.0);
@@ -242,20 +242,20 @@ TEST(Tension, PayoutCountsTheStretchOfEveryPieceAtItsOwnTension) {
 const ThetaVector kBent_rad = zhu2022::radians({-8.0, 0.0, -12.0, 0.0, 8.0, -2.0, 13.0, 0.0, 12.0, -2.0});
 
 // A plant in which unknown friction takes `lost_N` off the first cable at its motor.
-SegmentVector lifted_until_taut(const RobotTable& robot, double lost_N, CableVector& measured_N) {
+SegmentVector lifted_until_taut(const RobotParams& robot, double lost_N, CableVector& measured_N) {
   SegmentVector lift_N{};
   const std::int32_t ten_seconds = static_cast<std::int32_t>(10.0 / robot.tick_s);
   const Planned at = plan_at(robot, kBent_rad, SlipState{});
   for (std::int32_t tick = 0; tick < ten_seconds; ++tick) {
     measured_N = plan_tension(robot, at.geometry, at.ratio, lift_N).motor_N;
     measured_N[0] -= lost_N;
-    keep_taut(robot, measured_N, lift_N);
+    keep_min_tension(robot, measured_N, lift_N);
   }
   return lift_N;
 }
 
 TEST(Tension, ASegmentWhoseCableLosesTensionIsPulledTighterAndTurnsNoJoint) {
-  const RobotTable robot = zhu2022::table(zhu2022::kMu);
+  const RobotParams robot = zhu2022::table(zhu2022::kMu);
   const Planned at = plan_at(robot, kBent_rad, SlipState{});
   const double lost_N =
       at.plan.motor_N[0] - robot.tension.floor_motor_N - kLiftBelow_N + 5.0;  // 5 N under where lifting starts
@@ -269,12 +269,12 @@ TEST(Tension, ASegmentWhoseCableLosesTensionIsPulledTighterAndTurnsNoJoint) {
 }
 
 TEST(Tension, TheLiftIsBoundedAndGoesWhenTheTensionIsBack) {
-  const RobotTable robot = zhu2022::table(zhu2022::kMu);
+  const RobotParams robot = zhu2022::table(zhu2022::kMu);
   CableVector measured_N{};
   SegmentVector lift_N = lifted_until_taut(robot, 1000.0, measured_N);
   EXPECT_EQ(lift_N[0], kLiftLimit_N * (1.0 - zhu2022::kMu / kMarginFriction));
   measured_N.fill(robot.tension.plan_N);
-  for (double time_s = 0.0; time_s < kLiftLeak_s; time_s += robot.tick_s) keep_taut(robot, measured_N, lift_N);
+  for (double time_s = 0.0; time_s < kLiftLeak_s; time_s += robot.tick_s) keep_min_tension(robot, measured_N, lift_N);
   EXPECT_NEAR(lift_N[0], kLiftLimit_N * (1.0 - zhu2022::kMu / kMarginFriction) * std::exp(-1.0), 0.01);
 }
 
@@ -284,19 +284,19 @@ TEST(Tension, WithMuchFrictionNothingIsLifted) {
 }
 
 TEST(Tension, EveryCableThatNearsTheFloorLiftsItsOwnSegment) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
     CableVector measured_N;
     measured_N.fill(40.0);
     measured_N[c] = robot.tension.floor_motor_N;
     SegmentVector lift_N{};
-    keep_taut(robot, measured_N, lift_N);
+    keep_min_tension(robot, measured_N, lift_N);
     for (std::size_t j = 0; j < 5; ++j) EXPECT_EQ(lift_N[j] > 0.0, j == c / 3) << "cable " << c << ", segment " << j;
   }
 }
 
 TEST(Tension, ACableUnderTheFloorAloneIsWoundInUntilItIsThere) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const double floor_N = robot.tension.floor_motor_N;
   for (const double looser_N : {5.0, 20.0, 55.0}) {
     CableVector measured_N, taut_N{};
@@ -312,7 +312,7 @@ TEST(Tension, ACableUnderTheFloorAloneIsWoundInUntilItIsThere) {
 }
 
 TEST(Tension, WhatACableIsWoundInIsBoundedAndGoesWhenItIsTaut) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   CableVector measured_N{}, taut_N{};
   for (double time_s = 0.0; time_s < 10.0; time_s += robot.tick_s) wind_in(robot, measured_N, taut_N);
   EXPECT_EQ(taut_N[0], kTautLimit_N);

@@ -16,7 +16,7 @@ using zhu2022::Random;
 
 constexpr double kWithRounding = 1.0 + 1e-9;
 
-TipFilterConfig config_of(const RobotTable& robot) { return tip_filter_config(robot, 0.0); }
+TipFilterConfig config_of(const RobotParams& robot) { return tip_filter_config(robot, 0.0); }
 TipFilterConfig config() { return config_of(zhu2022::table()); }
 
 // Checks one channel of one tick against its bounds; says which one broke.
@@ -115,8 +115,8 @@ TEST(TipFilter, ATurnIsReachedWithoutOvershoot) {
 }
 
 // A robot whose table says how late its tip is; room to brake is there from 0.2275 s on.
-RobotTable with_tip_lag(double lag_s) {
-  RobotTable robot = zhu2022::table();
+RobotParams with_tip_lag(double lag_s) {
+  RobotParams robot = zhu2022::table();
   robot.limits.tip_accel_m_s2 = 0.25;
   robot.limits.tip_jerk_m_s3 = 2.5;
   robot.limits.tip_angular_accel_rad_s2 = 50.0 * kDegree;
@@ -149,7 +149,7 @@ TEST(TipFilter, LagBehindARampIsTheStatedOne) {
 
 TEST(TipFilter, ALagInTheTableIsThatOfTipAndAttitudeAtEverySpeedAndSpeedLimit) {
   for (const double lag_in_table_s : {0.23, 0.25, 0.6}) {
-    const RobotTable robot = with_tip_lag(lag_in_table_s);
+    const RobotParams robot = with_tip_lag(lag_in_table_s);
     for (const double limit_m_s : {0.1, 0.03}) {
       const TipFilterConfig with = tip_filter_config(robot, limit_m_s);
       EXPECT_NEAR(lag_s(with.linear), lag_in_table_s, 1e-12);
@@ -166,7 +166,7 @@ TEST(TipFilter, ALagInTheTableIsThatOfTipAndAttitudeAtEverySpeedAndSpeedLimit) {
 TEST(TipFilter, ATargetThatStopsDeadIsNotPassedFromTheShortestLagOn) {
   const FilterBounds bounds = config_of(with_tip_lag(0.0)).linear;
   for (const double share : {1.0, 0.75}) {
-    const TipFilterConfig with = config_of(with_tip_lag(share * least_lag_s(bounds)));
+    const TipFilterConfig with = config_of(with_tip_lag(share * min_lag_s(bounds)));
     TipFilterState state;
     double target_m = 0.0, farthest_m = 0.0;
     for (std::int32_t i = 0; i < 3000; ++i) {
@@ -198,7 +198,7 @@ TEST(TipFilter, AfterBrakingItGoesOnFromWhereItIsWithoutAKick) {
 }
 
 TEST(TipFilter, BrakingComesToRestWithinABoundedNumberOfTicks) {
-  constexpr std::int32_t kMostTicks = 400;  // 1.6 s from full speed
+  constexpr std::int32_t kMaxTicks = 400;  // 1.6 s from full speed
   TipFilterState state;
   const Pose far{{50.0, -20.0, 5.0}, quaternion_of({0.0, 3.0, 0.0})};
   for (std::int32_t i = 0; i < 500; ++i) step(far, state);
@@ -206,19 +206,19 @@ TEST(TipFilter, BrakingComesToRestWithinABoundedNumberOfTicks) {
   ASSERT_GT(norm(state.linear.velocity), 0.99 * with.linear.speed);
   const Vec3 direction = scale(state.linear.velocity, 1.0 / norm(state.linear.velocity));
   std::int32_t ticks = 0;
-  for (; ticks < kMostTicks && !at_rest(state); ++ticks) {
+  for (; ticks < kMaxTicks && !at_rest(state); ++ticks) {
     const double speed = norm(state.linear.velocity);
     brake_tip(with, state);
     ASSERT_LE(norm(state.linear.velocity), speed + with.linear.jerk * with.tick_s * with.tick_s);  // slower and slower
     ASSERT_GE(dot(state.linear.velocity, direction), 0.0);  // and never backwards
   }
-  EXPECT_LT(ticks, kMostTicks);
+  EXPECT_LT(ticks, kMaxTicks);
   EXPECT_EQ(norm(state.linear.velocity), 0.0);
 }
 
 // req:A9
 TEST(TipFilter, TheSlitsSpeedLowersTheBoundAndTheRobotsIsTheMost) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   EXPECT_EQ(tip_filter_config(robot, robot.limits.tip_speed_slit_m_s).linear.speed, robot.limits.tip_speed_slit_m_s);
   EXPECT_EQ(tip_filter_config(robot, 5.0).linear.speed, robot.limits.tip_speed_m_s);
   EXPECT_EQ(tip_filter_config(robot, 0.0).linear.speed, robot.limits.tip_speed_m_s);

@@ -1,4 +1,4 @@
-#include "firmware_like/safety/link_watch.hpp"
+#include "firmware_like/safety/drive_link_monitor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -71,7 +71,7 @@ TEST(WatchFromStart, ADriveThatIsNeverHeardIsWatchedAfterTheTimeOfAHeartbeat) {
   LinkLimits limits;
   limits.drive_count = 3;
   limits.heartbeat_age_ticks = 75;
-  LinkWatchState state{};
+  DriveLinkMonitorState state{};
   FaultList faults{};
   CycleInputs inputs = healthy(kStatusDisabled);
   inputs.drive[1].feedback_age_ticks = 0xFFFF;  // its reports never came

@@ -11,7 +11,7 @@
 namespace liana::cable {
 namespace {
 
-using namespace solve;
+using namespace inverse_kinematics;
 
 using zhu2022::Random;
 
@@ -26,7 +26,7 @@ TEST(DofSplit, TheFrameOfThePanelSlitHasItsAxes) {
 
 // Fitting judged anew, point by point along densely sampled links: inside the slit's depth everything within gap and
 // width.
-bool fits_by_sampling(const RobotTable& robot, const PlanarPart& part, const SlitMouth& mouth, double slack_m) {
+bool fits_by_sampling(const RobotParams& robot, const PlanarPart& part, const SlitMouth& mouth, double slack_m) {
   const LinkPoints links = link_points(robot, part.theta_rad);
   const Pose tip = forward_kinematics(robot, part.theta_rad).tip_in_base;
   const Pose shift = compose(part.tip_in_base, inverse(tip));
@@ -53,7 +53,7 @@ bool fits_by_sampling(const RobotTable& robot, const PlanarPart& part, const Sli
 // the interval.
 // req:A39
 TEST(DofSplit, TheYawIntervalIsWhereS2IsReachableAndInsideTheSlit) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const SlitMouth mouth = panel_slit();
   const ThetaVector rod = zhu2022::radians(zhu2022::kPressRod_deg);
   const Pose at_rod = forward_kinematics(robot, rod).tip_in_base;
@@ -96,7 +96,7 @@ TEST(DofSplit, TheYawIntervalIsWhereS2IsReachableAndInsideTheSlit) {
 // turned only by b; 1.6 - 0.1 cos b > 1.5 unless b = 0: one point. With 5 mm more of S1 it is |b| <= acos of (1.6^2 +
 // 0.01 - 1.505^2) / 0.32.
 TEST(DofSplit, TheYawIntervalOfTwoLinksIsThatOfTheTriangle) {
-  RobotTable robot = zhu2022::table();
+  RobotParams robot = zhu2022::table();
   robot.segment_count = 2;
   robot.segment[0].modules = 14;
   robot.segment[1].modules = 2;
@@ -115,7 +115,7 @@ TEST(DofSplit, TheYawIntervalOfTwoLinksIsThatOfTheTriangle) {
 }
 
 TEST(DofSplit, AYawThatDoesNotFitGivesTheIntervalNearestToIt) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const SlitMouth mouth = panel_slit();
   const ThetaVector rod = zhu2022::radians(zhu2022::kPressRod_deg);
   PlanarPart part{2, forward_kinematics(robot, rod).tip_in_base, rod};
@@ -129,7 +129,7 @@ TEST(DofSplit, AYawThatDoesNotFitGivesTheIntervalNearestToIt) {
 }
 
 TEST(DofSplit, TheYawIntervalIsEmptyWhereNoYawFitsAndForOtherSegments) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   const SlitMouth mouth = panel_slit();
   const ThetaVector rod = zhu2022::radians(zhu2022::kPressRod_deg);
   PlanarPart part{1, forward_kinematics(robot, rod).tip_in_base, rod};

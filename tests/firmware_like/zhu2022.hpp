@@ -10,7 +10,7 @@
 #include <random>
 
 #include "firmware_like/cable/arm/kinematics.hpp"
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_params.hpp"
 #include "firmware_like/math/trig.hpp"
 
 namespace liana::cable::zhu2022 {
@@ -30,8 +30,8 @@ constexpr Degrees kPanelEdge_deg{-6.14, -15, -3.29, -8.72, 7.2, 15, 5.55, 15, 1,
 constexpr Degrees kPressRod_deg{-2.641, -2.064, -1.81, -4.64, 4.777, 5.87, 0, 4.764, 0, -0.543};
 
 // One segment with its cables evenly round, the first at `first_phase_deg`.
-inline SegmentTable segment(std::int32_t modules, std::int32_t cables, double first_phase_deg) {
-  SegmentTable out;
+inline SegmentParams segment(std::int32_t modules, std::int32_t cables, double first_phase_deg) {
+  SegmentParams out;
   out.modules = modules;
   out.cables = cables;
   out.module_length_m = 0.1;
@@ -44,8 +44,8 @@ inline SegmentTable segment(std::int32_t modules, std::int32_t cables, double fi
 }
 
 // The arm at 250 Hz with T_c = 20 ms; `mu` is the friction that the core is told.
-inline RobotTable table(double mu = kMu) {
-  RobotTable robot;
+inline RobotParams table(double mu = kMu) {
+  RobotParams robot;
   robot.segment_count = 5;
   for (std::size_t m = 0; m < 5; ++m) robot.segment[m] = segment(8, 3, 24.0 * static_cast<double>(m));
   robot.hole_radius_m = 0.025;
@@ -65,8 +65,8 @@ inline RobotTable table(double mu = kMu) {
 }
 
 // Another arm within the capacity: odd module counts, other link lengths, four cables in one segment, uneven phases.
-inline RobotTable uneven_table() {
-  RobotTable robot = table();
+inline RobotParams uneven_table() {
+  RobotParams robot = table();
   robot.segment_count = 3;
   robot.segment[0] = segment(7, 4, 10.0);
   robot.segment[1] = segment(8, 3, 35.0);
@@ -91,7 +91,7 @@ class Random {
     return low + (high - low) * static_cast<double>(engine_() >> 11) / 9007199254740992.0;
   }
   // Every theta within +-`range_deg`.
-  ThetaVector theta(const RobotTable& robot, double range_deg) {
+  ThetaVector theta(const RobotParams& robot, double range_deg) {
     ThetaVector out{};
     for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i)
       out[i] = uniform(-range_deg, range_deg) * kDegree;

@@ -6,5 +6,5 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::istringstream stream(std::string(liana::fuzz::text_of(data, size)));
-  return liana::fuzz::refusing([&] { liana::operator_side::parse_hand_recording(stream, "fuzz.hand"); });
+  return liana::fuzz::refusing([&] { liana::simulated::parse_hand_recording(stream, "fuzz.hand"); });
 }

@@ -18,8 +18,8 @@ using namespace liana;
 
 namespace {
 
-constexpr int kMostTurns = 8;  // of the server for a piece, until it waits for more
-constexpr int kMostShakes = 6;
+constexpr int kMaxTurns = 8;  // of the server for a piece, until it waits for more
+constexpr int kMaxShakes = 6;
 constexpr std::size_t kPageBytes = 300'000;  // more than a socket takes at once
 double now_s = 0.0;                          // goes on with every input, as fast as years would
 
@@ -68,7 +68,7 @@ class Connection {
     if (!within_tls) return;
     tls_.emplace(client_.get());
     bool done = false;
-    for (int i = 0; i < kMostShakes && !done; ++i) {
+    for (int i = 0; i < kMaxShakes && !done; ++i) {
       done = tls_->shake_hands();
       served_.server.serve_waiting();
     }
@@ -85,7 +85,7 @@ class Connection {
     } else {
       ::send(client_.get(), piece.data(), piece.size(), MSG_NOSIGNAL);
     }
-    for (int i = 0; i < kMostTurns; ++i) {
+    for (int i = 0; i < kMaxTurns; ++i) {
       served_.server.serve_waiting();
       const ssize_t count = ::recv(client_.get(), answer_.data(), answer_.size(), MSG_DONTWAIT);
       if (count == 0) return;

@@ -12,31 +12,31 @@ using namespace liana;
 namespace {
 
 // Small: what a script may do besides, a string of megabytes a thousand times, says nothing new and takes a second.
-constexpr script::ScriptLimits kLimits{1u << 20, 4000, 0};
+constexpr mission_runner::ScriptLimits kLimits{1u << 20, 4000, 0};
 constexpr int kScriptsOfOneState = 200;
 
 // Every script has an environment of its own, as scripts that one evaluation runs have; so one state serves many. What
 // ran out of its budget takes the state along.
 class State {
  public:
-  script::Script& next() {
+  mission_runner::Script& next() {
     if (!script_ || ++scripts_ > kScriptsOfOneState) {
       script_.reset();
-      script_ = std::make_unique<script::Script>(kLimits, script::LuaFolders{}, activity_);
+      script_ = std::make_unique<mission_runner::Script>(kLimits, mission_runner::LuaFolders{}, activity_);
       scripts_ = 0;
     }
     lua_settop(script_->state(), 0);
     return *script_;
   }
   bool has_run_out() const {
-    const script::Script::Budget& budget = script::script_budget(script_->state());
+    const mission_runner::Script::Budget& budget = mission_runner::script_budget(script_->state());
     return budget.instructions_used > kLimits.instructions || budget.memory_used > kLimits.memory_bytes / 2;
   }
   void give_up() { script_.reset(); }
 
  private:
-  script::Activity activity_;
-  std::unique_ptr<script::Script> script_;
+  mission_runner::Activity activity_;
+  std::unique_ptr<mission_runner::Script> script_;
   int scripts_ = 0;
 };
 
@@ -49,11 +49,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static State states;
   std::string_view text = fuzz::text_of(data, size);
   const char* kind = fuzz::choice(text) % 2 == 0 ? "scene" : "drive";
-  script::Script& script = states.next();
+  mission_runner::Script& script = states.next();
   fuzz::refusing([&] {
     script.run({.display = "fuzz.lua", .text = std::string(text), .folder = ""});
-    const Json result = script::to_json(script.state(), -1, "fuzz.lua");
-    script::push_in_protection(script, result);
+    const Json result = mission_runner::to_json(script.state(), -1, "fuzz.lua");
+    mission_runner::push_in_protection(script, result);
     config::check_table(kind, result, "fuzz.lua");
   });
   if (states.has_run_out()) states.give_up();

@@ -6,8 +6,8 @@ using namespace liana;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static fuzz::MemoryFile file;
-  record::McapVisitor visitor;
+  recording::McapVisitor visitor;
   visitor.message = [](const std::string&, std::uint32_t, std::uint64_t, std::string_view) {};
   visitor.metadata = [](const std::string&, const std::map<std::string, std::string>&) {};
-  return fuzz::refusing([&] { record::read_mcap(file.with(fuzz::text_of(data, size)), visitor); });
+  return fuzz::refusing([&] { recording::read_mcap(file.with(fuzz::text_of(data, size)), visitor); });
 }

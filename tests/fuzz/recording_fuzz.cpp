@@ -12,17 +12,17 @@ using namespace liana;
 namespace {
 
 template <class Arm>
-void read_message(unsigned which, std::string_view bytes, const record::RecordedCounts& counts) {
-  if (which == 0) record::parse_image<Arm>(bytes);
-  if (which == 1) record::RecordingDecoder::recorded_inputs<Arm>(bytes, counts);
-  if (which == 2) record::outputs_from<Arm>(bytes, counts);
+void read_message(unsigned which, std::string_view bytes, const recording::RecordedCounts& counts) {
+  if (which == 0) recording::parse_image<Arm>(bytes);
+  if (which == 1) recording::RecordingDecoder::recorded_inputs<Arm>(bytes, counts);
+  if (which == 2) recording::outputs_from<Arm>(bytes, counts);
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const record::RecordedCounts kCable = record::counts_of(cable::zhu2022::table());
-  static const record::RecordedCounts kSerial = record::counts_of(serial::micro::table());
+  static const recording::RecordedCounts kCable = recording::counts_of(cable::zhu2022::table());
+  static const recording::RecordedCounts kSerial = recording::counts_of(serial::micro::table());
   std::string_view bytes = fuzz::text_of(data, size);
   const unsigned which = fuzz::choice(bytes) % 7;
   return fuzz::refusing([&] {
@@ -30,8 +30,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       read_message<cable::CableArm>(which, bytes, kCable);
     } else if (which < 6) {
       read_message<serial::SerialArm>(which - 3, bytes, kSerial);
-    } else if (record::tick_packet_kind(bytes) == record::TickPacket::kTick) {
-      record::split_tick_packet(bytes);
+    } else if (recording::tick_packet_kind(bytes) == recording::TickPacket::kTick) {
+      recording::split_tick_packet(bytes);
     }
   });
 }

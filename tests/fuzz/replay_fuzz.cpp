@@ -3,7 +3,7 @@
 #include <cstring>
 #include <vector>
 
-#include "host/storage/recording/core_again.hpp"
+#include "host/storage/recording/replay_core.hpp"
 #include "tests/firmware_like/micro_arm.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/fuzz/fuzz.hpp"
@@ -26,11 +26,11 @@ void edit(std::string& bytes, std::string_view& rest) {
 template <class Arm>
 struct Recorded {
   explicit Recorded(const typename Arm::Table& table)
-      : packet(record::image_packet<Arm>(0, Controller<Arm>(table))), counts(record::counts_of(table)) {
-    record::append_recorded(inputs, Inputs<Arm>{}, counts);
+      : packet(recording::image_packet<Arm>(0, Controller<Arm>(table))), counts(recording::counts_of(table)) {
+    recording::append_recorded(inputs, Inputs<Arm>{}, counts);
   }
   const std::string packet;
-  const record::RecordedCounts counts;
+  const recording::RecordedCounts counts;
   std::string inputs;
 };
 
@@ -39,7 +39,7 @@ void replay(const Recorded<Arm>& good, std::size_t edits_of_image, std::string_v
   std::string image = good.packet.substr(1), inputs = good.inputs;
   for (; edits_of_image > 0 && rest.size() >= kEditBytes; --edits_of_image) edit(image, rest);
   while (rest.size() >= kEditBytes) edit(inputs, rest);
-  record::CoreAgain<Arm> core(record::parse_image<Arm>(image), "images.mcap");
+  recording::ReplayCore<Arm> core(recording::parse_image<Arm>(image), "images.mcap");
   for (int i = 0; i < kTicks; ++i) core.tick(inputs);
 }
 

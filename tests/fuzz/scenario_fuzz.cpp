@@ -4,5 +4,5 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return liana::fuzz::refusing(
-      [&] { liana::bus_sim::parse_fault_script(std::string(liana::fuzz::text_of(data, size)), "script", 2); });
+      [&] { liana::bus_simulator::parse_fault_script(std::string(liana::fuzz::text_of(data, size)), "script", 2); });
 }

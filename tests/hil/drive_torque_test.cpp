@@ -30,7 +30,7 @@ class TorqueDrive : public DriveHarness {
     DriveSettings with = settings();
     with.counts_per_turn = 1048576;
     with.rated_torque_mNm = 150000;
-    with.gives_torque = true;
+    with.is_torque_controlled = true;
     return with;
   }
 
@@ -54,7 +54,7 @@ class TorqueDrive : public DriveHarness {
     const FrameList later = tick();
     out.insert(out.end(), later.begin(), later.end());
     for (int i = 0; i < 4; ++i) {
-      const bool free = drive_.gives_torque();
+      const bool free = drive_.is_torque_controlled();
       const double motor = free ? drive_.torque_Nm(0.001, joint_.gear_Nm(), 1000.0 + joint_.rotor_rad / kRadPerCount,
                                                    joint_.rotor_rate / kRadPerCount)
                                 : 0.0;
@@ -65,7 +65,7 @@ class TorqueDrive : public DriveHarness {
         joint_.rotor_rad = (drive_.motor().position_counts() - 1000.0) * kRadPerCount;
         joint_.rotor_rate = 0.0;
       }
-      most_Nm_ = std::max(most_Nm_, std::fabs(motor));
+      max_Nm_ = std::max(max_Nm_, std::fabs(motor));
     }
     drive_.set_measured(1000.0 * joint_.gear_Nm() / kRated_Nm);
     if (controlword) ask(*controlword, permille, counts_per_s);
@@ -81,12 +81,12 @@ class TorqueDrive : public DriveHarness {
     give(0x77F, {0x05});
     for (const int controlword : {0x06, 0x07, 0x0F, 0x0F}) period(controlword);
     ASSERT_EQ(drive_.power_state(), PowerState::kOperationEnabled);
-    ASSERT_TRUE(drive_.gives_torque());
+    ASSERT_TRUE(drive_.is_torque_controlled());
   }
   // Periods until the drive has power no more; the master says nothing but its heartbeat and, if any, the controlword.
   int until_braked(std::optional<int> controlword) {
     for (int i = 0; i < 3000; ++i) {
-      if (!drive_.gives_torque()) return i;
+      if (!drive_.is_torque_controlled()) return i;
       if (i % 20 == 0) give(0x77F, {0x05});
       period(controlword);
     }
@@ -94,7 +94,7 @@ class TorqueDrive : public DriveHarness {
   }
 
   ElasticJoint joint_;
-  double most_Nm_ = 0.0;
+  double max_Nm_ = 0.0;
 };
 
 TEST_F(TorqueDrive, SaysThatItHasBothModesAndTakesTorqueWithoutPowerOnly) {
@@ -105,13 +105,13 @@ TEST_F(TorqueDrive, SaysThatItHasBothModesAndTakesTorqueWithoutPowerOnly) {
   give(0x77F, {0x05});
   for (const int controlword : {0x06, 0x07, 0x0F, 0x0F}) period(controlword);
   ASSERT_EQ(drive_.power_state(), PowerState::kOperationEnabled);
-  EXPECT_FALSE(drive_.gives_torque());
+  EXPECT_FALSE(drive_.is_torque_controlled());
   EXPECT_EQ(write(0x6060, 0, 1, 10), abort_code::kDeviceState);
 }
 
 TEST_F(TorqueDrive, ADriveWithoutTheSensorHasNoTorqueMode) {
   Drive plain(settings(), 0.0);
-  EXPECT_FALSE(plain.gives_torque());
+  EXPECT_FALSE(plain.is_torque_controlled());
   ObjectDictionary objects = make_objects(settings());
   EXPECT_EQ(objects.find(0x6071, 0), nullptr);
   EXPECT_EQ(objects.get(0x6502), 0x80);
@@ -150,8 +150,8 @@ TEST_F(TorqueDrive, ItsMotorGivesNoMoreThanMaxTorque) {
   EXPECT_EQ(write(0x6072, 0, 2, 500), 0U);
   enable_torque();
   run(100, 3000, 100000);
-  EXPECT_LE(most_Nm_, 0.5 * kRated_Nm + 1e-9);
-  EXPECT_GT(most_Nm_, 0.49 * kRated_Nm);
+  EXPECT_LE(max_Nm_, 0.5 * kRated_Nm + 1e-9);
+  EXPECT_GT(max_Nm_, 0.49 * kRated_Nm);
 }
 
 struct Ending {
@@ -191,7 +191,7 @@ TEST_F(TorqueDrive, PositionControlTakesOverWhereTheJointIs) {
   run(250, 0, 2000);
   const std::uint32_t before = *read(0x6064, 0);
   EXPECT_EQ(write(0x6060, 0, 1, 8), 0U);
-  EXPECT_FALSE(drive_.gives_torque());
+  EXPECT_FALSE(drive_.is_torque_controlled());
   EXPECT_EQ(drive_.power_state(), PowerState::kOperationEnabled);
   run(50, 0);
   EXPECT_NEAR(static_cast<double>(*read(0x6064, 0)), static_cast<double>(before), 10.0);

@@ -101,7 +101,7 @@ TEST(BenchGeometry, AnUnevenLinkageKeepsEverySegmentsMeanAndMujocoTendonsAgree) 
   chain.set_linkage(linkage);
   CablePaths paths(robot, robot.hole_radius_m, linkage), even(robot, robot.hole_radius_m);
   Random random(12, "uneven poses");
-  double worst_m = 0.0, most_apart_m = 0.0;
+  double worst_m = 0.0, max_apart_m = 0.0;
   for (int pose = 0; pose < 100; ++pose) {
     const Theta theta = random_theta(random, 20.0);
     chain.place(theta);
@@ -110,11 +110,11 @@ TEST(BenchGeometry, AnUnevenLinkageKeepsEverySegmentsMeanAndMujocoTendonsAgree) 
     const auto tendons = chain.tendon_lengths_m();
     for (std::size_t c = 0; c < 15; ++c) {
       worst_m = std::max(worst_m, std::fabs(tendons[c] - paths.length_m(c)));
-      most_apart_m = std::max(most_apart_m, std::fabs(paths.length_m(c) - even.length_m(c)));
+      max_apart_m = std::max(max_apart_m, std::fabs(paths.length_m(c) - even.length_m(c)));
     }
   }
   EXPECT_LT(worst_m, 1e-6);
-  EXPECT_GT(most_apart_m, 1e-5) << "an uneven linkage that changes no cable is none";
+  EXPECT_GT(max_apart_m, 1e-5) << "an uneven linkage that changes no cable is none";
 }
 
 // The work of the weight is the change of height of the links' middles.

@@ -3,7 +3,7 @@
 
 #include "bench_harness.hpp"
 #include "hil/arm/arm_physics.hpp"
-#include "hil/arm/light_arm.hpp"
+#include "hil/arm/kinematic_arm.hpp"
 #include "hil/bench/drive_bank.hpp"
 
 namespace liana::bench {
@@ -110,7 +110,7 @@ TEST(TruthRecord, TheLeastTensionIsTheLeastAnywhereAlongAnyCable) {
     motor_N = std::min(motor_N, arm.motor_tension_N(c));
   }
   EXPECT_EQ(loads.least_tension_N, anywhere_N);
-  EXPECT_EQ(loads.least_motor_tension_N, motor_N);
+  EXPECT_EQ(loads.min_motor_tension_N, motor_N);
   EXPECT_LT(loads.least_tension_N, motor_N - 0.5) << "friction has to make a difference";
 }
 
@@ -127,14 +127,14 @@ TEST(TruthRecord, ContactAndTensionsAreTheExtremesOfEveryStepSinceItWasTaken) {
     last_contact_N = step.contact_N;
     most.contact_N = std::max(most.contact_N, step.contact_N);
     most.least_tension_N = std::min(most.least_tension_N, step.least_tension_N);
-    most.least_motor_tension_N = std::min(most.least_motor_tension_N, step.least_motor_tension_N);
-    most.most_motor_tension_N = std::max(most.most_motor_tension_N, step.most_motor_tension_N);
+    most.min_motor_tension_N = std::min(most.min_motor_tension_N, step.min_motor_tension_N);
+    most.max_motor_tension_N = std::max(most.max_motor_tension_N, step.max_motor_tension_N);
   }
   const LoadRecord all = once.take_record();
   EXPECT_EQ(all.contact_N, most.contact_N);
   EXPECT_EQ(all.least_tension_N, most.least_tension_N);
-  EXPECT_EQ(all.least_motor_tension_N, most.least_motor_tension_N);
-  EXPECT_EQ(all.most_motor_tension_N, most.most_motor_tension_N);
+  EXPECT_EQ(all.min_motor_tension_N, most.min_motor_tension_N);
+  EXPECT_EQ(all.max_motor_tension_N, most.max_motor_tension_N);
   EXPECT_GT(all.contact_N, last_contact_N + 1.0) << "the peak must not be the last value";
   EXPECT_EQ(once.take_record().contact_N, 0.0) << "taking it begins anew";
 }
@@ -182,7 +182,7 @@ TEST(JointStops, PushAnAngleBackIntoItsRange) {
     theta[8] = side * (limit_rad + 1.0 * kRadPerDeg);
     ArmPhysics full(robot, fixture_scene(), table_parameters(robot, "ideal"), theta);
     expect_stop_pushes_inwards(full, 8, limit_rad);
-    LightArm light(robot, table_parameters(robot, "ideal"), theta);
+    KinematicArm light(robot, table_parameters(robot, "ideal"), theta);
     expect_stop_pushes_inwards(light, 8, limit_rad);
   }
 }

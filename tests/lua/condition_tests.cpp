@@ -6,7 +6,7 @@
 #include "host/base/json/json.hpp"
 #include "tests/message.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 namespace {
 
 // What `condition` answers about an arm whose state is `state`: { is it met, what of it }.
@@ -43,4 +43,4 @@ TEST(Conditions, OfAShapeSayThatAnArmHasNone) {
 }
 
 }  // namespace
-}  // namespace liana::script
+}  // namespace liana::mission_runner

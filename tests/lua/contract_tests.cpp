@@ -5,7 +5,7 @@
 #include "tests/lua/program.hpp"
 #include "tests/message.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 namespace {
 
 TEST(Bindings, PrintAsJsonForTools) {
@@ -44,4 +44,4 @@ TEST(Bindings, RefuseFieldsOfOtherTypesAndNamesAtTheLineOfTheScript) {
 }
 
 }  // namespace
-}  // namespace liana::script
+}  // namespace liana::mission_runner

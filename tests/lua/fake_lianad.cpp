@@ -12,11 +12,11 @@
 #include "host/apps/mission_runner/evaluate.hpp"
 #include "host/apps/mission_runner/json_bridge.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 namespace {
 
 constexpr int kTicksPerInterval = 5;
-constexpr int kMostIntervals = 40000;
+constexpr int kMaxIntervals = 40000;
 constexpr int kMotionIntervals = 20;
 constexpr int kPathIntervals = 60;  // longer: the arm also rests on the way
 
@@ -88,7 +88,7 @@ void FakeLianad::converse() {
         {"interval_ticks", 5},
         {"robot", robot_},
         {"scene", scene_}});
-  for (int interval = 0; interval < kMostIntervals; ++interval) {
+  for (int interval = 0; interval < kMaxIntervals; ++interval) {
     if (behaviour_.vanish_in_step != 0 && step_ >= behaviour_.vanish_in_step) return;
     if (behaviour_.silent_in_step != 0 && step_ >= behaviour_.silent_in_step) {
       ssize_t length = 0;
@@ -257,4 +257,4 @@ int FakeLianad::planar_segments() const {
 
 Json FakeLianad::named_pose(const char* name) const { return robot_["named_poses_deg"][name]; }
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

@@ -12,7 +12,7 @@
 
 #include "host/base/json/json.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 
 // What goes wrong, and how the operator behaves.
 struct FakeBehaviour {
@@ -94,4 +94,4 @@ class FakeLianad {
   int intervals_in_step_ = 0;
 };
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

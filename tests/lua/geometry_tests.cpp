@@ -7,7 +7,7 @@
 #include "host/base/json/json.hpp"
 #include "tests/lua/program.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 namespace {
 
 constexpr double kTolerance = 1e-9;
@@ -115,4 +115,4 @@ TEST(LuaGeometry, APoseBehindItsInverseIsNone) {
 }
 
 }  // namespace
-}  // namespace liana::script
+}  // namespace liana::mission_runner

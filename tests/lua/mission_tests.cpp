@@ -7,7 +7,7 @@
 #include "tests/lua/program.hpp"
 #include "tests/message.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 namespace {
 
 // How one mission against the fake ended.
@@ -707,4 +707,4 @@ TEST(Mission, StepsRunInTheOrderInWhichTheyAreWritten) {
 }
 
 }  // namespace
-}  // namespace liana::script
+}  // namespace liana::mission_runner

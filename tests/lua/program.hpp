@@ -11,7 +11,7 @@
 #include <iterator>
 #include <string>
 
-namespace liana::script {
+namespace liana::mission_runner {
 
 // A directory that disappears with the test.
 class TemporaryFolder {
@@ -56,4 +56,4 @@ inline Ended run_program(const std::string& arguments) {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(folder.file("out")), read_file(folder.file("err"))};
 }
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

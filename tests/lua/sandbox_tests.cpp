@@ -6,7 +6,7 @@
 #include "tests/lua/program.hpp"
 #include "tests/message.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 namespace {
 
 struct Attack {
@@ -144,4 +144,4 @@ TEST(Sandbox, GivesWhatLuacheckAllowsAndNoDoorOutside) {
 }
 
 }  // namespace
-}  // namespace liana::script
+}  // namespace liana::mission_runner

@@ -10,7 +10,7 @@
 #include "tests/lua/program.hpp"
 #include "tests/message.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 namespace {
 
 TEST(Eval, PrintsTheSameCanonicalTextTwice) {
@@ -703,4 +703,4 @@ TEST(Eval, RefusesAMissionFileThatReturnsSomethingElse) {
 }
 
 }  // namespace
-}  // namespace liana::script
+}  // namespace liana::mission_runner

@@ -41,10 +41,10 @@ struct Source {
   std::vector<std::string> packets;  // of ticks, one after the other
 };
 
-std::string packet_of(const record::RecordedCounts& counts, std::string_view inputs, std::string_view outputs) {
+std::string packet_of(const recording::RecordedCounts& counts, std::string_view inputs, std::string_view outputs) {
   std::string out;
-  record::Writer writer(out);
-  writer("kind", record::TickPacket::kTick);
+  recording::Writer writer(out);
+  writer("kind", recording::TickPacket::kTick);
   writer("dropped", std::uint64_t{0});
   writer("drives", counts.drives);
   writer("thetas", counts.thetas);
@@ -55,17 +55,18 @@ std::string packet_of(const record::RecordedCounts& counts, std::string_view inp
 
 Source recorded(const std::string& folder) {
   Source source;
-  record::RecordedCounts counts;
+  recording::RecordedCounts counts;
   std::string inputs;
-  record::McapVisitor visitor;
+  recording::McapVisitor visitor;
   visitor.message = [&](const std::string& topic, std::uint32_t, std::uint64_t, std::string_view data) {
-    if (topic == record::kStartTopic) counts = record::counts_of(record::parse_image<cable::CableArm>(data).table);
-    if (topic == record::kInputsTopic) inputs = data;
-    if (topic == record::kOutputsTopic) source.packets.push_back(packet_of(counts, inputs, data));
-    if (topic == record::kImageTopic) source.image = std::string(1, '\x02').append(data);
+    if (topic == recording::kStartTopic)
+      counts = recording::counts_of(recording::parse_image<cable::CableArm>(data).table);
+    if (topic == recording::kInputsTopic) inputs = data;
+    if (topic == recording::kOutputsTopic) source.packets.push_back(packet_of(counts, inputs, data));
+    if (topic == recording::kImageTopic) source.image = std::string(1, '\x02').append(data);
   };
-  record::read_mcap(folder + "/" + record::kRecordingFile, visitor);
-  record::read_mcap(folder + "/" + record::kImagesFile, visitor);
+  recording::read_mcap(folder + "/" + recording::kRecordingFile, visitor);
+  recording::read_mcap(folder + "/" + recording::kImagesFile, visitor);
   return source;
 }
 
@@ -83,7 +84,7 @@ void put_tick(std::string& packet, std::size_t at, std::uint64_t tick) {
 
 // The same at another tick.
 std::string moved(const std::string& packet, std::uint64_t tick) {
-  const record::TickParts parts = record::split_tick_packet(packet);
+  const recording::TickParts parts = recording::split_tick_packet(packet);
   std::string out = packet;
   put_tick(out, static_cast<std::size_t>(parts.inputs.data() - packet.data()), tick);
   put_tick(out, static_cast<std::size_t>(parts.outputs.data() - packet.data()), tick);

@@ -43,7 +43,7 @@ Filter tremor_stage() {
 }
 
 Filter tip_filter(const MotionLimits& limits) {
-  cable::RobotTable table = closed_loop::robot_table();
+  cable::RobotParams table = closed_loop::robot_table();
   table.limits = limits;
   const TipFilterConfig config = cable::tip_filter_config(table, 0.0);
   return [config, state = TipFilterState{}](double in) mutable {

@@ -42,7 +42,7 @@ enum class Friction { kNone, kPlanned, kFelt };
 Vec3 force_N(const ArmUnderControl& arm, Friction friction, bool moving) {
   Kept kept;
   arm.controller().arm().visit_state(kept);
-  const cable::RobotTable& table = arm.table();
+  const cable::RobotParams& table = arm.table();
   const cable::ThetaVector& theta_rad = arm.outputs().theta_command_rad;
   const cable::SegmentVector wrap_rad = cable::cable_wraps(table, cable::arm_trig(table, theta_rad));
   cable::TorqueBalance balance = kept.balance;
@@ -56,7 +56,7 @@ Vec3 force_N(const ArmUnderControl& arm, Friction friction, bool moving) {
           kept.balance.pull_Nm[k][c] * (ratio * std::exp(arm.outputs().friction.mu * slid_rad) - 1.0);
     }
   }
-  cable::ContactWatchState contact;
+  cable::ContactDetectorState contact;
   watch_contact(table, cable::forward_kinematics(table, theta_rad), balance, {moving, false}, contact);
   return contact.force_N;
 }
@@ -89,10 +89,10 @@ class Trial {
     arm_.hold(3.0);
     time_s_ = 0.0;
     arm_.hold(4.5, [this](ArmUnderControl&) { pushed(time_s_ / kRise_s); });
-    if (!is_sound()) return;
+    if (!tensions_valid()) return;
     read(sums_.still, push_N_, false);
     dither();
-    if (!is_sound()) return;
+    if (!tensions_valid()) return;
     read(sums_.dithered, push_N_, false);
     time_s_ = 0.0;
     arm_.hold(4.0, [this](ArmUnderControl&) { pushed(1.0 - time_s_ / kRise_s); });
@@ -103,7 +103,7 @@ class Trial {
  private:
   double within(double half) { return half * (2.0 * (static_cast<double>(engine_() >> 11) * 0x1.0p-53) - 1.0); }
   // Nothing of the scene is touched, no fault has come.
-  bool is_sound() {
+  bool tensions_valid() {
     touches_ = touches_ || arm_.plant().take_load().contact_N > 0.0;
     return !touches_ && arm_.outputs().faults.count == 0;
   }
@@ -135,7 +135,7 @@ class Trial {
     constexpr double kBegin_s = 8.0, kRead_s = 12.5, kEnd_s = 14.0;
     const double before_s = time_s_;
     pushed(time_s_ < kEnd_s ? (time_s_ - kBegin_s) / kRise_s : 1.0 - (time_s_ - kEnd_s) / kRise_s);
-    if (!is_sound()) return;
+    if (!tensions_valid()) return;
     if (before_s < kRead_s && time_s_ >= kRead_s) read(sums_.moving, push_N_, true);
     if (before_s < kBegin_s - 0.1 && time_s_ >= kBegin_s - 0.1) read(sums_.free_moving, {}, true);
   }

@@ -47,7 +47,7 @@ std::vector<Instant> push_of(const test::ForceCase& drawn, double damping_Ns_m) 
   while (rig.time_s() - began_s < end_s) {
     const serial::Outputs& out = rig.tick();
     const bench::Vec3 contact_N = rig.contact().force_N;
-    const bool captured = out.push.end == serial::PushEnd::kCaptured;
+    const bool captured = out.push.end == serial::InsertResult::kCaptured;
     course.push_back({rig.time_s() - began_s, out.push.set_N, rig.axial_N(), bench::norm(contact_N), rig.base_moved_m(),
                       rig.plate().pose.position_m.z, captured});
     if (captured && end_s == kMost_s) end_s = course.back().time_s + kAfter_s;

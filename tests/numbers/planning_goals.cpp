@@ -28,7 +28,8 @@ struct Outcome {
   std::vector<std::int32_t> iterations;
 };
 
-bool is_right(const cable::RobotTable& robot, const solve::GoalIkProblem& problem, const cable::ThetaVector& theta) {
+bool is_right(const cable::RobotParams& robot, const inverse_kinematics::GoalIkProblem& problem,
+              const cable::ThetaVector& theta) {
   const auto e = pose_error(problem.tip_in_base, forward_kinematics(robot, theta).tip_in_base);
   bool right = norm({e[0], e[1], e[2]}) <= 1e-6 && norm({e[3], e[4], e[5]}) <= 1e-6;
   for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
@@ -38,7 +39,7 @@ bool is_right(const cable::RobotTable& robot, const solve::GoalIkProblem& proble
   return right;
 }
 
-Outcome measure(const cable::RobotTable& robot, const Kind& kind, std::int32_t count, std::uint64_t seed) {
+Outcome measure(const cable::RobotParams& robot, const Kind& kind, std::int32_t count, std::uint64_t seed) {
   zhu2022::Random random(seed);
   Outcome outcome;
   for (std::int32_t i = 0; i < count; ++i) {
@@ -46,10 +47,10 @@ Outcome measure(const cable::RobotTable& robot, const Kind& kind, std::int32_t c
     for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
       if (((kind.held_mask >> k) & 1u) != 0) theta[k] = 0.0;
     }
-    solve::GoalIkProblem problem;
+    inverse_kinematics::GoalIkProblem problem;
     problem.tip_in_base = forward_kinematics(robot, theta).tip_in_base;
     problem.held_mask = kind.held_mask;
-    const solve::GoalIkResult result = solve::solve_goal(robot, problem);
+    const inverse_kinematics::GoalIkResult result = inverse_kinematics::solve_goal(robot, problem);
     outcome.converged += result.converged ? 1 : 0;
     outcome.wrong += result.converged && !is_right(robot, problem, result.theta_rad) ? 1 : 0;
     outcome.iterations.push_back(result.iterations);
@@ -70,7 +71,7 @@ void print(const Kind& kind, const Outcome& o, bool json, bool first) {
 }
 
 void run(const Options& options) {
-  const cable::RobotTable robot = zhu2022::table();
+  const cable::RobotParams robot = zhu2022::table();
   std::uint64_t seed = 20260;
   for (const Kind& kind : kKinds) {
     print(kind, measure(robot, kind, options.count, seed), options.json, seed == 20260);

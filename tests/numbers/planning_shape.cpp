@@ -36,7 +36,7 @@ struct Arm {
   cable::ThetaVector rate_rad_s{};
 };
 
-void run_ticks(const cable::RobotTable& robot, const cable::IkGoal& goal, const cable::NodeTargets& nodes,
+void run_ticks(const cable::RobotParams& robot, const cable::IkGoal& goal, const cable::NodeTargets& nodes,
                std::int32_t seconds, Arm& arm, Worst& worst) {
   const std::int32_t ticks = static_cast<std::int32_t>(seconds / robot.tick_s);
   for (std::int32_t i = 0; i < ticks; ++i) {
@@ -59,13 +59,13 @@ void run_ticks(const cable::RobotTable& robot, const cable::IkGoal& goal, const 
 
 struct Case {
   cable::ThetaVector start_rad{};
-  solve::ShapeProblem problem{};
+  inverse_kinematics::ShapeProblem problem{};
   std::int32_t nodes = 0;
   bool thresholds = false;
 };
 
 // One to three nodes, node 3 first; weights 0.2 to 2; every fourth case has thresholds up to 50 mm.
-Case random_case(const cable::RobotTable& robot, std::int32_t index, Random& random) {
+Case random_case(const cable::RobotParams& robot, std::int32_t index, Random& random) {
   constexpr std::int32_t kOrder[] = {3, 2, 4};
   Case out;
   out.start_rad = random.theta(robot, 15.0);
@@ -85,22 +85,22 @@ Case random_case(const cable::RobotTable& robot, std::int32_t index, Random& ran
 }
 
 // Least sum of `kOffline` solutions from random starts and of the one from the case's own start.
-double best_offline_m(const cable::RobotTable& robot, const Case& c, double from_start_m, Random& random) {
+double best_offline_m(const cable::RobotParams& robot, const Case& c, double from_start_m, Random& random) {
   double best_m = from_start_m;
   std::int32_t iterations = 0;
   for (std::int32_t found = 0, tries = 0; found < kOffline && tries < 10 * kOffline; ++tries) {
-    solve::GoalIkProblem tip_only;
+    inverse_kinematics::GoalIkProblem tip_only;
     tip_only.tip_in_base = c.problem.goal.tip_in_base;
     tip_only.from_rad = random.theta(robot, 19.0);
-    solve::GoalIkResult solution = solve::solve_goal(robot, tip_only);
+    inverse_kinematics::GoalIkResult solution = inverse_kinematics::solve_goal(robot, tip_only);
     if (!solution.converged) continue;
     ++found;
-    best_m = std::min(best_m, solve::improve_shape(robot, c.problem, solution.theta_rad, iterations));
+    best_m = std::min(best_m, inverse_kinematics::improve_shape(robot, c.problem, solution.theta_rad, iterations));
   }
   return best_m;
 }
 
-cable::NodeTargets nodes_of(const cable::RobotTable& robot, const cable::ThetaVector& theta) {
+cable::NodeTargets nodes_of(const cable::RobotParams& robot, const cable::ThetaVector& theta) {
   const cable::ArmKinematics arm = forward_kinematics(robot, theta);
   cable::NodeTargets nodes{};
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -122,7 +122,7 @@ struct Tally {
 };
 
 // Four times the weight of node 3 does not let it move away.
-void try_heavier(const cable::RobotTable& robot, const Case& c, Arm arm, Tally& tally) {
+void try_heavier(const cable::RobotParams& robot, const Case& c, Arm arm, Tally& tally) {
   ++tally.with_rivals;
   const auto distance_m = [&] {
     const cable::ArmKinematics at = forward_kinematics(robot, arm.theta_rad);
@@ -135,30 +135,30 @@ void try_heavier(const cable::RobotTable& robot, const Case& c, Arm arm, Tally& 
   tally.heavier_closer += distance_m() <= before_m + 1e-3 ? 1 : 0;
 }
 
-void study(const cable::RobotTable& robot, std::int32_t index, Tally& tally) {
+void study(const cable::RobotParams& robot, std::int32_t index, Tally& tally) {
   Random random(1000 + static_cast<std::uint64_t>(index));
   const Case c = random_case(robot, index, random);
   std::int32_t iterations = 0;
   cable::ThetaVector nearest = c.start_rad;
-  const double branch_m = solve::improve_shape(robot, c.problem, nearest, iterations);
+  const double branch_m = inverse_kinematics::improve_shape(robot, c.problem, nearest, iterations);
   const double best_m = best_offline_m(robot, c, branch_m, random);
-  const solve::GoalIkResult goal =
-      solve::solve_goal(robot, {c.problem.goal.tip_in_base, c.start_rad, 0, {}, c.problem.node, {}});
+  const inverse_kinematics::GoalIkResult goal =
+      inverse_kinematics::solve_goal(robot, {c.problem.goal.tip_in_base, c.start_rad, 0, {}, c.problem.node, {}});
 
   Arm arm{c.start_rad, {}, {}};
   run_ticks(robot, c.problem.goal, c.problem.node, kRun_s, arm, tally.worst);
-  const double tick_m = solve::shape_sum_m(robot, c.problem, arm.theta_rad);
+  const double tick_m = inverse_kinematics::shape_sum_m(robot, c.problem, arm.theta_rad);
   if (c.nodes > 1) try_heavier(robot, c, arm, tally);
 
   Arm guided{c.start_rad, {}, {}};
   run_ticks(robot, c.problem.goal, nodes_of(robot, goal.theta_rad), kGuide_s, guided, tally.worst);
   run_ticks(robot, c.problem.goal, c.problem.node, kRun_s, guided, tally.worst);
-  const double guided_m = solve::shape_sum_m(robot, c.problem, guided.theta_rad);
+  const double guided_m = inverse_kinematics::shape_sum_m(robot, c.problem, guided.theta_rad);
 
   ++tally.cases;
   tally.tick_same_branch += reaches(tick_m, branch_m) ? 1 : 0;
   tally.tick_best += reaches(tick_m, best_m) ? 1 : 0;
-  tally.goal_best += reaches(solve::shape_sum_m(robot, c.problem, goal.theta_rad), best_m) ? 1 : 0;
+  tally.goal_best += reaches(inverse_kinematics::shape_sum_m(robot, c.problem, goal.theta_rad), best_m) ? 1 : 0;
   tally.guided_best += reaches(guided_m, best_m) ? 1 : 0;
   tally.with_thresholds += c.thresholds ? 1 : 0;
   tally.thresholds_best += c.thresholds && reaches(guided_m, best_m) ? 1 : 0;
@@ -181,7 +181,7 @@ void print(const Tally& t, bool json) {
 }
 
 void run(const Options& options) {
-  const cable::RobotTable robot = zhu2022::table();
+  const cable::RobotParams robot = zhu2022::table();
   Tally tally;
   for (std::int32_t i = 0; i < options.count; ++i) study(robot, i, tally);
   print(tally, options.json);

@@ -131,7 +131,7 @@ struct Figures {
   double back_s = kReturn_s;  // after the hand
 };
 
-cable::ThetaVector start_theta(Kind kind, const cable::RobotTable& robot, Random& random) {
+cable::ThetaVector start_theta(Kind kind, const cable::RobotParams& robot, Random& random) {
   if (kind == kFromStraight) return {};
   cable::ThetaVector theta = random.theta(robot, kind == kThroughStraight ? 1.5 : 12.0);
   for (std::size_t k = 0; k < kThetas && kind == kAtLimits; ++k) {
@@ -247,7 +247,7 @@ class Trial {
 
   Kind kind_;
   Random random_;
-  cable::RobotTable robot_ = zhu2022::table();
+  cable::RobotParams robot_ = zhu2022::table();
   cable::CableLayout layout_ = cable_layout(robot_);
   cable::ThetaVector theta_{};
   cable::MotionState state_{};

@@ -7,16 +7,16 @@
 namespace liana::numbers {
 namespace {
 
-using draw::Axes;
-using draw::Pixel;
-using draw::Svg;
+using svg::Axes;
+using svg::Pixel;
+using svg::Svg;
 
 constexpr double kWide = 900.0, kHigh = 700.0, kLeft = 80.0, kPlotWide = 780.0, kPlotHigh = 165.0, kDown = 210.0;
 constexpr double kMost_s = 40.0;
 constexpr std::string_view kSoftColour = "#1f65a3", kStiffColour = "#d62728", kSetColour = "#777777";
 constexpr int kEvery = 10;  // instants, of which a curve shows one
 
-Axes panel(int number, draw::AxisRange y) {
+Axes panel(int number, svg::AxisRange y) {
   return {{kLeft, 66.0 + kDown * number}, kPlotWide, kPlotHigh, {0.0, kMost_s}, y};
 }
 
@@ -39,9 +39,9 @@ std::string push_picture(const std::vector<Instant>& soft, const std::vector<Ins
   svg.text({kLeft + 90.0, 52.0}, "20 times as stiff", {.colour = kStiffColour, .bold = true});
   svg.text({kLeft + 230.0, 52.0}, "dashed: the force that is set", {.colour = kSetColour, .bold = true});
   const Axes force = panel(0, {-10.0, 40.0}), depth = panel(1, {-5.0, 25.0}), base = panel(2, {0.0, 10.0});
-  draw::draw_axes(svg, force, "", "along the axis (N)");
-  draw::draw_axes(svg, depth, "", "pins past the face (mm)");
-  draw::draw_axes(svg, base, "time since the push was asked for (s)", "base gives way (mm)");
+  svg::draw_axes(svg, force, "", "along the axis (N)");
+  svg::draw_axes(svg, depth, "", "pins past the face (mm)");
+  svg::draw_axes(svg, base, "time since the push was asked for (s)", "base gives way (mm)");
   for (const auto& [course, colour] : {std::pair{&soft, kSoftColour}, std::pair{&stiff, kStiffColour}}) {
     curve(svg, force, *course, kSetColour, true, [](const Instant& now) { return now.set_N; });
     curve(svg, force, *course, colour, false, [](const Instant& now) { return now.axial_N; });

@@ -24,7 +24,7 @@ constexpr test::Misalignment kMisaligned[] = {
 
 void print(std::uint64_t seed, const test::Misalignment& most, const test::ForceCase& drawn, bool json) {
   test::ForceRig rig(drawn);
-  const test::PushRun run = test::run_push(rig, serial::PushLaw::kForce, kMost_s);
+  const test::PushRun run = test::run_push(rig, serial::InsertLaw::kForce, kMost_s);
   const char* form =
       json ? "{\"seed\": %d, \"most_aside_mm\": %.1f, \"most_tilt_deg\": %.1f, \"captured_s\": %.3f, "
              "\"peak_N\": %.2f, \"peak_Nm\": %.2f, \"base_m\": %.5f, \"after_1s_N\": %.2f, "

@@ -85,7 +85,7 @@ struct Way {
   double node_m[kAfter][8][3];
 };
 
-Result watch(ArmUnderControl& arm, const Kind& kind, std::size_t cable, Way* sound, bool is_sound) {
+Result watch(ArmUnderControl& arm, const Kind& kind, std::size_t cable, Way* sound, bool tensions_valid) {
   Result result;
   arm.plant().take_load();
   Nodes before = nodes_of(arm);
@@ -101,7 +101,7 @@ Result watch(ArmUnderControl& arm, const Kind& kind, std::size_t cable, Way* sou
     for (std::size_t n = 0; n < nodes.size(); ++n) {
       for (std::size_t i = 0; i < 3; ++i) {
         double& sound_m = sound->node_m[age][n][i];
-        if (is_sound) sound_m = nodes[n][i];
+        if (tensions_valid) sound_m = nodes[n][i];
         from[n][i] = sound_m;
       }
     }

@@ -20,7 +20,7 @@ constexpr std::uint64_t kFirstSeed = 1000;
 std::vector<Judged> whole_map(std::size_t count) {
   const auto all = cells();
   std::vector<Judged> map;
-  for (const auto law : {haptic::Law::kClaim, haptic::Law::kAbstract, haptic::Law::kAligned}) {
+  for (const auto law : {haptics::Law::kClaim, haptics::Law::kAbstract, haptics::Law::kAligned}) {
     for (const auto layer : {Layer::kNone, Layer::kTank, Layer::kTankAndDamping}) {
       for (std::size_t i = 0; i < count; ++i) {
         const std::size_t place = i * all.size() / count;
@@ -40,7 +40,7 @@ void print(const Judged& judged, bool last) {
       "\"moving\": %s, \"active\": %s, \"speed_m_s\": %.5f, \"least_J\": %.5f, \"drift_m\": %.5f, \"drag_N\": %.3f, "
       "\"held_N\": %.3f, "
       "\"taken_pressing_N\": %.3f, \"taken_withdrawing_N\": %.3f}%s\n",
-      std::string(haptic::name_of(judged.law)).c_str(),
+      std::string(haptics::name_of(judged.law)).c_str(),
       std::string(kLayerNames[static_cast<std::size_t>(judged.layer)]).c_str(), cell.hand_kg, cell.hand_N_m,
       cell.wall_N_m, cell.delay_s, word(v.moving()), word(v.active()), v.speed_m_s, v.least_J, v.drift_m, v.drag_N,
       v.held_N, v.taken_pressing_N, v.taken_withdrawing_N, last ? "" : ",");

@@ -10,7 +10,7 @@
 namespace liana::numbers {
 namespace {
 
-using namespace haptic;
+using namespace haptics;
 
 constexpr double kJitter = 0.2;
 constexpr double kThere_s = 4.0, kPress_s = 2.0, kWithdraw_s = 7.0, kOut_s = 9.0;

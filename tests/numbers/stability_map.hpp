@@ -49,10 +49,10 @@ struct Verdict {
 std::vector<Cell> cells();
 
 // 43 s of the reach of the rig and what follows; the same bits for the same arguments.
-Verdict judge(haptic::Law law, Layer layer, const Cell& cell, std::uint64_t seed);
+Verdict judge(haptics::Law law, Layer layer, const Cell& cell, std::uint64_t seed);
 
 struct Judged {
-  haptic::Law law{};
+  haptics::Law law{};
   Layer layer{};
   Cell cell{};
   Verdict verdict{};

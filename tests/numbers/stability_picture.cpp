@@ -8,8 +8,8 @@
 namespace liana::numbers {
 namespace {
 
-using draw::Pixel;
-using draw::Svg;
+using svg::Pixel;
+using svg::Svg;
 
 constexpr double kSquare = 8.0, kGap = 5.0;
 constexpr double kPlaceWide = 4.0 * kSquare + kGap, kPlaceHigh = 2.0 * kSquare + kGap;
@@ -22,7 +22,7 @@ double place(const Values& values, double value) {
   return static_cast<double>(std::find(values.begin(), values.end(), value) - values.begin());
 }
 
-Pixel corner_of(haptic::Law law, Layer layer) {
+Pixel corner_of(haptics::Law law, Layer layer) {
   return {kLeft + kAcross * static_cast<double>(layer), kTop + kDown * static_cast<double>(law)};
 }
 
@@ -47,18 +47,18 @@ void draw_labels(Svg& svg) {
              {.size = 14.0, .anchor = "middle", .bold = true});
     svg.text({x, kTop + 3.0 * kDown - 8.0}, "delay there and back (s)", {.size = 12.0, .anchor = "middle"});
   }
-  for (std::size_t law = 0; law < haptic::kLawNames.size(); ++law) {
+  for (std::size_t law = 0; law < haptics::kLawNames.size(); ++law) {
     const double y = kTop + kDown * static_cast<double>(law);
-    svg.text({14.0, y + kPanelHigh / 2.0}, haptic::kLawNames[law], {.size = 14.0, .bold = true});
+    svg.text({14.0, y + kPanelHigh / 2.0}, haptics::kLawNames[law], {.size = 14.0, .bold = true});
     svg.text({92.0, y + kPanelHigh / 2.0}, "hand (N/m)", {.size = 11.0, .anchor = "middle", .upwards = true});
     for (const double hand : kHands_N_m)
-      svg.text({kLeft - 8.0, y + kPlaceHigh * (3.4 - place(kHands_N_m, hand)) + 5.0}, draw::short_number(hand, 0),
+      svg.text({kLeft - 8.0, y + kPlaceHigh * (3.4 - place(kHands_N_m, hand)) + 5.0}, svg::short_number(hand, 0),
                {.size = 11.0, .anchor = "end"});
     for (std::size_t layer = 0; layer < kLayerNames.size(); ++layer)
       for (const double delay : kDelays_s)
         svg.text({kLeft + kAcross * static_cast<double>(layer) + kPlaceWide * place(kDelays_s, delay) + 2.0 * kSquare,
                   y + kPanelHigh + 10.0},
-                 draw::short_number(delay, 1), {.size = 11.0, .anchor = "middle"});
+                 svg::short_number(delay, 1), {.size = 11.0, .anchor = "middle"});
   }
 }
 

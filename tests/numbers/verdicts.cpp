@@ -9,7 +9,7 @@
 
 namespace {
 
-using namespace liana::verify;
+using namespace liana::verification;
 
 constexpr std::uint64_t kFirstSeed = 5001;
 

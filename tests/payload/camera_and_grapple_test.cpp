@@ -97,7 +97,7 @@ TEST(TargetCamera, FartherAwayThanItsRangeNothingIsSeen) {
   EXPECT_FALSE(camera.deliver(1.0)->target);
 }
 
-constexpr GrappleSight kNear{.grapple_in_tip = {{0.003, 0.0, 0.005}, {}}};
+constexpr GrappleObservation kNear{.grapple_in_tip = {{0.003, 0.0, 0.005}, {}}};
 
 // req:B6
 TEST(Grapple, ClosesInThreeSecondsOnAPayloadWithinReach) {
@@ -115,7 +115,7 @@ TEST(Grapple, ClosesInThreeSecondsOnAPayloadWithinReach) {
 
 struct Failing {
   const char* command;
-  GrappleSight sight;
+  GrappleObservation sight;
   const char* word;
 };
 

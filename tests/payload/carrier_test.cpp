@@ -13,9 +13,9 @@ namespace liana::test {
 namespace {
 
 using bench::Carrier;
-using bench::CarrySight;
+using bench::CarryObservation;
 
-constexpr CarrySight kReady{.takes_s = 100.0, .arm_rests = true, .has_torque = true};
+constexpr CarryObservation kReady{.takes_s = 100.0, .arm_rests = true, .has_torque = true};
 
 // req:B6
 TEST(Carrier, GoesItsWayInItsTimeWithoutAJerkAndSaysSoOnce) {
@@ -23,18 +23,18 @@ TEST(Carrier, GoesItsWayInItsTimeWithoutAJerkAndSaysSoOnce) {
   carrier.ask({3, "carry", 1.0});
   EXPECT_FALSE(carrier.act(0.9, kReady));
   EXPECT_EQ(carrier.act(1.0, kReady)->phase, "acting");
-  double before = 0.0, rate = 0.0, most_rate = 0.0, most_change = 0.0;
+  double before = 0.0, rate = 0.0, max_rate = 0.0, max_change = 0.0;
   for (double now_s = 1.1; now_s < 100.95; now_s += 0.1) {
     ASSERT_FALSE(carrier.act(now_s, kReady)) << now_s;
     const double now_rate = (carrier.share() - before) / 0.1;
-    most_change = std::max(most_change, std::fabs(now_rate - rate) / 0.1);
-    most_rate = std::max(most_rate, now_rate);
+    max_change = std::max(max_change, std::fabs(now_rate - rate) / 0.1);
+    max_rate = std::max(max_rate, now_rate);
     EXPECT_GE(now_rate, 0.0);
     before = carrier.share();
     rate = now_rate;
   }
-  EXPECT_NEAR(most_rate, 2.1875 / 100.0, 1e-4);
-  EXPECT_LT(most_change, 7.6 / 1e4) << "of a rate that has no jump";
+  EXPECT_NEAR(max_rate, 2.1875 / 100.0, 1e-4);
+  EXPECT_LT(max_change, 7.6 / 1e4) << "of a rate that has no jump";
   const auto done = carrier.act(101.01, kReady);
   ASSERT_TRUE(done);
   EXPECT_EQ(done->phase, "done");
@@ -44,7 +44,7 @@ TEST(Carrier, GoesItsWayInItsTimeWithoutAJerkAndSaysSoOnce) {
 }
 
 TEST(Carrier, WhatCannotBeSaysWhy) {
-  const auto answer = [](Carrier& carrier, const CarrySight& sight) {
+  const auto answer = [](Carrier& carrier, const CarryObservation& sight) {
     carrier.ask({1, "carry", 0.0});
     const auto report = carrier.act(0.0, sight);
     EXPECT_EQ(report->phase, "failed");
@@ -65,10 +65,10 @@ TEST(Carrier, StopsWhenTheSmallArmMovesOrLosesItsTorqueOrAJointJams) {
     Carrier carrier;
     carrier.suffer({.jams = why == "on its way"});
     carrier.ask({1, "carry", 0.0});
-    std::optional<bench::ToolReport> stopped;
+    std::optional<bench::ToolStatus> stopped;
     double before = 0.0, rate = 0.0, now_s = 0.0;
     for (; !stopped && now_s < 200.0; now_s += 0.1) {
-      CarrySight sight = kReady;
+      CarryObservation sight = kReady;
       if (why == "moved") sight.arm_rests = now_s < 55.0;
       if (why == "torque") sight.has_torque = now_s < 55.0;
       const auto report = carrier.act(now_s, sight);

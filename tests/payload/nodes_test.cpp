@@ -27,7 +27,7 @@ std::size_t count(const FrameList& frames, std::uint32_t id) {
 }
 
 // The sensor with its frames of the last tick.
-constexpr WristFigures kQuiet{.force_noise_N = 0.0, .torque_noise_Nm = 0.0};
+constexpr WristParams kQuiet{.force_noise_N = 0.0, .torque_noise_Nm = 0.0};
 
 struct WristOnBus {
   WristOnBus() : sensor(1, false, 1, kQuiet) { tick({}); }
@@ -98,7 +98,7 @@ TEST(WristSensor, BeyondItsRangeItReadsFullScaleAndSaysSo) {
 
 // Bias within what is stated, another for every seed; noise of the stated size; the same seed reads the same.
 TEST(WristSensor, BiasAndNoiseAreThoseThatAreStated) {
-  const WristFigures figures;
+  const WristParams figures;
   double largest_N = 0.0;
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     WristSensor sensor(1, true, seed), same(1, true, seed);

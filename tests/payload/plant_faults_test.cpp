@@ -18,7 +18,7 @@ void expect_at_rest(const Stand& stand, const char* name) {
   for (std::size_t i = 0; i < 7; ++i) {
     const bench::Drive& drive = stand.plant.drives().drive(i);
     EXPECT_NE(drive.power_state(), bench::PowerState::kOperationEnabled) << name << " " << i;
-    EXPECT_FALSE(drive.gives_torque()) << name << " " << i;
+    EXPECT_FALSE(drive.is_torque_controlled()) << name << " " << i;
   }
   EXPECT_LT(stand.plant.fastest_rad_s(), 0.002) << name;
   EXPECT_LT(stand.peak_Nm, 150.0) << name;

@@ -35,7 +35,7 @@ bench::Vec3 own(const Vec3& v) { return {v[0], v[1], v[2]}; }
 // Rows of the plate's Jacobian in the tip's frame.
 using Rows = std::array<std::array<double, 7>, 6>;
 
-Rows plate_jacobian(const serial::RobotTable& table, double plate_m, const serial::JointVector& joint_rad) {
+Rows plate_jacobian(const serial::RobotParams& table, double plate_m, const serial::JointVector& joint_rad) {
   const serial::ArmKinematics arm = serial::forward_kinematics(table, joint_rad);
   const auto& q = arm.tip_in_base.quaternion;  // w first
   const bench::Quat into_tip = conjugate(bench::Quat{q[0], q[1], q[2], q[3]});
@@ -49,7 +49,7 @@ Rows plate_jacobian(const serial::RobotTable& table, double plate_m, const seria
   return rows;
 }
 
-serial::JointVector least_rates(const Rows& rows, const std::array<double, 6>& twist) {
+serial::JointVector min_rates(const Rows& rows, const std::array<double, 6>& twist) {
   bench::ThetaMatrix square{};
   bench::Theta right{}, x{};
   for (std::size_t r = 0; r < 6; ++r) {
@@ -81,7 +81,7 @@ TorqueCommand ForceLaw::step(double tick_s, const serial::JointVector& joint_rad
     if (!feed_forward) continue;
     for (std::size_t i = 0; i < 7; ++i) command.feed_forward_Nm[i] -= rows[k][i] * met_[k];
   }
-  command.rate_rad_s = least_rates(rows, velocity_);
+  command.rate_rad_s = min_rates(rows, velocity_);
   return command;
 }
 

@@ -36,14 +36,14 @@ struct TorqueCommand {
 // that swings the wrist against the payload at some 8 Hz.
 class ForceLaw {
  public:
-  ForceLaw(const serial::RobotTable& table, double plate_m) : table_(table), plate_m_(plate_m) {}
+  ForceLaw(const serial::RobotParams& table, double plate_m) : table_(table), plate_m_(plate_m) {}
   double set_N = 0.0;  // along z
   bool feed_forward = true;
   TorqueCommand step(double tick_s, const serial::JointVector& joint_rad, const bench::Vec3& force_N,
                      const bench::Vec3& torque_Nm);
 
  private:
-  serial::RobotTable table_;
+  serial::RobotParams table_;
   double plate_m_;
   std::array<double, 6> velocity_{};  // linear, angular
   std::array<double, 6> met_{};       // force and torque, low-passed

@@ -112,9 +112,9 @@ TEST(PayloadScenes, AnInertiaThatNoBodyHasIsRefused) {
 
 TEST(TorqueArm, TheModeOfTheDrivesIsOneOfTwoWords) {
   Json table = torque_arm_table();
-  EXPECT_TRUE(bench_robot(table).gives_torque);
+  EXPECT_TRUE(bench_robot(table).is_torque_controlled);
   table["drives"]["mode"] = "position";
-  EXPECT_FALSE(bench_robot(table).gives_torque);
+  EXPECT_FALSE(bench_robot(table).is_torque_controlled);
   table["drives"]["mode"] = "force";
   EXPECT_THROW(bench_robot(table), std::runtime_error);
 }

@@ -15,7 +15,7 @@ namespace {
 constexpr double kPinRadius_m = 0.010, kStep_s = 0.0005;
 
 // The plate slides along x, y, z, damped and with the capture spring; z is the depth of the pins' tips.
-std::string model_text(const AdapterFigures& figures, double mass_kg, double damping_Ns_m) {
+std::string model_text(const AdapterParams& figures, double mass_kg, double damping_Ns_m) {
   std::ostringstream out;
   out << std::setprecision(12) << "<mujoco><option gravity='0 0 0' timestep='" << kStep_s << "'/><worldbody>";
   out << "<geom type='box' size='0.4 0.4 0.05' pos='0 0 " << figures.stop_m + 0.05 << "'/>";
@@ -40,7 +40,7 @@ std::string model_text(const AdapterFigures& figures, double mass_kg, double dam
 }
 
 // Mean force of all contacts on the plate over the last quarter of the time.
-Vec3 held_in_mujoco_N(const AdapterFigures& figures, const Vec3& push_N, double seconds) {
+Vec3 held_in_mujoco_N(const AdapterParams& figures, const Vec3& push_N, double seconds) {
   const MujocoModel engine(model_text(figures, 500.0, 4000.0));
   mjData* const data = engine.data;
   data->qpos[2] = 0.005;
@@ -57,7 +57,7 @@ Vec3 held_in_mujoco_N(const AdapterFigures& figures, const Vec3& push_N, double 
 }
 
 TEST(AdapterInMujoco, StopAndWallsHoldTheSameForces) {
-  AdapterFigures figures;
+  AdapterParams figures;
   figures.spring_friction_N = 0.0;  // MuJoCo's model has none
   for (const Vec3& push : {Vec3{0, 0, 30.0}, Vec3{6.0, -3.0, 35.0}}) {
     Adapter adapter(figures);

@@ -74,7 +74,7 @@ TEST(Adapter, SlidingPinsRubAgainstTheWay) {
 }
 
 // Work of the adapter on a plate that is led around a closed way, from the mouth to the stop and back, skewed.
-double work_around_J(const AdapterFigures& figures, double seconds, double phase) {
+double work_around_J(const AdapterParams& figures, double seconds, double phase) {
   const Adapter adapter(figures);
   const int steps = 20000;
   const auto place = [&](double t) {
@@ -100,12 +100,12 @@ double work_around_J(const AdapterFigures& figures, double seconds, double phase
 }
 
 TEST(Adapter, GivesNoEnergyOnAnyClosedWay) {
-  AdapterFigures elastic;
+  AdapterParams elastic;
   elastic.friction = elastic.damping_Ns_m = elastic.spring_friction_N = elastic.spring_damping_Ns_m = 0.0;
   for (const double phase : {0.0, 1.0, 2.0, 3.0, 4.0, 5.0}) {
     EXPECT_NEAR(work_around_J(elastic, 10.0, phase), 0.0, 1e-3) << phase;
-    EXPECT_LT(work_around_J(AdapterFigures(), 10.0, phase), -0.05) << phase;
-    EXPECT_LT(work_around_J(AdapterFigures(), 0.5, phase), work_around_J(AdapterFigures(), 10.0, phase)) << phase;
+    EXPECT_LT(work_around_J(AdapterParams(), 10.0, phase), -0.05) << phase;
+    EXPECT_LT(work_around_J(AdapterParams(), 0.5, phase), work_around_J(AdapterParams(), 10.0, phase)) << phase;
   }
 }
 
@@ -134,7 +134,7 @@ TEST(Adapter, OutsideTheFunnelItStandsOnTheFaceAndIsNeverCaptured) {
 
 // The funnel's walls stand at 45 deg: friction of more than 1 holds a pin there, whatever pushes along the axis.
 TEST(Adapter, PinsThatStickInTheFunnelJam) {
-  AdapterFigures rough;
+  AdapterParams rough;
   rough.friction = 1.3;
   Adapter adapter(rough);
   SlidingPlate plate{500.0, 4000.0, {0.015, 0, -0.020}};

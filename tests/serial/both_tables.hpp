@@ -35,8 +35,8 @@ class Numbers {
   }
   Vec3 vector(double most) { return {in(-most, most), in(-most, most), in(-most, most)}; }
   // A body as there can be one: its second moments of mass are those of three rods of any direction.
-  serial::LinkMass body(double most_kg) {
-    serial::LinkMass body{in(0.2, 1.0) * most_kg, vector(0.5), {}};
+  serial::LinkMass body(double max_kg) {
+    serial::LinkMass body{in(0.2, 1.0) * max_kg, vector(0.5), {}};
     for (int rod = 0; rod < 3; ++rod) {
       const Vec3 x = vector(0.3);
       const double m = body.mass_kg / 3.0, square = dot(x, x);

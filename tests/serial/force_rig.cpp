@@ -140,7 +140,7 @@ bench::TipLoad ForceRig::load_on_tip(const bench::TipState& tip) const {
 
 void ForceRig::read_drives() {
   for (std::size_t i = 0; i < 7; ++i) {
-    const serial::DriveTable& drive = robot_.table.drive[i];
+    const serial::DriveParams& drive = robot_.table.drive[i];
     DriveFeedback& feedback = inputs_.drive[i];
     feedback = ideal_feedback(feedback, out_.drive[i], 0);
     feedback.feedback_age_ticks = 0;
@@ -187,12 +187,12 @@ void ForceRig::move_plant() {
         drives[i] = {};
         loop_[i].reset();
       } else if (step % kStepsInLoop == 0) {
-        const serial::DriveTable& drive = robot_.table.drive[i];
+        const serial::DriveParams& drive = robot_.table.drive[i];
         const bench::TorqueTarget target{drive.direction * out_.drive[i].torque_permille * drive.torque_per_permille_Nm,
                                          drive.direction * out_.drive[i].rate_counts_s * drive.rad_per_count};
         bench::TorqueGains gains;
         if (i >= 4) gains.damping_Nms_rad = 1500.0;  // the wrist
-        drives[i].gives_torque = true;
+        drives[i].is_torque_controlled = true;
         drives[i].torque_Nm = loop_[i].step(0.001, gains, target, {chain_->gear_Nm(i), chain_->rotor_rate_rad_s(i)},
                                             model_.peak_torque_Nm);
       }
@@ -233,7 +233,7 @@ void ForceRig::enable() {
   ASSERT_EQ(out_.faults.count, 0);
 }
 
-serial::Setpoint ForceRig::push(double force_N, serial::PushLaw law) {
+serial::Setpoint ForceRig::push(double force_N, serial::InsertLaw law) {
   serial::Setpoint setpoint;
   setpoint.kind = CommandKind::kPush;
   setpoint.push.number = static_cast<std::uint32_t>(now_);
@@ -242,12 +242,12 @@ serial::Setpoint ForceRig::push(double force_N, serial::PushLaw law) {
   setpoint.push.travel_m = 0.06;
   setpoint.push.aside_m = case_.most_aside_m;
   setpoint.push.turn_rad = 0.05;
-  if (law == serial::PushLaw::kImpedance) setpoint.push.depth_m = case_.before_m + 0.0222;
+  if (law == serial::InsertLaw::kImpedance) setpoint.push.depth_m = case_.before_m + 0.0222;
   setpoint.push.gains = robot_.push_gains;
   return setpoint;
 }
 
-double ForceRig::most_gear_Nm() const {
+double ForceRig::max_gear_Nm() const {
   double most = 0.0;
   for (std::size_t i = 0; i < 7; ++i) most = std::max(most, std::fabs(chain_->gear_Nm(i)));
   return most;

@@ -25,7 +25,7 @@ struct ForceCase {
   double base_share = 1.0;  // of the base's stiffness
   double gear_share = 1.0;  // of the gears'
   double coulomb_Nm = 8.0;
-  bench::AdapterFigures adapter{};
+  bench::AdapterParams adapter{};
   bench::Vec3 aside_m{0.0010, 0.0015, 0.0};  // of the plate from the socket's middle
   bench::Vec3 tilt_rad{0.004, -0.005, 0.0};
   double before_m = 0.001;     // of the plate before the socket's face
@@ -63,7 +63,7 @@ class ForceRig {
   void run_s(double seconds);
   // From now on this is sent again every interval; none: nothing is sent.
   void ask(const std::optional<serial::Setpoint>& setpoint) { asked_ = setpoint; }
-  serial::Setpoint push(double force_N, serial::PushLaw law = serial::PushLaw::kForce);
+  serial::Setpoint push(double force_N, serial::InsertLaw law = serial::InsertLaw::kForce);
 
   const serial::Outputs& out() const { return out_; }
   double time_s() const { return static_cast<double>(now_) * robot_.table.tick_s; }
@@ -73,7 +73,7 @@ class ForceRig {
   bench::TipState plate() const;                       // in the socket's frame
   bench::TipLoad contact() const { return contact_; }  // of the adapter on the plate, in the socket's frame
   double axial_N() const { return -contact_.force_N.z; }
-  double most_gear_Nm() const;  // of all joints, now
+  double max_gear_Nm() const;   // of all joints, now
   double base_moved_m() const;  // the tip of the arm that carries, from where it began
   void meddle(const Meddle& meddle) { meddle_ = meddle; }
   // What pushes the tip besides, in the root's frame.

@@ -14,9 +14,9 @@
 namespace liana::test {
 namespace {
 
-using serial::PushEnd;
-using serial::PushLaw;
-using serial::PushPhase;
+using serial::InsertLaw;
+using serial::InsertPhase;
+using serial::InsertResult;
 
 constexpr std::uint64_t kFirstSeed = 101;
 constexpr std::uint64_t kSeeds = rounds(std::uint64_t{24});
@@ -32,7 +32,7 @@ TEST(Force, OfRandomPayloadsBasesAndAdaptersAllAreCapturedWithoutMoreForceThanAl
   int captured = 0;
   for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + kSeeds; ++seed) {
     ForceRig rig(drawn_case(seed));
-    const PushRun run = run_push(rig, PushLaw::kForce, 22.0);
+    const PushRun run = run_push(rig, InsertLaw::kForce, 22.0);
     if (run.captured_s > 0.0) ++captured;
     EXPECT_LE(run.peak_N, 60.0) << seed;
     EXPECT_LE(run.peak_Nm, 100.0) << seed;
@@ -51,7 +51,7 @@ TEST(Force, APushThatBeginsFarBesideTheAxisIsCapturedFromTenMillimetresAndBreaks
   for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + 4; ++seed) {
     const bool far = seed >= kFirstSeed + 2;  // as far as the funnels take: it may jam (docs/explanation/payload.md)
     ForceRig rig(misaligned_case(seed, {far ? 0.028 : 0.010, 0.008}));
-    const PushRun run = run_push(rig, PushLaw::kForce, 40.0);
+    const PushRun run = run_push(rig, InsertLaw::kForce, 40.0);
     EXPECT_TRUE(far || run.captured_s > 0.0) << seed;
     EXPECT_LE(run.peak_N, 60.0) << seed;
     EXPECT_LE(run.peak_Nm, 100.0) << seed;
@@ -65,7 +65,7 @@ TEST(Force, ImpedanceOnTheSameSeedsIsLateOrDoesNotCaptureAndBreaksNoLimit) {
   double first_s = 100.0;
   for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + kImpedanceSeeds; ++seed) {
     ForceRig rig(drawn_case(seed));
-    const PushRun run = run_push(rig, PushLaw::kImpedance, 22.0);
+    const PushRun run = run_push(rig, InsertLaw::kImpedance, 22.0);
     if (run.captured_s > 0.0) {
       ++captured;
       first_s = std::min(first_s, run.captured_s);
@@ -81,7 +81,7 @@ TEST(Force, ImpedanceOnTheSameSeedsIsLateOrDoesNotCaptureAndBreaksNoLimit) {
 
 TEST(Force, TheUsualPayloadIsCapturedWithinSomeSeconds) {
   ForceRig rig{ForceCase{}};
-  const PushRun run = run_push(rig, PushLaw::kForce, 22.0);
+  const PushRun run = run_push(rig, InsertLaw::kForce, 22.0);
   EXPECT_GT(run.captured_s, 4.0);
   EXPECT_LT(run.captured_s, 14.0);
   EXPECT_LT(run.base_m, 0.012);
@@ -93,7 +93,7 @@ struct Held {
   double high_N = -1e9;
 };
 
-Held held_force(PushLaw law) {
+Held held_force(InsertLaw law) {
   ForceCase settings;
   settings.never_captures = true;
   ForceRig rig(settings);
@@ -107,12 +107,12 @@ Held held_force(PushLaw law) {
     held.high_N = std::max(held.high_N, rig.axial_N());
   }
   EXPECT_EQ(rig.out().faults.count, 0);
-  EXPECT_EQ(rig.out().push.phase, PushPhase::kPressing);
+  EXPECT_EQ(rig.out().push.phase, InsertPhase::kPressing);
   return held;
 }
 
 TEST(Force, ForceControlHoldsThirtyNewtonsAndImpedanceMissesThem) {
-  const Held force = held_force(PushLaw::kForce), impedance = held_force(PushLaw::kImpedance);
+  const Held force = held_force(InsertLaw::kForce), impedance = held_force(InsertLaw::kImpedance);
   std::printf("held: force control %.1f to %.1f N, impedance %.1f to %.1f N\n", force.low_N, force.high_N,
               impedance.low_N, impedance.high_N);
   EXPECT_GT(force.low_N, 29.0);
@@ -126,7 +126,7 @@ struct Pressing {
     rig.enable();
     rig.ask(rig.push(30.0));
     for (int i = 0; i < 3000 && rig.axial_N() < 12.0; ++i) rig.tick();
-    EXPECT_EQ(rig.out().push.phase, PushPhase::kPressing);
+    EXPECT_EQ(rig.out().push.phase, InsertPhase::kPressing);
     EXPECT_EQ(rig.out().push.touched, 1);
   }
   bool has(FaultNumber number) const {
@@ -161,19 +161,19 @@ TEST(Force, WhateverTheWristSensorSaysOrDoesNotThePushEndsByNameAndTheForceGoes)
     Pressing at;
     at.rig.meddle(row.meddle);
     int ticks = 0;
-    while (at.rig.out().push.phase == PushPhase::kPressing && ticks < 40) {
+    while (at.rig.out().push.phase == InsertPhase::kPressing && ticks < 40) {
       at.rig.tick();
       ++ticks;
     }
     EXPECT_LE(ticks, row.within_ticks) << row.why;
-    EXPECT_EQ(at.rig.out().push.end, PushEnd::kSensorLost) << row.why;
+    EXPECT_EQ(at.rig.out().push.end, InsertResult::kSensorLost) << row.why;
     EXPECT_EQ(at.rig.out().push.wrist, row.lost) << row.why;
     at.rig.tick();
     ASSERT_TRUE(at.has(FaultNumber::kWristSensorLost)) << row.why;
     EXPECT_EQ(at.rig.out().faults.fault[0].detail, static_cast<std::uint16_t>(row.lost)) << row.why;
     at.rig.run_s(3.0);
     EXPECT_LT(at.rig.axial_N(), 25.0) << row.why;
-    EXPECT_LE(at.rig.most_gear_Nm(), 30.0) << row.why;
+    EXPECT_LE(at.rig.max_gear_Nm(), 30.0) << row.why;
     EXPECT_EQ(at.rig.out().state, OperatingState::kEnabled) << row.why << ": it holds";
   }
 }
@@ -189,7 +189,7 @@ TEST(Force, ACaptureBeforeAnyContactIsEarlyAndAnAdapterThatFallsSilentEndsThePus
     EXPECT_EQ(rig.out().push.touched, 0);
     rig.meddle([](serial::Sensors& s) { s.adapter.captured = 1; });
     rig.run_s(0.03);
-    EXPECT_EQ(rig.out().push.end, PushEnd::kEarlyCapture);
+    EXPECT_EQ(rig.out().push.end, InsertResult::kEarlyCapture);
     EXPECT_EQ(rig.out().push.set_N, 0.0);
     EXPECT_EQ(rig.out().faults.count, 0);
   }
@@ -197,7 +197,7 @@ TEST(Force, ACaptureBeforeAnyContactIsEarlyAndAnAdapterThatFallsSilentEndsThePus
     Pressing at;
     at.rig.meddle([](serial::Sensors& s) { s.adapter.sequence = 9; });
     at.rig.run_s(0.12);
-    EXPECT_EQ(at.rig.out().push.end, PushEnd::kAdapterSilent);
+    EXPECT_EQ(at.rig.out().push.end, InsertResult::kAdapterSilent);
   }
   {
     Pressing at;  // an old message that says "captured" is sent again and again: it is no news
@@ -207,7 +207,7 @@ TEST(Force, ACaptureBeforeAnyContactIsEarlyAndAnAdapterThatFallsSilentEndsThePus
       s.adapter.captured = 1;
     });
     at.rig.run_s(0.02);
-    EXPECT_EQ(at.rig.out().push.end, PushEnd::kNot);
+    EXPECT_EQ(at.rig.out().push.end, InsertResult::kNot);
   }
 }
 
@@ -231,7 +231,7 @@ TEST(Force, SomethingInTheHoleIsHeldWithTheSetForceAndAWayTooLongEndsThePush) {
   push.push.travel_m = 0.01;
   free.ask(push);
   free.run_s(6.0);
-  EXPECT_EQ(free.out().push.end, PushEnd::kTravel);
+  EXPECT_EQ(free.out().push.end, InsertResult::kTravel);
   EXPECT_LT(free.out().push.travel_m, 0.015) << "it stops at once";
   EXPECT_EQ(free.out().at_rest, 1);
 }
@@ -286,14 +286,14 @@ TEST(Force, ABlowAtTheTipEndsThePushAsOverload) {
   Pressing at;
   at.rig.push_tip({{400.0, 0.0, 0.0}, {}});
   at.rig.run_s(0.5);
-  EXPECT_EQ(at.rig.out().push.end, PushEnd::kOverload);
+  EXPECT_EQ(at.rig.out().push.end, InsertResult::kOverload);
   EXPECT_TRUE(at.has(FaultNumber::kPushOverload));
 }
 
 // Lock moves the payload: what follows gives way above 20 N m a joint and stays where nothing pushes. req:B29
 TEST(Force, WhileTheAdapterLocksTheJointsGiveWayAboveTwentyNewtonMetres) {
   ForceRig rig{ForceCase{}};
-  const PushRun run = run_push(rig, PushLaw::kForce, 20.0);
+  const PushRun run = run_push(rig, InsertLaw::kForce, 20.0);
   ASSERT_GT(run.captured_s, 0.0);
   serial::Setpoint follow;
   follow.kind = CommandKind::kFollow;
@@ -301,13 +301,13 @@ TEST(Force, WhileTheAdapterLocksTheJointsGiveWayAboveTwentyNewtonMetres) {
   rig.run_s(5.0);
   const serial::JointVector before = rig.out().joint_command_rad;
   rig.move_socket(0.002);
-  double most_Nm = 0.0;
+  double max_Nm = 0.0;
   for (int i = 0; i < 250 * 20; ++i) {
     rig.tick();
-    most_Nm = std::max(most_Nm, rig.most_gear_Nm());
+    max_Nm = std::max(max_Nm, rig.max_gear_Nm());
   }
   rig.move_socket(0.0);
-  EXPECT_LT(most_Nm, 30.0);
+  EXPECT_LT(max_Nm, 30.0);
   double moved = 0.0;
   for (std::size_t i = 0; i < 7; ++i) moved = std::max(moved, std::fabs(rig.out().joint_command_rad[i] - before[i]));
   EXPECT_GT(moved, 0.003) << "40 mm are more than springs take";
@@ -342,14 +342,14 @@ TEST(Force, AtFullRateWithAPayloadTheJointsLagLessThanTheWindow) {
   joints.joint_rad = rig.out().joint_command_rad;
   joints.joint_rad[0] -= 0.5;
   rig.ask(joints);
-  double most_rad = 0.0, swings_rad = 0.0;  // in all, and in the last 10 s
+  double max_rad = 0.0, swings_rad = 0.0;  // in all, and in the last 10 s
   for (int i = 0; i < 10000; ++i) {
     rig.tick();
     const double lag_rad = std::fabs(rig.out().joint_command_rad[0] - rig.chain().rotor_rad(0));
-    most_rad = std::max(most_rad, lag_rad);
+    max_rad = std::max(max_rad, lag_rad);
     if (i >= 7500) swings_rad = std::max(swings_rad, lag_rad);
   }
-  EXPECT_LT(most_rad, 0.5 * serial::kTorqueFollowingWindow_rad);
+  EXPECT_LT(max_rad, 0.5 * serial::kTorqueFollowingWindow_rad);
   EXPECT_LT(swings_rad, 1e-3);
   EXPECT_EQ(rig.out().faults.count, 0);
 }
@@ -366,13 +366,13 @@ double told_Nm(const serial::LinkMass& payload) {
   joints.joint_rad = rig.out().joint_command_rad;
   joints.joint_rad[6] -= 0.3;
   rig.ask(joints);
-  double most_Nm = 0.0;
+  double max_Nm = 0.0;
   for (int i = 0; i < 125; ++i) {
     rig.tick();
-    most_Nm = std::max(most_Nm, std::fabs(rig.out().torque_told_Nm[6]));
+    max_Nm = std::max(max_Nm, std::fabs(rig.out().torque_told_Nm[6]));
   }
   EXPECT_EQ(rig.out().faults.count, 0);
-  return most_Nm;
+  return max_Nm;
 }
 
 // The last joint turns about the payload's own axis: 50 kg m2 at 4 deg/s2 take 3.5 N m.

@@ -13,7 +13,7 @@ constexpr double kLight_N = 5.0;
 
 double given_N(const serial::Outputs& out) { return norm(out.push.given.force_N); }
 
-PushRun run_push(ForceRig& rig, serial::PushLaw law, double most_s) {
+PushRun run_push(ForceRig& rig, serial::InsertLaw law, double most_s) {
   rig.enable();
   rig.ask(rig.push(30.0, law));
   PushRun run;
@@ -23,13 +23,13 @@ PushRun run_push(ForceRig& rig, serial::PushLaw law, double most_s) {
   while (rig.time_s() < began_s + most_s) {
     const serial::Outputs& out = rig.tick();
     run.peak_N = std::max(run.peak_N, rig.axial_N());
-    run.peak_Nm = std::max(run.peak_Nm, rig.most_gear_Nm());
+    run.peak_Nm = std::max(run.peak_Nm, rig.max_gear_Nm());
     run.base_m = std::max(run.base_m, rig.base_moved_m());
     run.faults = out.faults.count;
     run.end = out.push.end;
     if (touched_s < 0.0 && rig.axial_N() > kTouch_N) touched_s = rig.time_s();
     if (out.push.captured != 0) ++since_message;
-    if (out.push.end != serial::PushEnd::kCaptured) continue;
+    if (out.push.end != serial::InsertResult::kCaptured) continue;
     if (run.captured_s < 0.0) {
       run.captured_s = rig.time_s() - began_s;
       run.resisted_N = rig.axial_N();

@@ -17,7 +17,7 @@ struct PushRun {
   double loaded_s = 0.0;     // from the first contact until less than 5 N are left
   double set_after_N = 0.0;  // the most that is set from the capture on
   int unload_ticks = -1;     // from the message to no set force
-  serial::PushEnd end = serial::PushEnd::kNot;
+  serial::InsertResult end = serial::InsertResult::kNot;
   std::int32_t faults = 0;
 };
 
@@ -25,6 +25,6 @@ struct PushRun {
 double given_N(const serial::Outputs& out);
 
 // Enables the arm, asks for 30 N and goes on for `most_s`.
-PushRun run_push(ForceRig& rig, serial::PushLaw law, double most_s);
+PushRun run_push(ForceRig& rig, serial::InsertLaw law, double most_s);
 
 }  // namespace liana::test

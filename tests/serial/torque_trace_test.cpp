@@ -60,7 +60,7 @@ Traces traces_of(ForceRig& rig) {
   rig.ask(rig.push(30.0));
   for (int i = 0; i < 5500 && !out.captured; ++i) {
     levels.add(rig.tick());
-    out.captured = rig.out().push.end == serial::PushEnd::kCaptured;
+    out.captured = rig.out().push.end == serial::InsertResult::kCaptured;
     out.pressed_Nm = std::max(out.pressed_Nm, farthest(levels.told_Nm, {}));
     out.apart_Nm = std::max(out.apart_Nm, farthest(levels.read_Nm, levels.told_Nm));
   }

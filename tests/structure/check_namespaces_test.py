@@ -44,7 +44,7 @@ class CheckNamespaces(unittest.TestCase):
 
     def test_another_rooms_namespace_is_found_and_so_is_the_rooms_name_where_the_table_has_another(self):
         files = {
-            "host/model/config/a.cpp": "namespace liana::reach { int f() { return 0; } }",
+            "host/model/config/a.cpp": "namespace liana::workspace { int f() { return 0; } }",
             "host/base/clock/b.hpp": "namespace liana::clock { struct Tick {}; }",
         }
         self.assertEqual(len(problems(files)), 2)

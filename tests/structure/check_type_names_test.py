@@ -40,7 +40,7 @@ class CheckTypeNames(unittest.TestCase):
 
     def test_namespaces_of_rooms_keep_equal_names_apart(self):
         files = {
-            "host/planning/planner/a.hpp": "namespace liana::plan { struct Range {}; }",
+            "host/planning/planner/a.hpp": "namespace liana::planner { struct Range {}; }",
             "host/base/svg/b.hpp": in_liana("struct Range {};"),
         }
         self.assertEqual(problems(files), [])

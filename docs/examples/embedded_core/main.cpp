@@ -12,8 +12,8 @@ namespace liana::cable {
 namespace {
 
 // Two segments of eight modules with three cables each, ticked every 4 ms, no friction and no weight.
-RobotTable two_segments() {
-  RobotTable robot;
+RobotParams two_segments() {
+  RobotParams robot;
   robot.segment_count = 2;
   for (std::size_t m = 0; m < 2; ++m) {
     robot.segment[m] = {8, 3, 0.1, 20.0 * kDegree, 0.0, {}};
@@ -30,12 +30,12 @@ RobotTable two_segments() {
   robot.tension = {40.0, 15.0, 1.0, 150.0, 400.0, 600.0};
   robot.limits = {2.0 * kDegree,  4.0 * kDegree,   0.10, 0.03, 0.2, 2.0, 20.0 * kDegree,
                   40.0 * kDegree, 400.0 * kDegree, 0.010};
-  for (DriveTable& drive : robot.drive) drive = {2.0 * kPi * 0.015 / 65536.0, 1, 1000000, 0.6};
+  for (DriveParams& drive : robot.drive) drive = {2.0 * kPi * 0.015 / 65536.0, 1, 1000000, 0.6};
   return robot;
 }
 
 // Drives that are switched off, every cable at its zero: the arm is straight, and nothing pulls.
-DriveFeedbacks switched_off(const RobotTable& robot) {
+DriveFeedbacks switched_off(const RobotParams& robot) {
   DriveFeedbacks drives{};
   for (std::size_t c = 0; c < static_cast<std::size_t>(robot.cable_count()); ++c) {
     drives[c].position_counts = robot.drive[c].zero_counts;
@@ -47,7 +47,7 @@ DriveFeedbacks switched_off(const RobotTable& robot) {
 
 // Enables the arm, bends it, and says whether it stands where it was told to.
 bool move() {
-  const RobotTable robot = two_segments();
+  const RobotParams robot = two_segments();
   Controller controller(robot);
   Inputs inputs;
   inputs.drive = switched_off(robot);

@@ -18,7 +18,7 @@
 
 namespace {
 
-constexpr double kMostForce_N = 12.0, kWatchdog_s = 0.1;
+constexpr double kMaxForce_N = 12.0, kWatchdog_s = 0.1;
 constexpr int kDeadmanButton = 0;  // of the stylus
 
 volatile std::sig_atomic_t g_over = 0;
@@ -58,7 +58,7 @@ liana_hello hello() {
   hand.actuated = LIANA_X | LIANA_Y | LIANA_Z;
   const double half_m[3] = {0.055, 0.080, 0.080};  // published: 110 mm deep, 160 mm across
   for (int i = 0; i < 3; ++i) hand.low_m[i] = -half_m[i], hand.high_m[i] = half_m[i];
-  hand.most_force_N = kMostForce_N;
+  hand.most_force_N = kMaxForce_N;
   return out;
 }
 
@@ -107,7 +107,7 @@ void feel(const liana_state& state, const liana_sample& hand, double force_N[3])
     const double push_N = plane.stiffness_N_m * depth_m + plane.damping_N_s_m * std::max(0.0, speed_m_s);
     for (int i = 0; i < 3; ++i) force_N[i] += push_N * plane.normal[i];
   }
-  for (int i = 0; i < 3; ++i) force_N[i] = std::clamp(force_N[i], -kMostForce_N, kMostForce_N);
+  for (int i = 0; i < 3; ++i) force_N[i] = std::clamp(force_N[i], -kMaxForce_N, kMaxForce_N);
 }
 
 // Takes what has come; false when lianad has refused us or is gone.

@@ -8,7 +8,7 @@ using Index = std::size_t;
 using NodeVectors = std::array<Vec3, kMaxSegments + 1>;  // [0] = base
 
 // What accelerates every node, from segment `first` on, so.
-NodeVectors forces(const RobotTable& table, Index first, const NodeVectors& accel) noexcept {
+NodeVectors forces(const RobotParams& table, Index first, const NodeVectors& accel) noexcept {
   NodeVectors force{};
   for (Index j = first; j < static_cast<Index>(table.segment_count); ++j) {
     const double sixth_kg = table.segment[j].modules * table.segment[j].module_mass_kg / 6.0;
@@ -20,7 +20,7 @@ NodeVectors forces(const RobotTable& table, Index first, const NodeVectors& acce
 
 }  // namespace
 
-void follow_acceleration(const RobotTable& table, const ThetaVector& theta_rad, const CableVector& tension_N,
+void follow_acceleration(const RobotParams& table, const ThetaVector& theta_rad, const CableVector& tension_N,
                          double period_s, BodyInertiaState& state) noexcept {
   if (!state.begun) {
     state.slow_rad = theta_rad;
@@ -41,7 +41,7 @@ void follow_acceleration(const RobotTable& table, const ThetaVector& theta_rad, 
   }
 }
 
-void update_mass_matrix(const RobotTable& table, const ArmKinematics& kinematics, MassMatrix& mass) noexcept {
+void update_mass_matrix(const RobotParams& table, const ArmKinematics& kinematics, MassMatrix& mass) noexcept {
   const Index thetas = static_cast<Index>(table.theta_count()), segments = thetas / 2;
   std::array<NodeVectors, kMaxTheta> moves{};  // of every node when theta k turns by 1 rad
   for (Index k = 0; k < thetas; ++k) {
@@ -56,7 +56,7 @@ void update_mass_matrix(const RobotTable& table, const ArmKinematics& kinematics
   }
 }
 
-double inertia_torque_Nm(const RobotTable& table, const MassMatrix& mass, const ThetaVector& accel_rad_s2,
+double inertia_torque_Nm(const RobotParams& table, const MassMatrix& mass, const ThetaVector& accel_rad_s2,
                          Index axis) noexcept {
   double torque_Nm = 0.0;
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) torque_Nm += mass[axis][k] * accel_rad_s2[k];

@@ -9,7 +9,7 @@
 #include <array>
 
 #include "firmware_like/cable/arm/kinematics.hpp"
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_params.hpp"
 
 namespace liana::cable {
 
@@ -18,10 +18,10 @@ using MassMatrix = std::array<ThetaVector, kMaxTheta>;
 
 // Mass matrix [kg m2] at one pose. Cost: a column of the Jacobian per theta and node behind it, 12 operations for every
 // two of them.
-void update_mass_matrix(const RobotTable& table, const ArmKinematics& kinematics, MassMatrix& mass) noexcept;
+void update_mass_matrix(const RobotParams& table, const ArmKinematics& kinematics, MassMatrix& mass) noexcept;
 
 // Torque [N m] about theta `axis` that this acceleration takes.
-double inertia_torque_Nm(const RobotTable& table, const MassMatrix& mass, const ThetaVector& accel_rad_s2,
+double inertia_torque_Nm(const RobotParams& table, const MassMatrix& mass, const ThetaVector& accel_rad_s2,
                          std::size_t axis) noexcept;
 
 // An arm that is pushed accelerates, too: what the cables' torques and the mass do not balance is the push, before the
@@ -38,7 +38,7 @@ struct BodyInertiaState {
 };
 
 // Follows measured angles and tensions; to be called every `period_s`.
-void follow_acceleration(const RobotTable& table, const ThetaVector& theta_rad, const CableVector& tension_N,
+void follow_acceleration(const RobotParams& table, const ThetaVector& theta_rad, const CableVector& tension_N,
                          double period_s, BodyInertiaState& state) noexcept;
 
 }  // namespace liana::cable

@@ -50,11 +50,11 @@ double bend_angle(const SegmentTrig& t) noexcept {
 
 }  // namespace
 
-CableLayout cable_layout(const RobotTable& table) noexcept {
+CableLayout cable_layout(const RobotParams& table) noexcept {
   CableLayout layout;
   Index cable = 0;
   for (std::int32_t m = 0; m < table.segment_count; ++m) {
-    const SegmentTable& own = table.segment[static_cast<Index>(m)];
+    const SegmentParams& own = table.segment[static_cast<Index>(m)];
     for (std::int32_t c = 0; c < own.cables; ++c, ++cable) {
       const SinCos phase = sin_cos(own.cable_phase_rad[static_cast<Index>(c)]);
       ++layout.cable_count;
@@ -62,7 +62,7 @@ CableLayout cable_layout(const RobotTable& table) noexcept {
       layout.hole_y_m[cable] = table.hole_radius_m * phase.cos;
       layout.hole_z_m[cable] = table.hole_radius_m * phase.sin;
       for (std::int32_t j = 0; j <= m; ++j) {
-        const SegmentTable& passed = table.segment[static_cast<Index>(j)];
+        const SegmentParams& passed = table.segment[static_cast<Index>(j)];
         // The anchor is the last disc, so the last link of the own segment carries no cable.
         const std::int32_t links = j == m ? passed.modules - 1 : passed.modules;
         layout.straight_m[cable][static_cast<Index>(j)] = links * (passed.module_length_m - 2.0 * table.face_offset_m);
@@ -74,7 +74,7 @@ CableLayout cable_layout(const RobotTable& table) noexcept {
   return layout;
 }
 
-void update_cable_geometry(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig,
+void update_cable_geometry(const RobotParams& table, const CableLayout& layout, const ArmTrig& trig,
                            CableGeometry& out) noexcept {
   const Index segments = static_cast<Index>(table.segment_count);
   std::array<PathForm, kMaxSegments> path;
@@ -99,7 +99,7 @@ void update_cable_geometry(const RobotTable& table, const CableLayout& layout, c
   }
 }
 
-void update_cable_solver(const RobotTable& table, const CableGeometry& geometry, CableSolver& solver) noexcept {
+void update_cable_solver(const RobotParams& table, const CableGeometry& geometry, CableSolver& solver) noexcept {
   Index c = 0;
   for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j) {
     CableSolver::Segment normal;
@@ -115,7 +115,7 @@ void update_cable_solver(const RobotTable& table, const CableGeometry& geometry,
   }
 }
 
-CableSolution solve_cables(const RobotTable& table, const CableGeometry& geometry, const CableSolver& solver,
+CableSolution solve_cables(const RobotParams& table, const CableGeometry& geometry, const CableSolver& solver,
                            const CableVector& change_m) noexcept {
   CableSolution out;
   ThetaVector& theta = out.theta_rad;
@@ -138,14 +138,14 @@ CableSolution solve_cables(const RobotTable& table, const CableGeometry& geometr
   return out;
 }
 
-SegmentVector cable_wraps(const RobotTable& table, const ArmTrig& trig) noexcept {
+SegmentVector cable_wraps(const RobotParams& table, const ArmTrig& trig) noexcept {
   SegmentVector wrap_rad{};
   for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j)
     wrap_rad[j] = table.segment[j].modules * bend_angle(trig[j]);
   return wrap_rad;
 }
 
-CableGeometry cable_geometry(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig) noexcept {
+CableGeometry cable_geometry(const RobotParams& table, const CableLayout& layout, const ArmTrig& trig) noexcept {
   CableGeometry out;
   update_cable_geometry(table, layout, trig, out);
   return out;

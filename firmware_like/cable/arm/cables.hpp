@@ -11,7 +11,7 @@
 #include <cstdint>
 
 #include "firmware_like/cable/arm/kinematics.hpp"
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_params.hpp"
 
 namespace liana::cable {
 
@@ -36,14 +36,14 @@ struct CableLayout {
 };
 
 // Layout of a table; phases may be anything.
-CableLayout cable_layout(const RobotTable& table) noexcept;
+CableLayout cable_layout(const RobotParams& table) noexcept;
 
 // Lengths, parts and Jacobian at one pose. `out` must have been zero or a geometry of the same table: entries beyond a
 // cable's own segment are not written. Cost: one square root per cable and segment passed (45 for five segments of
 // three cables).
-void update_cable_geometry(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig,
+void update_cable_geometry(const RobotParams& table, const CableLayout& layout, const ArmTrig& trig,
                            CableGeometry& out) noexcept;
-CableGeometry cable_geometry(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig) noexcept;
+CableGeometry cable_geometry(const RobotParams& table, const CableLayout& layout, const ArmTrig& trig) noexcept;
 
 // Two angles from three lengths, segment by segment from the base: each segment's angles are the least squares of its
 // own cables, whose paths are first freed from what the segments before them do. What is left over is each segment's
@@ -55,7 +55,7 @@ struct CableSolver {
   };
   std::array<Segment, kMaxSegments> segment{};
 };
-void update_cable_solver(const RobotTable& table, const CableGeometry& geometry, CableSolver& solver) noexcept;
+void update_cable_solver(const RobotParams& table, const CableGeometry& geometry, CableSolver& solver) noexcept;
 
 // Angles by which a change of cable paths moves the arm, with the geometry that `solver` belongs to; zero where a
 // segment is singular. Cost: one multiplication per entry of the Jacobian.
@@ -63,11 +63,11 @@ struct CableSolution {
   ThetaVector theta_rad{};
   CableVector left_m{};  // of the change, not explained by any angles: cables of a segment that contradict each other
 };
-CableSolution solve_cables(const RobotTable& table, const CableGeometry& geometry, const CableSolver& solver,
+CableSolution solve_cables(const RobotParams& table, const CableGeometry& geometry, const CableSolver& solver,
                            const CableVector& change_m) noexcept;
 
 // Bend [rad] of a cable along each whole segment, the same for all cables.
 using SegmentVector = std::array<double, kMaxSegments>;
-SegmentVector cable_wraps(const RobotTable& table, const ArmTrig& trig) noexcept;
+SegmentVector cable_wraps(const RobotParams& table, const ArmTrig& trig) noexcept;
 
 }  // namespace liana::cable

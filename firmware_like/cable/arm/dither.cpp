@@ -20,7 +20,7 @@ double advance_dither(double wanted, double tick_s, DitherState& state) noexcept
   return state.share * sin_cos(2.0 * kPi * state.turn).sin;
 }
 
-bool dither_fits(const RobotTable& table, const CableVector& planned_N, double share) noexcept {
+bool dither_fits(const RobotParams& table, const CableVector& planned_N, double share) noexcept {
   for (std::int32_t c = 0; c < table.cable_count(); ++c) {
     const double planned = planned_N[as_index(c)];
     if (planned * (1.0 - share) < table.tension.floor_motor_N) return false;

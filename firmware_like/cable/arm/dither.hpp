@@ -3,7 +3,7 @@
 // (docs/explanation/contact-force.md).
 #pragma once
 
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_params.hpp"
 
 namespace liana::cable {
 
@@ -26,6 +26,6 @@ double advance_dither(double wanted, double tick_s, DitherState& state) noexcept
 inline bool is_dithering(const DitherState& state) noexcept { return state.share > 0.0 || state.settle_s > 0.0; }
 
 // Every planned tension stays within floor and ceiling of free motion.
-bool dither_fits(const RobotTable& table, const CableVector& planned_N, double share) noexcept;
+bool dither_fits(const RobotParams& table, const CableVector& planned_N, double share) noexcept;
 
 }  // namespace liana::cable

@@ -11,41 +11,42 @@ namespace {
 
 // Most that bending can change the path of a cable of segment `segment` (0-based): no hole turns about a joint with a
 // larger arm than its distance from the joint centre, and a joint turns about two axes.
-double most_bend_m(const RobotTable& table, std::int32_t segment) noexcept {
+double max_bend_m(const RobotParams& table, std::int32_t segment) noexcept {
   const double arm_m = std::sqrt(table.hole_radius_m * table.hole_radius_m + table.face_offset_m * table.face_offset_m);
   double turn_rad = 0.0;
   for (std::int32_t m = 0; m <= segment; ++m) {
-    const SegmentTable& part = table.segment[as_index(m)];
+    const SegmentParams& part = table.segment[as_index(m)];
     turn_rad += 2.0 * static_cast<double>(part.modules) * part.theta_limit_rad;
   }
   return arm_m * turn_rad;
 }
 
-DriveLimits limits_of(const RobotTable& table, const DriveTable& drive, double zero_payout_m, double bend_m) noexcept {
+DriveLimits limits_of(const RobotParams& table, const DriveParams& drive, double zero_payout_m,
+                      double bend_m) noexcept {
   const double elongation_m = (zero_payout_m + bend_m) * table.tension.hard_limit_N / table.cable_EA_N;
   const double in_counts = counts_at_payout(drive, zero_payout_m, zero_payout_m - bend_m - elongation_m);
   const double out_counts = counts_at_payout(drive, zero_payout_m, zero_payout_m + bend_m + elongation_m);
   const double step_m = table.limits.cable_speed_m_s * table.tick_s * kTargetSpeedMargin;
   DriveLimits limits{};
-  limits.least_counts = smaller(in_counts, out_counts);  // counts may grow or fall while cable is paid out
-  limits.most_counts = larger(in_counts, out_counts);
+  limits.min_counts = smaller(in_counts, out_counts);  // counts may grow or fall while cable is paid out
+  limits.max_counts = larger(in_counts, out_counts);
   limits.step_counts =
       static_cast<std::int64_t>(to_counts(step_m / drive.metres_per_count).value) + kGateRoundingCounts;
   limits.let_go_counts =
       drive.direction *
       (static_cast<std::int64_t>(to_counts(kLetGoStep_m / drive.metres_per_count).value) + kGateRoundingCounts);
-  limits.most_permille = table.tension.ceiling_free_N / drive.newtons_per_permille;
+  limits.max_permille = table.tension.ceiling_free_N / drive.newtons_per_permille;
   return limits;
 }
 
 }  // namespace
 
-GateLimits make_gate_limits(const RobotTable& table, const CableVector& zero_payout_m) noexcept {
+GateLimits make_gate_limits(const RobotParams& table, const CableVector& zero_payout_m) noexcept {
   GateLimits limits{};
   limits.drive_count = table.drive_count();
   std::int32_t cable = 0;
   for (std::int32_t segment = 0; segment < table.segment_count; ++segment) {
-    const double bend_m = most_bend_m(table, segment);
+    const double bend_m = max_bend_m(table, segment);
     for (std::int32_t c = 0; c < table.segment[as_index(segment)].cables; ++c, ++cable) {
       const std::size_t i = as_index(cable);
       limits.drive[i] = limits_of(table, table.drive[i], zero_payout_m[i], bend_m);
@@ -54,7 +55,7 @@ GateLimits make_gate_limits(const RobotTable& table, const CableVector& zero_pay
   return limits;
 }
 
-LinkLimits make_link_limits(const RobotTable& table) noexcept {
+LinkLimits make_link_limits(const RobotParams& table) noexcept {
   LinkLimits limits{};
   limits.drive_count = table.drive_count();
   limits.heartbeat_age_ticks = heartbeat_age_ticks(table.tick_s);

@@ -10,7 +10,7 @@ namespace liana::cable {
 
 using Index = std::size_t;
 
-void estimate(const RobotTable& table, const CableLayout& layout, const CableModel& model, const TensionRatio& ratio,
+void estimate(const RobotParams& table, const CableLayout& layout, const CableModel& model, const TensionRatio& ratio,
               const CableVector& payout_m, const CableVector& tension_N, EstimatorState& state) noexcept {
   const Index cables = static_cast<Index>(layout.cable_count);
   const double blend = state.primed ? table.tick_s / (kTensionFilter_s + table.tick_s) : 1.0;

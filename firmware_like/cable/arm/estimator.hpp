@@ -29,7 +29,7 @@ struct CableModel {
 
 // Angles that explain `payout_m` (unstretched lengths) pulled with `tension_N`, both measured, with friction as planned
 // (`ratio`). Moves by 0.1 rad a tick at most; a model that follows the estimate makes this Gauss-Newton's method.
-void estimate(const RobotTable& table, const CableLayout& layout, const CableModel& model, const TensionRatio& ratio,
+void estimate(const RobotParams& table, const CableLayout& layout, const CableModel& model, const TensionRatio& ratio,
               const CableVector& payout_m, const CableVector& tension_N, EstimatorState& state) noexcept;
 
 }  // namespace liana::cable

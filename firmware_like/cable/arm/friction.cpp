@@ -47,7 +47,7 @@ void fade_slip(const CableLayout& layout, double share, SlipState& slip) noexcep
     for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); ++j) slip.sigma[c][j] -= share * slip.sigma[c][j];
 }
 
-void update_tension_ratio(const RobotTable& table, const CableLayout& layout, const SegmentVector& wrap_rad,
+void update_tension_ratio(const RobotParams& table, const CableLayout& layout, const SegmentVector& wrap_rad,
                           const SlipState& slip, TensionRatio& ratio) noexcept {
   SegmentVector half_rate = wrap_rad;
   for (double& rate : half_rate) rate *= -0.5 * table.friction_mu;
@@ -63,7 +63,7 @@ void update_tension_ratio(const RobotTable& table, const CableLayout& layout, co
   }
 }
 
-TensionRatio tension_ratio(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig,
+TensionRatio tension_ratio(const RobotParams& table, const CableLayout& layout, const ArmTrig& trig,
                            const SlipState& slip) noexcept {
   TensionRatio ratio{};
   update_tension_ratio(table, layout, cable_wraps(table, trig), slip, ratio);

@@ -35,9 +35,9 @@ void fade_slip(const CableLayout& layout, double share, SlipState& slip) noexcep
 // entries beyond a cable's own segment are not written. Cost: one exponential per cable and segment passed.
 using TensionRatio = std::array<std::array<double, kMaxSegments>, kMaxCables>;
 // `wrap_rad` is what cable_wraps says.
-void update_tension_ratio(const RobotTable& table, const CableLayout& layout, const SegmentVector& wrap_rad,
+void update_tension_ratio(const RobotParams& table, const CableLayout& layout, const SegmentVector& wrap_rad,
                           const SlipState& slip, TensionRatio& ratio) noexcept;
-TensionRatio tension_ratio(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig,
+TensionRatio tension_ratio(const RobotParams& table, const CableLayout& layout, const ArmTrig& trig,
                            const SlipState& slip) noexcept;
 
 }  // namespace liana::cable

@@ -91,10 +91,10 @@ Quat odd_module(const SegmentTrig& t) noexcept {
   return {ca * cb, -sa * sb, ca * sb, sa * cb};
 }
 
-bool is_odd(const SegmentTable& segment) noexcept { return segment.modules % 2 == 1; }
+bool is_odd(const SegmentParams& segment) noexcept { return segment.modules % 2 == 1; }
 
 // Pose of the end of a segment that starts at `root`, whose matrix is `frame`.
-inline Pose segment_end(const SegmentTable& segment, const SegmentTrig& t, const Bend& bend, const ChebyshevSums& c,
+inline Pose segment_end(const SegmentParams& segment, const SegmentTrig& t, const Bend& bend, const ChebyshevSums& c,
                         const Pose& root, const Rotation& frame) noexcept {
   const double l = segment.module_length_m;
   const Vec3 along{l * c.C, l * c.S * bend.z, -l * c.S * bend.y};
@@ -118,7 +118,7 @@ PairVec apply(const Rotation& r, const PairVec& v) noexcept {
 }
 
 // In the frame of the segment's root.
-inline EndRates end_rates(const SegmentTable& segment, const SegmentTrig& t, const Bend& bend,
+inline EndRates end_rates(const SegmentParams& segment, const SegmentTrig& t, const Bend& bend,
                           const ChebyshevSums& c) noexcept {
   const ChebyshevSlopes d = chebyshev_slopes(bend.w, segment.modules, c);
   const Pair dw{-bend.z, -t.cos_pitch * t.sin_yaw}, dy{0.0, t.cos_yaw}, dz{bend.w, -t.sin_pitch * t.sin_yaw};
@@ -150,24 +150,24 @@ void put_columns(const EndRates& end, const Vec3& lever, Index first, Jacobian& 
 
 }  // namespace
 
-void update_trig(const RobotTable& table, const ThetaVector& theta_rad, ArmTrig& trig) noexcept {
+void update_trig(const RobotParams& table, const ThetaVector& theta_rad, ArmTrig& trig) noexcept {
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
     const SinCosOf<Pair> angle = sin_cos(load_pair(&theta_rad[2 * m]));
     trig[m] = {angle.sin[0], angle.cos[0], angle.sin[1], angle.cos[1]};
   }
 }
 
-ArmTrig arm_trig(const RobotTable& table, const ThetaVector& theta_rad) noexcept {
+ArmTrig arm_trig(const RobotParams& table, const ThetaVector& theta_rad) noexcept {
   ArmTrig trig{};
   update_trig(table, theta_rad, trig);
   return trig;
 }
 
-void update_kinematics(const RobotTable& table, const ArmTrig& trig, ArmKinematics& out) noexcept {
+void update_kinematics(const RobotParams& table, const ArmTrig& trig, ArmKinematics& out) noexcept {
   const Index segments = static_cast<Index>(table.segment_count);
   std::array<EndRates, kMaxSegments> end;
   for (Index i = 0; i < segments; ++i) {
-    const SegmentTable& segment = table.segment[i];
+    const SegmentParams& segment = table.segment[i];
     const Bend bend = bend_of(trig[i]);
     const ChebyshevSums sums = chebyshev_sums(bend.w, segment.modules);
     const Pose& root = out.node_in_base[i];
@@ -183,16 +183,16 @@ void update_kinematics(const RobotTable& table, const ArmTrig& trig, ArmKinemati
   }
 }
 
-ArmKinematics forward_kinematics(const RobotTable& table, const ArmTrig& trig) noexcept {
+ArmKinematics forward_kinematics(const RobotParams& table, const ArmTrig& trig) noexcept {
   ArmKinematics out;
   update_kinematics(table, trig, out);
   return out;
 }
 
-Pose tip_pose(const RobotTable& table, const ArmTrig& trig) noexcept {
+Pose tip_pose(const RobotParams& table, const ArmTrig& trig) noexcept {
   Pose tip;
   for (Index i = 0; i < static_cast<Index>(table.segment_count); ++i) {
-    const SegmentTable& segment = table.segment[i];
+    const SegmentParams& segment = table.segment[i];
     const Bend bend = bend_of(trig[i]);
     tip =
         segment_end(segment, trig[i], bend, chebyshev_sums(bend.w, segment.modules), tip, rotation_of(tip.quaternion));
@@ -200,7 +200,7 @@ Pose tip_pose(const RobotTable& table, const ArmTrig& trig) noexcept {
   return tip;
 }
 
-ArmKinematics forward_kinematics(const RobotTable& table, const ThetaVector& theta_rad) noexcept {
+ArmKinematics forward_kinematics(const RobotParams& table, const ThetaVector& theta_rad) noexcept {
   return forward_kinematics(table, arm_trig(table, theta_rad));
 }
 
@@ -212,7 +212,7 @@ Vec3 node_jacobian_column(const ArmKinematics& kinematics, std::int32_t node, st
   return add(kinematics.tip_jacobian.linear[k], cross(kinematics.tip_jacobian.angular[k], lever));
 }
 
-LinkPoints link_points(const RobotTable& table, const ThetaVector& theta_rad) noexcept {
+LinkPoints link_points(const RobotParams& table, const ThetaVector& theta_rad) noexcept {
   LinkPoints out;
   const ArmTrig trig = arm_trig(table, theta_rad);
   const ArmKinematics arm = forward_kinematics(table, trig);

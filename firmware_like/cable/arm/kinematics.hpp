@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_params.hpp"
 #include "firmware_like/math/pose.hpp"
 
 namespace liana::cable {
@@ -22,9 +22,9 @@ struct SegmentTrig {
 using ArmTrig = std::array<SegmentTrig, kMaxSegments>;
 
 // Sine and cosine of all angles; theta in radians, any size within 1000.
-void update_trig(const RobotTable& table, const ThetaVector& theta_rad,
+void update_trig(const RobotParams& table, const ThetaVector& theta_rad,
                  ArmTrig& trig) noexcept;  // all that the table uses is written
-ArmTrig arm_trig(const RobotTable& table, const ThetaVector& theta_rad) noexcept;
+ArmTrig arm_trig(const RobotParams& table, const ThetaVector& theta_rad) noexcept;
 
 // Columns are thetas; linear m/rad, angular rad/rad, of one point in the base frame.
 struct Jacobian {
@@ -43,13 +43,13 @@ struct ArmKinematics {
 
 // Pose of every node and the 6x10 Jacobian of the tip. Cost: one closed form per segment, no loop over modules beyond
 // the Chebyshev sums; derived in docs/explanation/kinematics.md.
-void update_kinematics(const RobotTable& table, const ArmTrig& trig,
+void update_kinematics(const RobotParams& table, const ArmTrig& trig,
                        ArmKinematics& out) noexcept;  // all that the table uses is written
-ArmKinematics forward_kinematics(const RobotTable& table, const ArmTrig& trig) noexcept;
-ArmKinematics forward_kinematics(const RobotTable& table, const ThetaVector& theta_rad) noexcept;
+ArmKinematics forward_kinematics(const RobotParams& table, const ArmTrig& trig) noexcept;
+ArmKinematics forward_kinematics(const RobotParams& table, const ThetaVector& theta_rad) noexcept;
 
 // Pose of the tip alone, at half the cost.
-Pose tip_pose(const RobotTable& table, const ArmTrig& trig) noexcept;
+Pose tip_pose(const RobotParams& table, const ArmTrig& trig) noexcept;
 
 // Linear Jacobian column of node `node` (1..segment_count) for theta `column`; zero for segments beyond the node.
 Vec3 node_jacobian_column(const ArmKinematics& kinematics, std::int32_t node, std::int32_t column) noexcept;
@@ -61,6 +61,6 @@ struct LinkPoints {
 
   std::span<const Vec3> axis() const { return {point_in_base.data(), static_cast<std::size_t>(count)}; }
 };
-LinkPoints link_points(const RobotTable& table, const ThetaVector& theta_rad) noexcept;
+LinkPoints link_points(const RobotParams& table, const ThetaVector& theta_rad) noexcept;
 
 }  // namespace liana::cable

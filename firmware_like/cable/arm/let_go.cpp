@@ -4,30 +4,30 @@
 
 namespace liana::cable {
 
-void let_go(const CableLayout& layout, std::int32_t cable, LetGoState& state) noexcept {
-  state = {LetGoStage::kOut, layout.segment[as_index(cable)], cable, 0};
+void let_go(const CableLayout& layout, std::int32_t cable, SegmentReleaseState& state) noexcept {
+  state = {SegmentReleaseStage::kOut, layout.segment[as_index(cable)], cable, 0};
 }
 
-void judge_missed(bool is_slack, std::uint64_t tick, LetGoState& state, FaultList& faults) noexcept {
-  if (state.stage != LetGoStage::kOut) return;
+void judge_missed(bool is_slack, std::uint64_t tick, SegmentReleaseState& state, FaultList& faults) noexcept {
+  if (state.stage != SegmentReleaseStage::kOut) return;
   if (!is_slack) {
-    state.stage = LetGoStage::kUndone;
+    state.stage = SegmentReleaseStage::kUndone;
     state.ticks = 0;
   } else if (state.ticks == kLetGoJudgeTicks) {
     latch(faults, {FaultNumber::kCableBreak, narrow<std::int16_t>(state.cable), 0, tick});
-    state.stage = LetGoStage::kBroken;
+    state.stage = SegmentReleaseStage::kBroken;
   }
 }
 
-bool count_let_go(bool arrived, LetGoState& state) noexcept {
+bool count_let_go(bool arrived, SegmentReleaseState& state) noexcept {
   if (!is_let_go(state)) return false;
   if (state.ticks < kLetGoSettleTicks) ++state.ticks;
   const bool settled = arrived && state.ticks == kLetGoSettleTicks;
-  if (state.stage == LetGoStage::kUndone && settled) state = LetGoState{};
+  if (state.stage == SegmentReleaseStage::kUndone && settled) state = SegmentReleaseState{};
   return !settled;
 }
 
-TensionPlan plan_without(const RobotTable& table, const CableLayout& layout, const CableGeometry& geometry,
+TensionPlan plan_without(const RobotParams& table, const CableLayout& layout, const CableGeometry& geometry,
                          const TensionRatio& ratio, std::int32_t segment) noexcept {
   TensionRatio without = ratio;  // a loose cable carries nothing to any joint
   SegmentVector lift_N;

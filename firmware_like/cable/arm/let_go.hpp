@@ -8,14 +8,14 @@
 #include "firmware_like/cable/arm/cables.hpp"
 #include "firmware_like/cable/arm/friction.hpp"
 #include "firmware_like/cable/arm/tension.hpp"
-#include "firmware_like/cable/arm/tension_watch.hpp"
+#include "firmware_like/cable/arm/tension_monitor.hpp"
 
 namespace liana::cable {
 
 // So far go the targets of the segment's drums at first: to stretch of 80 N, in 8 ms, a drive only gets by a step that
 // is several times as far. The missed cable goes with the others, so that nothing is one-sided when it only slipped or
 // its reading was lost.
-constexpr double kLetGo_m = 0.005;
+constexpr double kSegmentRelease_m = 0.005;
 // The most that a drum may let out in one tick, and only in the tick in which the segment is let go: that, and the
 // stretch of tensions that are planned lower from then on. Drives take it as a step of their targets.
 constexpr double kLetGoStep_m = 0.008;
@@ -29,7 +29,7 @@ constexpr std::uint16_t kLetGoJudgeTicks = kBreakDebounceTicks - 1;
 // Drives may be far behind their targets for so many ticks: five of their time constants.
 constexpr std::uint16_t kLetGoSettleTicks = 40;
 
-enum class LetGoStage : std::uint8_t {
+enum class SegmentReleaseStage : std::uint8_t {
   kNone = 0,
   kOut = 1,     // let out; not judged yet
   kBroken = 2,  // a break: taut, without tension
@@ -37,50 +37,52 @@ enum class LetGoStage : std::uint8_t {
 };
 
 // Which cables are let go, and since when.
-struct LetGoState {
-  LetGoStage stage = LetGoStage::kNone;
+struct SegmentReleaseState {
+  SegmentReleaseStage stage = SegmentReleaseStage::kNone;
   std::int32_t segment = 0;  // 0-based
   std::int32_t cable = 0;    // the one that is missed
   std::uint16_t ticks = 0;   // since the segment was let go, or since it was undone; up to kLetGoSettleTicks
 };
 
-constexpr bool is_let_go(const LetGoState& state) noexcept { return state.stage != LetGoStage::kNone; }
+constexpr bool is_let_go(const SegmentReleaseState& state) noexcept {
+  return state.stage != SegmentReleaseStage::kNone;
+}
 // The segment's cables do not follow the plan of tensions.
-constexpr bool is_loose(const LetGoState& state) noexcept {
-  return is_let_go(state) && state.stage != LetGoStage::kUndone;
+constexpr bool is_loose(const SegmentReleaseState& state) noexcept {
+  return is_let_go(state) && state.stage != SegmentReleaseStage::kUndone;
 }
 // Targets may jump out in this tick.
-constexpr bool jumps_out(const LetGoState& state) noexcept {
-  return state.stage == LetGoStage::kOut && state.ticks == 0;
+constexpr bool segment_release_begins(const SegmentReleaseState& state) noexcept {
+  return state.stage == SegmentReleaseStage::kOut && state.ticks == 0;
 }
 // Targets may jump back to where the drums stand in this tick.
-constexpr bool jumps_back(const LetGoState& state) noexcept {
-  return (state.stage == LetGoStage::kBroken && state.ticks == kLetGoJudgeTicks) ||
-         (state.stage == LetGoStage::kUndone && state.ticks == 0);
+constexpr bool jumps_back(const SegmentReleaseState& state) noexcept {
+  return (state.stage == SegmentReleaseStage::kBroken && state.ticks == kLetGoJudgeTicks) ||
+         (state.stage == SegmentReleaseStage::kUndone && state.ticks == 0);
 }
 // Drives may be far behind their targets.
-constexpr bool is_behind(const LetGoState& state) noexcept {
+constexpr bool is_behind(const SegmentReleaseState& state) noexcept {
   return is_let_go(state) && state.ticks < kLetGoSettleTicks;
 }
 
 // Nobody expects tension of this cable: its segment is let go, and whether it is broken itself is judged.
-inline bool may_be_slack(const LetGoState& state, const CableLayout& layout, std::int32_t cable) noexcept {
+inline bool may_be_slack(const SegmentReleaseState& state, const CableLayout& layout, std::int32_t cable) noexcept {
   if (!is_let_go(state) || layout.segment[static_cast<std::size_t>(cable)] != state.segment) return false;
-  return cable != state.cable || state.stage != LetGoStage::kOut;
+  return cable != state.cable || state.stage != SegmentReleaseStage::kOut;
 }
 
 // Lets the segment of `cable` go.
-void let_go(const CableLayout& layout, std::int32_t cable, LetGoState& state) noexcept;
+void let_go(const CableLayout& layout, std::int32_t cable, SegmentReleaseState& state) noexcept;
 
 // The missed cable in a later tick, `is_slack` by its watchdog: broken, or never gone.
-void judge_missed(bool is_slack, std::uint64_t tick, LetGoState& state, FaultList& faults) noexcept;
+void judge_missed(bool is_slack, std::uint64_t tick, SegmentReleaseState& state, FaultList& faults) noexcept;
 
 // Ends a tick. `arrived`: every target is where it is wanted. True while drums still have somewhere to go.
-bool count_let_go(bool arrived, LetGoState& state) noexcept;
+bool count_let_go(bool arrived, SegmentReleaseState& state) noexcept;
 
 // Tensions while a segment is let go: its cables pull 0 N, the others are near their floor and in balance at every
 // joint but this segment's.
-TensionPlan plan_without(const RobotTable& table, const CableLayout& layout, const CableGeometry& geometry,
+TensionPlan plan_without(const RobotParams& table, const CableLayout& layout, const CableGeometry& geometry,
                          const TensionRatio& ratio, std::int32_t segment) noexcept;
 
 }  // namespace liana::cable

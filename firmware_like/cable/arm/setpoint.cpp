@@ -9,7 +9,7 @@
 namespace liana::cable {
 namespace {
 
-bool angles_in_limits(const RobotTable& table, const Setpoint& setpoint) noexcept {
+bool angles_in_limits(const RobotParams& table, const Setpoint& setpoint) noexcept {
   for (std::int32_t i = 0; i < table.theta_count(); ++i) {
     const double limit = table.segment[as_index(i / 2)].theta_limit_rad;
     if (!(std::fabs(setpoint.joint_rad[as_index(i)]) <= limit + kStandsBeyond_rad)) return false;
@@ -18,7 +18,7 @@ bool angles_in_limits(const RobotTable& table, const Setpoint& setpoint) noexcep
   return true;
 }
 
-bool is_usable(const RobotTable& table, const NodeTarget& target) noexcept {
+bool is_usable(const RobotParams& table, const NodeTarget& target) noexcept {
   if (target.node < 0 || target.node > table.segment_count) return false;
   if (!is_finite(dot(target.position_m, target.position_m))) return false;
   return target.weight >= 0.0 && is_finite(target.weight) && target.threshold_m >= 0.0;
@@ -31,7 +31,7 @@ bool is_usable(const KeepClear& target) noexcept {
 
 }  // namespace
 
-bool is_usable(const RobotTable& table, const Setpoint& setpoint) noexcept {
+bool is_usable(const RobotParams& table, const Setpoint& setpoint) noexcept {
   if (!is_motion(setpoint.kind)) return true;
   if (is_force(setpoint.kind)) return false;  // cables have no force control
   if (!angles_in_limits(table, setpoint)) return false;

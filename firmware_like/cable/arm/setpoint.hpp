@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_params.hpp"
 #include "firmware_like/command/telecommand.hpp"
 #include "firmware_like/math/pose.hpp"
 
@@ -32,7 +32,7 @@ struct KeepClear {
 using KeepClearTargets = std::array<KeepClear, kMaxKeepClear>;
 
 // Weight of a target that names none: the arm's middle node comes first (requirement A45: d_3 of five segments).
-constexpr double default_node_weight(const RobotTable& table, std::int32_t node) {
+constexpr double default_node_weight(const RobotParams& table, std::int32_t node) {
   return node == (table.segment_count + 1) / 2 ? 1.0 : 0.25;
 }
 
@@ -54,6 +54,6 @@ constexpr double kStandsBeyond_rad = 0.0131;
 
 // A setpoint the arm can use: finite, poses valid, angles inside the limits, those of joints but for kStandsBeyond_rad
 // (the release step has checked the same; this is the second lock). Hold and stop always are.
-bool is_usable(const RobotTable& table, const Setpoint& setpoint) noexcept;
+bool is_usable(const RobotParams& table, const Setpoint& setpoint) noexcept;
 
 }  // namespace liana::cable

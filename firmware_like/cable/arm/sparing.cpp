@@ -22,7 +22,7 @@ double asked_N(FaultNumber number) noexcept {
 
 }  // namespace
 
-void spare_cables(const RobotTable& table, const CableLayout& layout, const FaultList& faults,
+void spare_cables(const RobotParams& table, const CableLayout& layout, const FaultList& faults,
                   SegmentVector& lift_N) noexcept {
   SegmentVector wanted_N = lift_N;
   for (std::int32_t i = 0; i < faults.count; ++i) {

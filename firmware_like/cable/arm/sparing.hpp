@@ -13,7 +13,7 @@ constexpr double kSparingRate_N_s = 5.0;  // slower than the arm's modes
 
 // One tick of `lift_N` (tension.hpp) towards that. Faults that name no cable change nothing; one that spares wins over
 // one that tightens.
-void spare_cables(const RobotTable& table, const CableLayout& layout, const FaultList& faults,
+void spare_cables(const RobotParams& table, const CableLayout& layout, const FaultList& faults,
                   SegmentVector& lift_N) noexcept;
 
 }  // namespace liana::cable

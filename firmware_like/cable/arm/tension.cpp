@@ -71,7 +71,7 @@ Shifts shifts_for(const AnchoredVector& t, const AnchoredVector& null, const dou
 }
 
 // What the cables from `first` on, those of later segments, turn segment j's angles by.
-std::array<double, 2> torque_beyond(const RobotTable& table, const TensionSolver& solver, const CableVector& tension_N,
+std::array<double, 2> torque_beyond(const RobotParams& table, const TensionSolver& solver, const CableVector& tension_N,
                                     Index first, Index j) noexcept {
   double pitch = 0.0, yaw = 0.0;
   for (Index c = first; c < static_cast<Index>(table.cable_count()); ++c) {
@@ -82,7 +82,7 @@ std::array<double, 2> torque_beyond(const RobotTable& table, const TensionSolver
 }
 
 // What is pulled beyond the plan grows with what is missing, and is let go again.
-double one_tick_tighter(const RobotTable& table, double pulled_N, double missing_N, double leak_s,
+double one_tick_tighter(const RobotParams& table, double pulled_N, double missing_N, double leak_s,
                         double limit_N) noexcept {
   const double rate_N_s = kLiftRate_1_s * missing_N - pulled_N / leak_s;
   return smaller(pulled_N + rate_N_s * table.tick_s, limit_N);
@@ -99,7 +99,7 @@ double spread_of(const AnchoredVector& t, const CableVector& pull_N, Index first
 
 }  // namespace
 
-TensionSolver tension_solver(const RobotTable& table, const CableGeometry& geometry,
+TensionSolver tension_solver(const RobotParams& table, const CableGeometry& geometry,
                              const TensionRatio& ratio) noexcept {
   TensionSolver solver;
   Index c = 0;
@@ -115,7 +115,7 @@ TensionSolver tension_solver(const RobotTable& table, const CableGeometry& geome
   return solver;
 }
 
-CableVector pulls_for(const RobotTable& table, const TensionSolver& solver, const ThetaVector& load_Nm) noexcept {
+CableVector pulls_for(const RobotParams& table, const TensionSolver& solver, const ThetaVector& load_Nm) noexcept {
   CableVector pull_N{};
   Index first = static_cast<Index>(table.cable_count());
   for (Index j = static_cast<Index>(table.segment_count); j-- > 0;) {
@@ -129,7 +129,7 @@ CableVector pulls_for(const RobotTable& table, const TensionSolver& solver, cons
   return pull_N;
 }
 
-TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio,
+TensionPlan plan_tension(const RobotParams& table, const CableGeometry& geometry, const TensionRatio& ratio,
                          const SegmentVector& lift_N, const ThetaVector& load_Nm) noexcept {
   TensionPlan plan;
   plan.load_Nm = load_Nm;
@@ -168,7 +168,7 @@ TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry,
   return plan;
 }
 
-void keep_taut(const RobotTable& table, const CableVector& tension_N, SegmentVector& lift_N) noexcept {
+void keep_min_tension(const RobotParams& table, const CableVector& tension_N, SegmentVector& lift_N) noexcept {
   const double scale = table.tension.scale();
   const double limit_N = scale * kLiftLimit_N * larger(0.0, 1.0 - table.friction_mu / kMarginFriction);
   const double enough_N = table.tension.floor_motor_N + scale * kLiftBelow_N;
@@ -181,7 +181,7 @@ void keep_taut(const RobotTable& table, const CableVector& tension_N, SegmentVec
   }
 }
 
-void wind_in(const RobotTable& table, const CableVector& tension_N, CableVector& taut_N) noexcept {
+void wind_in(const RobotParams& table, const CableVector& tension_N, CableVector& taut_N) noexcept {
   const double limit_N = kTautLimit_N * table.tension.scale();
   for (Index c = 0; c < static_cast<Index>(table.cable_count()); ++c) {
     const double missing_N = larger(0.0, table.tension.floor_motor_N - tension_N[c]);
@@ -189,7 +189,7 @@ void wind_in(const RobotTable& table, const CableVector& tension_N, CableVector&
   }
 }
 
-CableVector payout_for(const RobotTable& table, const CableLayout& layout, const CableParts& part_m,
+CableVector payout_for(const RobotParams& table, const CableLayout& layout, const CableParts& part_m,
                        const TensionRatio& ratio, const CableVector& motor_N) noexcept {
   CableVector payout{};
   for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {

@@ -46,17 +46,17 @@ struct TensionSolver {
   std::array<SegmentBalance, kMaxSegments> segment{};
   std::array<ThetaVector, kMaxCables> pull_m{};  // torque about each theta per newton at the motor
 };
-TensionSolver tension_solver(const RobotTable& table, const CableGeometry& geometry,
+TensionSolver tension_solver(const RobotParams& table, const CableGeometry& geometry,
                              const TensionRatio& ratio) noexcept;
 
 // Least changes of tension, segment by segment from the tip, that give `load_Nm` about each theta; zero where a segment
 // cannot turn both of its angles. Linear. Cost: two operations per cable and theta that it passes.
-CableVector pulls_for(const RobotTable& table, const TensionSolver& solver, const ThetaVector& load_Nm) noexcept;
+CableVector pulls_for(const RobotParams& table, const TensionSolver& solver, const ThetaVector& load_Nm) noexcept;
 
 // Plan at one pose around the table's level at the motor, every segment `lift_N` further above the floor (zero: as
 // planned without measurements; below zero: so much lower, the floor itself kept), with `load_Nm` about each theta for
 // the cables to give. Residual torque is below 1e-9 N m when balanced.
-TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio,
+TensionPlan plan_tension(const RobotParams& table, const CableGeometry& geometry, const TensionRatio& ratio,
                          const SegmentVector& lift_N, const ThetaVector& load_Nm = {}) noexcept;
 
 // Friction that the plan does not know can take a cable further down than the margin. A segment whose lowest measured
@@ -69,7 +69,7 @@ constexpr double kLiftLeak_s = 5.0;    // time constant of letting go
 constexpr double kLiftLimit_N = 20.0;  // without friction
 
 // One tick of that lift from measured tensions at the motor, low-passed.
-void keep_taut(const RobotTable& table, const CableVector& tension_N, SegmentVector& lift_N) noexcept;
+void keep_min_tension(const RobotParams& table, const CableVector& tension_N, SegmentVector& lift_N) noexcept;
 
 // An arm that friction holds beside its command has cables that are looser than planned, whatever the segment is pulled
 // to: a single cable under the floor is wound in until it is there, slower than the arm's modes.
@@ -77,11 +77,11 @@ constexpr double kTautLeak_s = 10.0;
 constexpr double kTautLimit_N = 60.0;
 
 // One tick of what each cable is pulled beyond the plan, from measured tensions at the motor, low-passed.
-void wind_in(const RobotTable& table, const CableVector& tension_N, CableVector& taut_N) noexcept;
+void wind_in(const RobotParams& table, const CableVector& tension_N, CableVector& taut_N) noexcept;
 
 // Unstretched length from drum to anchor when the cables are pulled with motor_N: the elastic part is taken off piece
 // by piece.
-CableVector payout_for(const RobotTable& table, const CableLayout& layout, const CableParts& part_m,
+CableVector payout_for(const RobotParams& table, const CableLayout& layout, const CableParts& part_m,
                        const TensionRatio& ratio, const CableVector& motor_N) noexcept;
 
 }  // namespace liana::cable

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "firmware_like/cable/arm/friction_watch.hpp"
+#include "firmware_like/cable/arm/friction_estimator.hpp"
 #include "firmware_like/math/scalar.hpp"
 #include "firmware_like/math/trig.hpp"
 
@@ -11,9 +11,9 @@ namespace {
 
 using Index = std::size_t;
 
-Index segments(const RobotTable& table) noexcept { return static_cast<Index>(table.segment_count); }
+Index segments(const RobotParams& table) noexcept { return static_cast<Index>(table.segment_count); }
 
-double round_s(const RobotTable& table) noexcept { return kFrictionTicks * table.tick_s * table.theta_count(); }
+double round_s(const RobotParams& table) noexcept { return kFrictionTicks * table.tick_s * table.theta_count(); }
 
 double square(double x) noexcept { return x * x; }
 
@@ -37,7 +37,7 @@ void weigh_friction(const CableLayout& layout, const BalanceReadings& now, std::
 }
 
 // The hardest acceleration of a round counts: a stop that is over within it swings the arm as much as a long one.
-void note_rates(const RobotTable& table, const TorqueLimits& limits, const ThetaVector& rate_rad_s,
+void note_rates(const RobotParams& table, const TorqueLimits& limits, const ThetaVector& rate_rad_s,
                 TorqueBalance& state) noexcept {
   double change = 0.0;
   for (Index k = 0; k < 2 * segments(table); ++k)
@@ -54,11 +54,11 @@ double slid_until(const BalanceReadings& now, const SegmentVector& sigma, Index 
 
 }  // namespace
 
-TorqueLimits make_torque_limits(const RobotTable& table) noexcept {
+TorqueLimits make_torque_limits(const RobotParams& table) noexcept {
   TorqueLimits limits;
   double reach_m = 0.0, mass_kg = 0.0, inertia_kg_m2 = 0.0;  // of the straight arm beyond a segment's root
   for (Index j = segments(table); j-- > 0;) {
-    const SegmentTable& segment = table.segment[j];
+    const SegmentParams& segment = table.segment[j];
     for (std::int32_t i = 0; i < segment.modules; ++i) {
       // Everything so far moves one link outwards; the new link's mass is at its end.
       inertia_kg_m2 += segment.module_length_m * (2.0 * reach_m + segment.module_length_m * mass_kg);
@@ -79,7 +79,7 @@ void reset_balance(const CableGeometry& geometry, const SlipState& planned, Torq
   state.slip.part_m = geometry.part_m;
 }
 
-void follow_slides(const CableLayout& layout, const CableGeometry& geometry, const ThetaVector& off_rad, double most_mu,
+void follow_slides(const CableLayout& layout, const CableGeometry& geometry, const ThetaVector& off_rad, double max_mu,
                    TorqueBalance& state) noexcept {
   constexpr double kLeast_mu = 0.02;  // a cable without friction slides at once
   CableParts part_m = geometry.part_m;
@@ -87,10 +87,10 @@ void follow_slides(const CableLayout& layout, const CableGeometry& geometry, con
     for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); ++j)
       part_m[c][j] += dot_pairs(&geometry.jacobian_m_rad[c][2 * j], &off_rad[2 * j], 1);
   }
-  advance_slip(layout, part_m, kFeltPresliding_m * larger(kLeast_mu, most_mu), state.slip);
+  advance_slip(layout, part_m, kFeltPresliding_m * larger(kLeast_mu, max_mu), state.slip);
 }
 
-void balance_axis(const RobotTable& table, const CableLayout& layout, const TorqueLimits& limits,
+void balance_axis(const RobotParams& table, const CableLayout& layout, const TorqueLimits& limits,
                   const BalanceReadings& now, Index axis, TorqueBalance& state) noexcept {
   const Index own = axis / 2;
   note_rates(table, limits, now.rate_rad_s, state);
@@ -121,7 +121,7 @@ void balance_axis(const RobotTable& table, const CableLayout& layout, const Torq
 }
 
 // How hard the arm is accelerated, or was a moment ago, counts at every angle.
-void end_round(const RobotTable& table, const TorqueLimits& limits, TorqueBalance& state) noexcept {
+void end_round(const RobotParams& table, const TorqueLimits& limits, TorqueBalance& state) noexcept {
   state.stir = larger(state.peak, state.stir * (1.0 - round_s(table) / kTorqueCalm_s));
   state.peak = 0.0;
   for (Index k = 0; k < 2 * segments(table); ++k) {

@@ -35,7 +35,7 @@ struct TorqueLimits {
   SegmentVector inertia{};   // modules times the root of the inertia beyond, kg^0.5 m: the product of two segments' is
                              // the most that one's acceleration asks of the other
 };
-TorqueLimits make_torque_limits(const RobotTable& table) noexcept;
+TorqueLimits make_torque_limits(const RobotParams& table) noexcept;
 
 struct TorqueBalance {
   bool whole = false;                              // every axis has been balanced
@@ -67,17 +67,17 @@ struct BalanceReadings {
 // The arm stands here; which way its cables have slid last is as planned.
 void reset_balance(const CableGeometry& geometry, const SlipState& planned, TorqueBalance& state) noexcept;
 
-// Follows the slides of all cables; `off_rad` is measured less commanded, `most_mu` the most that friction may be.
+// Follows the slides of all cables; `off_rad` is measured less commanded, `max_mu` the most that friction may be.
 // Cost: eight operations per cable and segment passed.
-void follow_slides(const CableLayout& layout, const CableGeometry& geometry, const ThetaVector& off_rad, double most_mu,
+void follow_slides(const CableLayout& layout, const CableGeometry& geometry, const ThetaVector& off_rad, double max_mu,
                    TorqueBalance& state) noexcept;
 
 // One axis anew; axes come in order, from 0. Cost: one exponential per cable, four operations per cable and earlier
 // axis.
-void balance_axis(const RobotTable& table, const CableLayout& layout, const TorqueLimits& limits,
+void balance_axis(const RobotParams& table, const CableLayout& layout, const TorqueLimits& limits,
                   const BalanceReadings& now, std::size_t axis, TorqueBalance& state) noexcept;
 
 // After the last axis: what motion itself hides is added to the variances.
-void end_round(const RobotTable& table, const TorqueLimits& limits, TorqueBalance& state) noexcept;
+void end_round(const RobotParams& table, const TorqueLimits& limits, TorqueBalance& state) noexcept;
 
 }  // namespace liana::cable

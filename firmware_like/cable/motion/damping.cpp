@@ -6,7 +6,7 @@ namespace liana::cable {
 
 using Index = std::size_t;
 
-void damp(const RobotTable& table, const CableGeometry& geometry, const CableSolver& solver,
+void damp(const RobotParams& table, const CableGeometry& geometry, const CableSolver& solver,
           const CableVector& stretch_m, DampingState& state) noexcept {
   const ThetaVector deflection = solve_cables(table, geometry, solver, stretch_m).theta_rad;
   const double lead_s = table.servo_time_constant_s + kTensionFilter_s + table.tick_s;

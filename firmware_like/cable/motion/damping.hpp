@@ -25,7 +25,7 @@ struct DampingState {
 
 // One tick; output_rad is to be added to the commanded angles before the cable map. `stretch_m` is how much longer the
 // cables are than planned, from measured less planned tensions.
-void damp(const RobotTable& table, const CableGeometry& geometry, const CableSolver& solver,
+void damp(const RobotParams& table, const CableGeometry& geometry, const CableSolver& solver,
           const CableVector& stretch_m, DampingState& state) noexcept;
 
 }  // namespace liana::cable

@@ -14,9 +14,9 @@ using Task = std::array<double, 6>;
 
 constexpr double kDamped = 1e-3;  // m2/rad2: directions that are all but lost take no wild accelerations
 
-Index thetas(const RobotTable& table) noexcept { return static_cast<Index>(table.theta_count()); }
+Index thetas(const RobotParams& table) noexcept { return static_cast<Index>(table.theta_count()); }
 
-void update_pulls(const RobotTable& table, const TensionSolver& solver, Index first, Index last,
+void update_pulls(const RobotParams& table, const TensionSolver& solver, Index first, Index last,
                   GovernorState& state) noexcept {
   for (Index k = first; k < last; ++k) {
     const CableVector pull_N = pulls_for(table, solver, state.mass_kg_m2[k]);
@@ -25,7 +25,7 @@ void update_pulls(const RobotTable& table, const TensionSolver& solver, Index fi
 }
 
 // J J^T + damping of the free thetas, factored.
-bool factor_of(const RobotTable& table, const Jacobian& J, std::uint32_t held_mask, SquareMatrix<6>& A) noexcept {
+bool factor_of(const RobotParams& table, const Jacobian& J, std::uint32_t held_mask, SquareMatrix<6>& A) noexcept {
   A = {};
   for (Index k = 0; k < thetas(table); ++k) {
     if ((held_mask >> k & 1u) != 0) continue;
@@ -40,7 +40,7 @@ bool factor_of(const RobotTable& table, const Jacobian& J, std::uint32_t held_ma
 }
 
 // Pull of one cable per acceleration of the tip, by the free thetas that move it least.
-Task pull_per_tip(const RobotTable& table, const Jacobian& J, std::uint32_t held_mask, const SquareMatrix<6>& factor,
+Task pull_per_tip(const RobotParams& table, const Jacobian& J, std::uint32_t held_mask, const SquareMatrix<6>& factor,
                   const ThetaVector& pull_N_s2) noexcept {
   Task pull{};
   for (Index k = 0; k < thetas(table); ++k) {
@@ -54,7 +54,8 @@ Task pull_per_tip(const RobotTable& table, const Jacobian& J, std::uint32_t held
   return pull;
 }
 
-void update_shares(const RobotTable& table, const Jacobian& J, std::uint32_t held_mask, GovernorState& state) noexcept {
+void update_shares(const RobotParams& table, const Jacobian& J, std::uint32_t held_mask,
+                   GovernorState& state) noexcept {
   SquareMatrix<6> factor;
   if (!factor_of(table, J, held_mask, factor)) return;
   double linear_s2_m = 0.0, angular_s2_rad = 0.0;  // shares of the room, squared, per unit of acceleration
@@ -75,7 +76,7 @@ void update_shares(const RobotTable& table, const Jacobian& J, std::uint32_t hel
 }
 
 // What each theta may brake with by itself, with a part of the room.
-void update_accels(const RobotTable& table, GovernorState& state) noexcept {
+void update_accels(const RobotParams& table, GovernorState& state) noexcept {
   for (Index k = 0; k < thetas(table); ++k) {
     double taken = kGovernorTip / (kGovernorAlone * table.limits.theta_accel_rad_s2);
     Index c = 0;
@@ -88,13 +89,13 @@ void update_accels(const RobotTable& table, GovernorState& state) noexcept {
 }
 
 // Over the thetas, two at a time; there are two for each segment.
-double dot_thetas(const RobotTable& table, const ThetaVector& a, const ThetaVector& b) noexcept {
+double dot_thetas(const RobotParams& table, const ThetaVector& a, const ThetaVector& b) noexcept {
   return dot_pairs(a.data(), b.data(), static_cast<Index>(table.segment_count));
 }
 
 }  // namespace
 
-void take_room(const RobotTable& table, const TensionPlan& plan, GovernorState& state) noexcept {
+void take_room(const RobotParams& table, const TensionPlan& plan, GovernorState& state) noexcept {
   const TensionLimits& limits = table.tension;
   const double between_N =
       kLoadCeilingShare * limits.ceiling_free_N - limits.floor_motor_N - kGovernorKeep_N * limits.scale();
@@ -102,7 +103,7 @@ void take_room(const RobotTable& table, const TensionPlan& plan, GovernorState& 
     state.room_N[j] = larger(kGovernorLeast_N * limits.scale(), 0.5 * (between_N - plan.spread_N[j]));
 }
 
-void look_at_load(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio,
+void look_at_load(const RobotParams& table, const CableGeometry& geometry, const TensionRatio& ratio,
                   const ArmKinematics& arm, std::uint32_t held_mask, std::uint32_t tick,
                   GovernorState& state) noexcept {
   const bool looks = state.cycle == 0;
@@ -121,7 +122,7 @@ void look_at_load(const RobotTable& table, const CableGeometry& geometry, const 
   }
 }
 
-double room_taken(const RobotTable& table, const ThetaVector& accel_rad_s2, const GovernorState& state) noexcept {
+double room_taken(const RobotParams& table, const ThetaVector& accel_rad_s2, const GovernorState& state) noexcept {
   double most = 0.0;
   Index c = 0;
   for (Index j = 0; j < thetas(table) / 2; ++j) {
@@ -131,7 +132,7 @@ double room_taken(const RobotTable& table, const ThetaVector& accel_rad_s2, cons
   return most;
 }
 
-LoadShares shares_in_room(const RobotTable& table, const ThetaVector& asked_rad_s, const ThetaVector& now_rad_s,
+LoadShares shares_in_room(const RobotParams& table, const ThetaVector& asked_rad_s, const ThetaVector& now_rad_s,
                           const GovernorState& state) noexcept {
   LoadShares out;
   Index c = 0;

@@ -40,22 +40,22 @@ inline double speed_share(double accel_share) noexcept {
 }
 
 // Room for the cables of every segment under a plan at rest.
-void take_room(const RobotTable& table, const TensionPlan& plan, GovernorState& state) noexcept;
+void take_room(const RobotParams& table, const TensionPlan& plan, GovernorState& state) noexcept;
 
 // One tick of the look: dear work is spread over ticks 5, 6, 8 and 9, which have little else to do. Before
 // the arm may move it has looked for seconds. Cost: 5,000 instructions in one of these ticks.
-void look_at_load(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio,
+void look_at_load(const RobotParams& table, const CableGeometry& geometry, const TensionRatio& ratio,
                   const ArmKinematics& arm, std::uint32_t held_mask, std::uint32_t tick, GovernorState& state) noexcept;
 
 // Share of the room that this acceleration takes; over 1: more than there is.
-double room_taken(const RobotTable& table, const ThetaVector& accel_rad_s2, const GovernorState& state) noexcept;
+double room_taken(const RobotParams& table, const ThetaVector& accel_rad_s2, const GovernorState& state) noexcept;
 
 // Shares s of a tick's step with least <= |s| <= most for which acceleration from `now` stays in the room: (s asked -
 // now) / tick.
 struct LoadShares {
   double least = 0.0, most = 1.0;
 };
-LoadShares shares_in_room(const RobotTable& table, const ThetaVector& asked_rad_s, const ThetaVector& now_rad_s,
+LoadShares shares_in_room(const RobotParams& table, const ThetaVector& asked_rad_s, const ThetaVector& now_rad_s,
                           const GovernorState& state) noexcept;
 
 }  // namespace liana::cable

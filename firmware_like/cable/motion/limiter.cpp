@@ -15,7 +15,7 @@ using Index = std::size_t;
 constexpr double kCableShare = 0.8;  // of the cable speed limit; the rest is for tension changes and damping
 
 // Factor <= 1 that brings the fastest cable under `share` of the cable speed limit.
-double cable_factor(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& rate,
+double cable_factor(const RobotParams& table, const CableGeometry& geometry, const ThetaVector& rate,
                     double share) noexcept {
   double fastest = 0.0;
   Index c = 0;
@@ -43,7 +43,7 @@ void reset_limiter(const ThetaVector& theta_rad, LimiterState& state) noexcept {
   state.reference_rad = theta_rad;
 }
 
-StepShare allowed_share(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& step_rad,
+StepShare allowed_share(const RobotParams& table, const CableGeometry& geometry, const ThetaVector& step_rad,
                         const GovernorState& governor, const LimiterState& state) noexcept {
   constexpr double kPathShare = 0.95;  // of speeds; the rest is for making up a lag
   const double change = table.limits.theta_accel_rad_s2 * table.tick_s;
@@ -70,7 +70,7 @@ StepShare allowed_share(const RobotTable& table, const CableGeometry& geometry, 
   return out;
 }
 
-void limit_motion(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& reference_rad,
+void limit_motion(const RobotParams& table, const CableGeometry& geometry, const ThetaVector& reference_rad,
                   LimiterState& state, bool judged, double rate_share) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
   const double h = table.tick_s;
@@ -107,7 +107,7 @@ void limit_motion(const RobotTable& table, const CableGeometry& geometry, const 
   }
 }
 
-double largest_rate(const RobotTable& table, const LimiterState& state) noexcept {
+double largest_rate(const RobotParams& table, const LimiterState& state) noexcept {
   double largest = 0.0;
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k)
     largest = larger(largest, std::fabs(state.rate_rad_s[k]));

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "firmware_like/cable/arm/cables.hpp"
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_params.hpp"
 #include "firmware_like/cable/motion/governor.hpp"
 
 namespace liana::cable {
@@ -27,7 +27,7 @@ struct StepShare {
   double share = 1.0;
   std::uint32_t limits = 0;
 };
-StepShare allowed_share(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& step_rad,
+StepShare allowed_share(const RobotParams& table, const CableGeometry& geometry, const ThetaVector& step_rad,
                         const GovernorState& governor, const LimiterState& state) noexcept;
 
 // One tick towards `reference` (which may move). Follows exactly while its rate and acceleration are inside the limits;
@@ -35,10 +35,10 @@ StepShare allowed_share(const RobotTable& table, const CableGeometry& geometry, 
 // (8e-6 deg), and never past a joint limit. `geometry` is the cable Jacobian for the cable speed limit, which is not
 // looked at again while a reference that was `judged` by allowed_share is followed exactly. Below 1, `rate_share` of
 // the rate limit is all that the fastest joint gets; the others slow down in proportion.
-void limit_motion(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& reference_rad,
+void limit_motion(const RobotParams& table, const CableGeometry& geometry, const ThetaVector& reference_rad,
                   LimiterState& state, bool judged = false, double rate_share = 1.0) noexcept;
 
 // Largest |rate| of the command [rad/s].
-double largest_rate(const RobotTable& table, const LimiterState& state) noexcept;
+double largest_rate(const RobotParams& table, const LimiterState& state) noexcept;
 
 }  // namespace liana::cable

@@ -32,14 +32,14 @@ constexpr MotionState kNothing{};  // copied, not made anew: an arm that stands 
 
 bool is_tip(const Setpoint& setpoint) noexcept { return setpoint.kind == CommandKind::kTip; }
 
-FilterBounds held_bounds(const RobotTable& table) noexcept {
+FilterBounds held_bounds(const RobotParams& table) noexcept {
   const double rate = kHeldShare * table.limits.theta_rate_rad_s;
   const double accel = 0.2 * table.limits.theta_accel_rad_s2;
   return {rate, accel, 3.0 * accel};
 }
 
 // Brings held thetas to their targets and keeps them there to the last bit.
-void advance_held(const RobotTable& table, MotionState& state) noexcept {
+void advance_held(const RobotParams& table, MotionState& state) noexcept {
   const FilterBounds bounds = held_bounds(table);
   state.held_at_target = true;
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
@@ -59,17 +59,17 @@ void advance_held(const RobotTable& table, MotionState& state) noexcept {
   }
 }
 
-double interval_share(const RobotTable& table, const MotionState& state) noexcept {
+double interval_share(const RobotParams& table, const MotionState& state) noexcept {
   return liana::interval_share(state.interval_tick, table.interval_ticks);
 }
 
-Pose interpolated_target(const RobotTable& table, const MotionState& state) noexcept {
+Pose interpolated_target(const RobotParams& table, const MotionState& state) noexcept {
   return interpolated_pose(state.from.tip_in_base, state.to.tip_in_base, state.turn_rad, interval_share(table, state));
 }
 
 // Takes only a share of this tick's motion, of the target as of the joints: the arm slows down on its path and does not
 // leave it.
-void slow_down(const RobotTable& table, double share, const Pose& target_before, const ThetaVector& ik_before,
+void slow_down(const RobotParams& table, double share, const Pose& target_before, const ThetaVector& ik_before,
                const FollowStep& step, MotionState& state) noexcept {
   if (step.left2 < kBehind * kBehind) slow_filter(target_before, share, state.filter);
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
@@ -84,7 +84,7 @@ void slow_down(const RobotTable& table, double share, const Pose& target_before,
 
 // What would brake the arm harder than there is room for goes between what is asked for and on as it goes, the target
 // as the joints.
-void stay_in_room(const RobotTable& table, const TipFilterState& before, const ThetaVector& ik_before,
+void stay_in_room(const RobotParams& table, const TipFilterState& before, const ThetaVector& ik_before,
                   const FollowStep& step, MotionState& state) noexcept {
   const Index thetas = static_cast<Index>(table.theta_count());
   ThetaVector change_rad{}, accel_rad_s2{};
@@ -108,7 +108,7 @@ void stay_in_room(const RobotTable& table, const TipFilterState& before, const T
 }
 
 // A shape that is fast already keeps the pace beside the tip until it has slowed down, or it would shoot past.
-const ShapePace& shape_pace(const RobotTable& table, const MotionState& state) noexcept {
+const ShapePace& shape_pace(const RobotParams& table, const MotionState& state) noexcept {
   if (!state.held_at_target || !at_rest(state.filter)) return kShapeBesideTip;
   double fastest = 0.0;
   for (const double rate : state.shape.rate_rad_s) fastest = larger(fastest, std::fabs(rate));
@@ -119,25 +119,25 @@ IkGoal ik_goal(const MotionState& state) noexcept { return {state.filter.pose, s
 
 // How far every theta may go in this tick so that it can brake before its limit with what it may brake with by itself:
 // the others take over smoothly, before it stands. One that is faster already slows down so.
-FollowBounds bounds_before_limits(const RobotTable& table, const MotionState& state) noexcept {
+FollowBounds bounds_before_limits(const RobotParams& table, const MotionState& state) noexcept {
   const double h = table.tick_s, fast = 1.2 * table.limits.theta_rate_rad_s, fast2 = fast * fast;
   FollowBounds out{state.limiter.theta_rad, {}, {}};
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
     const double theta = state.limiter.theta_rad[k], rate = state.limiter.rate_rad_s[k];
     const double accel = state.governor.accel_rad_s2[k], limit = table.segment[k / 2].theta_limit_rad;
-    out.most_rad[k] = smaller(limit, theta + kFollowRates * fast * h);
-    out.least_rad[k] = larger(-limit, theta - kFollowRates * fast * h);
+    out.max_rad[k] = smaller(limit, theta + kFollowRates * fast * h);
+    out.min_rad[k] = larger(-limit, theta - kFollowRates * fast * h);
     if (2.0 * accel * (limit - std::fabs(theta)) > fast2) continue;  // far from both
     const double up = larger(braking_speed(larger(0.0, limit - theta), accel, h), rate - accel * h);
     const double down = larger(braking_speed(larger(0.0, limit + theta), accel, h), -rate - accel * h);
-    out.most_rad[k] = smaller(limit, theta + up * h);
-    out.least_rad[k] = larger(-limit, theta - down * h);
+    out.max_rad[k] = smaller(limit, theta + up * h);
+    out.min_rad[k] = larger(-limit, theta - down * h);
   }
   return out;
 }
 
 // Shape and servo IK: angles for the filtered target, from kinematics where the command stands.
-FollowStep solve_tip(const RobotTable& table, MotionState& state) noexcept {
+FollowStep solve_tip(const RobotParams& table, MotionState& state) noexcept {
   const ThetaVector move = shape_move(table, state.arm, state.to.node, state.to.clear, state.held_mask,
                                       shape_pace(table, state), state.ik_rad, state.shape);
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) state.ik_rad[k] += move[k];
@@ -145,14 +145,14 @@ FollowStep solve_tip(const RobotTable& table, MotionState& state) noexcept {
 }
 
 // How the servo IK did, where the command stands now.
-void report_tip(const RobotTable& table, const FollowStep& step, MotionState& state) noexcept {
+void report_tip(const RobotParams& table, const FollowStep& step, MotionState& state) noexcept {
   state.ik = follow_report(table, ik_goal(state), state.arm, step);
   if (state.ik.limit_mask != 0) state.limits |= kLimitTheta;
   if (state.ik.outcome == IkOutcome::kSingular) state.limits |= kLimitSingular;
   if (state.ik.outcome == IkOutcome::kUnreachable) state.limits |= kLimitReach;
 }
 
-FollowStep follow_tip(const RobotTable& table, const CableGeometry& geometry, MotionState& state) noexcept {
+FollowStep follow_tip(const RobotParams& table, const CableGeometry& geometry, MotionState& state) noexcept {
   const TipFilterState before = state.filter;
   const ThetaVector ik_before = state.ik_rad;
   const TipFilterConfig config = tip_filter_config(table, state.to.tip_speed_m_s, state.governor);
@@ -173,7 +173,7 @@ FollowStep follow_tip(const RobotTable& table, const CableGeometry& geometry, Mo
 }
 
 // Joint reference: linear over the command interval; the limiter does the rest.
-void follow_joints(const RobotTable& table, MotionState& state) noexcept {
+void follow_joints(const RobotParams& table, MotionState& state) noexcept {
   const double share = interval_share(table, state);
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
     const double limit = larger(table.segment[k / 2].theta_limit_rad, std::fabs(state.limiter.theta_rad[k]));
@@ -187,7 +187,7 @@ void follow_joints(const RobotTable& table, MotionState& state) noexcept {
 // Whatever moves comes to rest by one factor for all joints, which the fastest of them gives: they stop together, the
 // arm stays on its path, and no inverse is taken where the tip loses a direction. As gentle as the shape's and the
 // tip's own stops and as the room for acceleration allows the way the arm goes now, whichever takes longest.
-void brake(const RobotTable& table, MotionState& state) noexcept {
+void brake(const RobotParams& table, MotionState& state) noexcept {
   const double fastest = largest_rate(table, state.limiter);
   const Twist tip = tip_twist(table, state);
   const double per_m = fastest / larger(norm(tip.linear_m_s), 1e-9);
@@ -207,11 +207,11 @@ void brake(const RobotTable& table, MotionState& state) noexcept {
     state.ik_rad[k] = state.limiter.theta_rad[k] + share * state.limiter.rate_rad_s[k] * table.tick_s;
     state.limiter.reference_rad[k] = state.limiter.theta_rad[k];
   }
-  state.ik = IkReport{};
+  state.ik = IkResult{};
 }
 
 // How the fastest joint speeds up: a stop goes on from there.
-void note_brake(const RobotTable& table, MotionState& state) noexcept {
+void note_brake(const RobotParams& table, MotionState& state) noexcept {
   const double fastest = largest_rate(table, state.limiter);
   state.brake.acceleration = {(fastest - state.brake.velocity[0]) / table.tick_s, 0.0, 0.0};
   state.brake.velocity = {fastest, 0.0, 0.0};
@@ -219,7 +219,7 @@ void note_brake(const RobotTable& table, MotionState& state) noexcept {
 
 // The tip is led on from pose, rates and acceleration of the joints; what they do now lives on as shape velocity, which
 // goes over smoothly.
-void take_over(const RobotTable& table, MotionState& state) noexcept {
+void take_over(const RobotParams& table, MotionState& state) noexcept {
   state.ik_rad = state.limiter.theta_rad;
   const std::uint32_t tick = state.shape.tick;
   state.shape = ShapeState{};
@@ -231,17 +231,17 @@ void take_over(const RobotTable& table, MotionState& state) noexcept {
   state.filter.pose = state.arm.tip_in_base;
   state.filter.linear = {tip.linear_m_s, scale(tip.linear_m_s, speeds_up_1_s)};
   state.filter.angular = {tip.angular_rad_s, scale(tip.angular_rad_s, speeds_up_1_s)};
-  state.ik = IkReport{};
+  state.ik = IkResult{};
 }
 
-void take_kinematics(const RobotTable& table, MotionState& state) noexcept {
+void take_kinematics(const RobotParams& table, MotionState& state) noexcept {
   update_trig(table, state.limiter.theta_rad, state.trig);
   update_kinematics(table, state.trig, state.arm);
 }
 
 }  // namespace
 
-TipFilterConfig tip_filter_config(const RobotTable& table, double tip_speed_m_s,
+TipFilterConfig tip_filter_config(const RobotParams& table, double tip_speed_m_s,
                                   const GovernorState& governor) noexcept {
   const MotionLimits& limits = table.limits;
   const double linear_share = governor.linear_share, angular_share = governor.angular_share;
@@ -255,7 +255,7 @@ TipFilterConfig tip_filter_config(const RobotTable& table, double tip_speed_m_s,
           with_lag(angular, limits.tip_lag_s, angular.speed), table.tick_s};
 }
 
-Twist tip_twist(const RobotTable& table, const MotionState& state) noexcept {
+Twist tip_twist(const RobotParams& table, const MotionState& state) noexcept {
   Twist twist;
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
     const double rate = state.limiter.rate_rad_s[k];
@@ -265,7 +265,7 @@ Twist tip_twist(const RobotTable& table, const MotionState& state) noexcept {
   return twist;
 }
 
-void reset_motion(const RobotTable& table, const ThetaVector& theta_rad, MotionState& state) noexcept {
+void reset_motion(const RobotParams& table, const ThetaVector& theta_rad, MotionState& state) noexcept {
   state = kNothing;
   state.ik_rad = theta_rad;
   state.governor.room_N.fill(kGovernorLeast_N * table.tension.scale());
@@ -275,7 +275,7 @@ void reset_motion(const RobotTable& table, const ThetaVector& theta_rad, MotionS
   state.filter.pose = state.arm.tip_in_base;
 }
 
-void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionState& state) noexcept {
+void accept_setpoint(const RobotParams& table, const Setpoint& setpoint, MotionState& state) noexcept {
   state.from = state.to;
   const bool begins = state.to.kind != setpoint.kind || state.braking;
   const std::uint32_t held_mask = is_tip(setpoint) ? setpoint.held_mask : 0u;
@@ -302,7 +302,8 @@ void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionSt
   state.braking = false;
 }
 
-void advance_motion(const RobotTable& table, const CableGeometry& geometry, bool allowed, MotionState& state) noexcept {
+void advance_motion(const RobotParams& table, const CableGeometry& geometry, bool allowed,
+                    MotionState& state) noexcept {
   state.limits = 0;
   const bool braking = state.braking || !allowed, leads_tip = is_tip(state.to) && !braking;
   if (state.interval_tick < table.interval_ticks) ++state.interval_tick;
@@ -327,7 +328,7 @@ void advance_motion(const RobotTable& table, const CableGeometry& geometry, bool
   state.shape.tick = state.shape.tick + 1 < kShapeTicks ? state.shape.tick + 1 : 0;
 }
 
-bool at_rest(const RobotTable& table, const MotionState& state) noexcept {
+bool at_rest(const RobotParams& table, const MotionState& state) noexcept {
   const bool filter_rests = !is_tip(state.to) || at_rest(state.filter);
   return filter_rests && largest_rate(table, state.limiter) < 1e-6;
 }

@@ -35,33 +35,33 @@ struct MotionState {
   ChannelState brake{};  // [0]: rate of the fastest joint, and how it changes: by it all come to rest
   ArmTrig trig{};        // of the commanded angles (limiter.theta_rad)
   ArmKinematics arm{};   // at the commanded angles
-  IkReport ik{};
+  IkResult ik{};
   GovernorState governor{};  // of where the command stands, a moment ago
   std::uint32_t limits = 0;  // LimitBit of this tick
 };
 
 // Bounds of the tip filter from the robot table; `tip_speed_m_s` may lower the linear speed (0 = the robot's), the
 // governor the accelerations.
-TipFilterConfig tip_filter_config(const RobotTable& table, double tip_speed_m_s,
+TipFilterConfig tip_filter_config(const RobotParams& table, double tip_speed_m_s,
                                   const GovernorState& governor = {}) noexcept;
 
 // Stands still at theta.
-void reset_motion(const RobotTable& table, const ThetaVector& theta_rad, MotionState& state) noexcept;
+void reset_motion(const RobotParams& table, const ThetaVector& theta_rad, MotionState& state) noexcept;
 
 // Takes a new setpoint into force (kTip, kJoint or kRetreat); the motion goes on from where it is.
-void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionState& state) noexcept;
+void accept_setpoint(const RobotParams& table, const Setpoint& setpoint, MotionState& state) noexcept;
 
 // One tick. With `allowed` false or braking, everything comes to rest along its path.
-void advance_motion(const RobotTable& table, const CableGeometry& geometry, bool allowed, MotionState& state) noexcept;
+void advance_motion(const RobotParams& table, const CableGeometry& geometry, bool allowed, MotionState& state) noexcept;
 
 // Velocity of the commanded tip in the base frame.
 struct Twist {
   Vec3 linear_m_s{};
   Vec3 angular_rad_s{};
 };
-Twist tip_twist(const RobotTable& table, const MotionState& state) noexcept;
+Twist tip_twist(const RobotParams& table, const MotionState& state) noexcept;
 
 // True when nothing moves any more.
-bool at_rest(const RobotTable& table, const MotionState& state) noexcept;
+bool at_rest(const RobotParams& table, const MotionState& state) noexcept;
 
 }  // namespace liana::cable

@@ -13,7 +13,7 @@ using Task = std::array<double, 6>;
 
 bool is_set(std::uint32_t mask, Index i) noexcept { return ((mask >> i) & 1u) != 0; }
 
-double limit_of(const RobotTable& table, Index theta) noexcept { return table.segment[theta / 2].theta_limit_rad; }
+double limit_of(const RobotParams& table, Index theta) noexcept { return table.segment[theta / 2].theta_limit_rad; }
 
 double size2(const Task& e) noexcept {
   return e[0] * e[0] + e[1] * e[1] + e[2] * e[2] + e[3] * e[3] + e[4] * e[4] + e[5] * e[5];
@@ -116,13 +116,13 @@ void take_share(const Jacobian& J, Index k, double moved, Task& e) noexcept {
 
 // Sets thetas that the step would carry over their limit onto it; returns those newly fixed and takes their share from
 // e.
-std::uint32_t clip_to_limits(const RobotTable& table, const Jacobian& J, std::uint32_t fixed, const ThetaVector& step,
+std::uint32_t clip_to_limits(const RobotParams& table, const Jacobian& J, std::uint32_t fixed, const ThetaVector& step,
                              const FollowBounds* within, ThetaVector& theta, Task& e) noexcept {
   std::uint32_t clipped = 0;
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
     const double limit = limit_of(table, k), wanted = theta[k] + step[k];
-    const double most = within != nullptr ? within->most_rad[k] : limit;
-    const double least = within != nullptr ? within->least_rad[k] : -limit;
+    const double most = within != nullptr ? within->max_rad[k] : limit;
+    const double least = within != nullptr ? within->min_rad[k] : -limit;
     if ((wanted <= most && wanted >= least) || is_set(fixed, k)) continue;
     const double bound = wanted > most ? most : least;
     const double moved = bound - theta[k];
@@ -146,7 +146,7 @@ struct DampedMove {
   double left2 = 0.0;
 };
 
-DampedMove move_damped(const RobotTable& table, const Jacobian& J, std::uint32_t held_mask, double damping, Task e,
+DampedMove move_damped(const RobotParams& table, const Jacobian& J, std::uint32_t held_mask, double damping, Task e,
                        const FollowBounds* within, ThetaVector& theta) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
   DampedMove move;
@@ -167,15 +167,15 @@ DampedMove move_damped(const RobotTable& table, const Jacobian& J, std::uint32_t
   return move;
 }
 
-IkReport report_of(const Task& e) noexcept {
-  IkReport report;
+IkResult report_of(const Task& e) noexcept {
+  IkResult report;
   report.residual = e;
   report.position_error_m = std::sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
   report.attitude_error_rad = std::sqrt(e[3] * e[3] + e[4] * e[4] + e[5] * e[5]);
   return report;
 }
 
-double arm_length_m(const RobotTable& table) noexcept {
+double arm_length_m(const RobotParams& table) noexcept {
   double length_m = 0.0;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m)
     length_m += table.segment[m].modules * table.segment[m].module_length_m;
@@ -187,7 +187,7 @@ double damping_for(const IkGoal& goal, const Task& e) noexcept {
   return goal.curvature_m > 0.0 ? kDamping + goal.curvature_m * std::sqrt(e2) : kDamping + e2;
 }
 
-IkOutcome outcome_of(const RobotTable& table, const IkGoal& goal, const IkReport& report, double converged,
+IkOutcome outcome_of(const RobotParams& table, const IkGoal& goal, const IkResult& report, double converged,
                      double asked2, double left2) noexcept {
   if (report.position_error_m <= converged && report.attitude_error_rad <= converged) return IkOutcome::kConverged;
   if (norm(goal.tip_in_base.position_m) > arm_length_m(table)) return IkOutcome::kUnreachable;
@@ -197,17 +197,17 @@ IkOutcome outcome_of(const RobotTable& table, const IkGoal& goal, const IkReport
 
 }  // namespace
 
-IkReport ik_step(const RobotTable& table, const IkGoal& goal, double damping, ThetaVector& theta_rad) noexcept {
+IkResult ik_step(const RobotParams& table, const IkGoal& goal, double damping, ThetaVector& theta_rad) noexcept {
   const ArmKinematics arm = forward_kinematics(table, theta_rad);
   const Task e = pose_error(goal.tip_in_base, arm.tip_in_base);
-  IkReport report = report_of(e);
+  IkResult report = report_of(e);
   const DampedMove move = move_damped(table, arm.tip_jacobian, goal.held_mask, damping, e, nullptr, theta_rad);
   report.limit_mask = move.limit_mask;
   report.outcome = outcome_of(table, goal, report, kIkConverged, size2(e), move.left2);
   return report;
 }
 
-IkReport servo_ik(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm,
+IkResult servo_ik(const RobotParams& table, const IkGoal& goal, const ArmKinematics& arm,
                   ThetaVector& theta_rad) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
   const Task asked = pose_error(goal.tip_in_base, arm.tip_in_base);
@@ -216,7 +216,7 @@ IkReport servo_ik(const RobotTable& table, const IkGoal& goal, const ArmKinemati
   ArmTrig trig;  // only what the table uses is written, and read
   update_trig(table, theta_rad, trig);
   const Task rest = pose_error(goal.tip_in_base, tip_pose(table, trig));
-  IkReport report = report_of(rest);
+  IkResult report = report_of(rest);
   const Step correction = solve_step(move.solver, arm.tip_jacobian, n, rest);
   report.limit_mask = move.limit_mask;
   for (Index k = 0; k < n; ++k) {
@@ -229,7 +229,7 @@ IkReport servo_ik(const RobotTable& table, const IkGoal& goal, const ArmKinemati
   return report;
 }
 
-FollowStep follow_ik(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm, const FollowBounds& bounds,
+FollowStep follow_ik(const RobotParams& table, const IkGoal& goal, const ArmKinematics& arm, const FollowBounds& bounds,
                      ThetaVector& theta_rad) noexcept {
   Task asked = pose_error(goal.tip_in_base, arm.tip_in_base);
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k)
@@ -239,9 +239,9 @@ FollowStep follow_ik(const RobotTable& table, const IkGoal& goal, const ArmKinem
   return {size2(asked), move.left2, move.limit_mask};
 }
 
-IkReport follow_report(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm,
+IkResult follow_report(const RobotParams& table, const IkGoal& goal, const ArmKinematics& arm,
                        const FollowStep& step) noexcept {
-  IkReport report = report_of(pose_error(goal.tip_in_base, arm.tip_in_base));
+  IkResult report = report_of(pose_error(goal.tip_in_base, arm.tip_in_base));
   report.limit_mask = step.limit_mask;
   report.outcome = outcome_of(table, goal, report, kIkFollowed, step.asked2, step.left2);
   return report;

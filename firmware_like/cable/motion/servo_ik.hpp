@@ -34,7 +34,7 @@ struct IkGoal {
   double curvature_m = 0.0;     // kTipCurvature_m to follow a moving target; 0 for a goal that may be far away
 };
 
-struct IkReport {
+struct IkResult {
   double position_error_m = 0.0;
   double attitude_error_rad = 0.0;
   IkOutcome outcome = IkOutcome::kConverged;
@@ -43,12 +43,12 @@ struct IkReport {
 };
 
 // One damped step of the free thetas towards the goal; limits respected exactly. Reports the tip error before the step.
-IkReport ik_step(const RobotTable& table, const IkGoal& goal, double damping, ThetaVector& theta_rad) noexcept;
+IkResult ik_step(const RobotParams& table, const IkGoal& goal, double damping, ThetaVector& theta_rad) noexcept;
 
 // What a goal search does: a damped step from `arm`, then a correction with the same factors for what curvature left.
 // `theta_rad` may be off `arm` by a small null-space move. Reports the tip error before the correction. Cost: one
 // factorisation per limit pass, one tip pose.
-IkReport servo_ik(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm,
+IkResult servo_ik(const RobotParams& table, const IkGoal& goal, const ArmKinematics& arm,
                   ThetaVector& theta_rad) noexcept;
 
 // What a tick does: a damped step alone, from `theta_rad`, which may be off the angles of `arm` (`arm_rad`) by a tick's
@@ -56,18 +56,18 @@ IkReport servo_ik(const RobotTable& table, const IkGoal& goal, const ArmKinemati
 // pass.
 struct FollowStep {
   double asked2 = 0.0, left2 = 0.0;  // squared error before the step, and what it is expected to leave
-  std::uint32_t limit_mask = 0;      // as in IkReport
+  std::uint32_t limit_mask = 0;      // as in IkResult
 };
 struct FollowBounds {
-  ThetaVector arm_rad{};                // of `arm`
-  ThetaVector least_rad{}, most_rad{};  // where theta may go: within its limits, and so near that it can brake
+  ThetaVector arm_rad{};             // of `arm`
+  ThetaVector min_rad{}, max_rad{};  // where theta may go: within its limits, and so near that it can brake
 };
-FollowStep follow_ik(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm, const FollowBounds& bounds,
+FollowStep follow_ik(const RobotParams& table, const IkGoal& goal, const ArmKinematics& arm, const FollowBounds& bounds,
                      ThetaVector& theta_rad) noexcept;
 
 // What became of it, with the kinematics at the angles that the arm then took.
 constexpr double kIkFollowed = 1e-5;  // m and rad: less is as good as there
-IkReport follow_report(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm,
+IkResult follow_report(const RobotParams& table, const IkGoal& goal, const ArmKinematics& arm,
                        const FollowStep& step) noexcept;
 
 }  // namespace liana::cable

@@ -41,14 +41,14 @@ struct ActiveSet {
   std::size_t count = 0;
 };
 
-inline constexpr double kLeastReply = 1e-12;  // below this a bound depends on those before it
+inline constexpr double kMinReply = 1e-12;  // below this a bound depends on those before it
 
 // The normal of one more bound: its parts along those before it are put into their column, `rest` is what remains.
 template <std::size_t B>
 struct Normal {
   Lanes<B> rest;
   double length2, rest2;
-  bool is_new() const noexcept { return rest2 > kLeastReply * length2; }
+  bool is_new() const noexcept { return rest2 > kMinReply * length2; }
 };
 
 template <std::size_t B>

@@ -132,7 +132,7 @@ void restrict_point(const NullSpace& space, const ShapeFactor* factor, const The
 
 }  // namespace
 
-ThetaBounds room_to_limits(const RobotTable& table, const ThetaVector& theta_rad, double share) noexcept {
+ThetaBounds room_to_limits(const RobotParams& table, const ThetaVector& theta_rad, double share) noexcept {
   ThetaBounds bounds;
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
     const double limit = table.segment[k / 2].theta_limit_rad;

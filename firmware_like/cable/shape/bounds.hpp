@@ -14,7 +14,7 @@ struct ThetaBounds {
 
 // Room to the joint limits divided by `share`, as bounds on a change of theta (0 where theta is on or beyond its
 // limit).
-ThetaBounds room_to_limits(const RobotTable& table, const ThetaVector& theta_rad, double share) noexcept;
+ThetaBounds room_to_limits(const RobotParams& table, const ThetaVector& theta_rad, double share) noexcept;
 
 // A point of the null space: coordinates and the thetas that they make.
 struct NullPoint {

@@ -26,7 +26,7 @@ struct Segment {
   Index links;
 };
 
-Segment segment_of(const SegmentTable& table, const SegmentTrig& t) noexcept {
+Segment segment_of(const SegmentParams& table, const SegmentTrig& t) noexcept {
   Segment segment;
   const double w = t.cos_pitch * t.cos_yaw;
   segment.w = w, segment.y = t.sin_yaw, segment.z = t.sin_pitch * t.cos_yaw, segment.length_m = table.module_length_m;
@@ -107,7 +107,7 @@ double largest_weight(const KeepClearTargets& targets) noexcept {
   return largest;
 }
 
-double missing_clearance_m(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm,
+double missing_clearance_m(const RobotParams& table, const ThetaVector& theta_rad, const ArmKinematics& arm,
                            const KeepClearTargets& targets) noexcept {
   const ArmTrig trig = arm_trig(table, theta_rad);
   double sum_m = 0.0;
@@ -122,7 +122,7 @@ double missing_clearance_m(const RobotTable& table, const ThetaVector& theta_rad
   return sum_m;
 }
 
-void add_clearance(const RobotTable& table, const SegmentTrig& trig, const ArmKinematics& arm, const KeepClear& target,
+void add_clearance(const RobotParams& table, const SegmentTrig& trig, const ArmKinematics& arm, const KeepClear& target,
                    std::int32_t segment, PullSum& sum) noexcept {
   constexpr double kNoWay_m = 1e-9;  // nearer than this, no direction leads away
   const Index m = static_cast<Index>(segment);
@@ -132,7 +132,7 @@ void add_clearance(const RobotTable& table, const SegmentTrig& trig, const ArmKi
   add_pull(push_of(arm, trig, m, links, nearest, target), sum);
 }
 
-void add_clearance(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm,
+void add_clearance(const RobotParams& table, const ThetaVector& theta_rad, const ArmKinematics& arm,
                    const KeepClearTargets& targets, PullSum& sum) noexcept {
   const ArmTrig trig = arm_trig(table, theta_rad);
   for (const KeepClear& target : targets) {

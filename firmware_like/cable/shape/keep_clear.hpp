@@ -10,7 +10,7 @@ namespace liana::cable {
 double largest_weight(const KeepClearTargets& targets) noexcept;
 
 // Sum over targets and segments of weight times what the segment's nearest point lacks of the distance [m].
-double missing_clearance_m(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm,
+double missing_clearance_m(const RobotParams& table, const ThetaVector& theta_rad, const ArmKinematics& arm,
                            const KeepClearTargets& targets) noexcept;
 
 // True when a target asks for anything.
@@ -18,11 +18,11 @@ bool is_used(const KeepClear& target) noexcept;
 
 // Adds the push of a used target on the nearest point of one segment (from 0), whose trigonometry is `trig`. Cost: one
 // pass over its links.
-void add_clearance(const RobotTable& table, const SegmentTrig& trig, const ArmKinematics& arm, const KeepClear& target,
+void add_clearance(const RobotParams& table, const SegmentTrig& trig, const ArmKinematics& arm, const KeepClear& target,
                    std::int32_t segment, PullSum& sum) noexcept;
 
 // The same of every target on every segment.
-void add_clearance(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm,
+void add_clearance(const RobotParams& table, const ThetaVector& theta_rad, const ArmKinematics& arm,
                    const KeepClearTargets& targets, PullSum& sum) noexcept;
 
 }  // namespace liana::cable

@@ -12,7 +12,7 @@ using Index = std::size_t;
 constexpr std::int32_t kBoundPasses = 1;  // changes of the active set in a tick; the next one goes on from there
 constexpr double kLastMoment_s = 0.1;     // room to a limit over this bounds the smoothed rate
 
-bool is_node(const RobotTable& table, const NodeTarget& target) noexcept {
+bool is_node(const RobotParams& table, const NodeTarget& target) noexcept {
   return target.node >= 1 && target.node <= table.segment_count;
 }
 
@@ -21,7 +21,7 @@ Vec3 towards_target(const ArmKinematics& arm, const NodeTarget& target) noexcept
 }
 
 // Pitch of the segment before the planar part at the arm's end; theta_count when there is no planar part.
-Index lead_pitch(const RobotTable& table, std::uint32_t held_mask) noexcept {
+Index lead_pitch(const RobotParams& table, std::uint32_t held_mask) noexcept {
   std::int32_t m = table.segment_count - 1;
   while (m >= 0 && ((held_mask >> (2 * m)) & 1u) != 0) --m;
   const bool planar = m < table.segment_count - 1 && m >= 0;
@@ -29,7 +29,7 @@ Index lead_pitch(const RobotTable& table, std::uint32_t held_mask) noexcept {
 }
 
 // Change of theta that centring asks for within `time_s`.
-ThetaVector centring(const RobotTable& table, std::uint32_t held_mask, double time_s,
+ThetaVector centring(const RobotParams& table, std::uint32_t held_mask, double time_s,
                      const ThetaVector& theta) noexcept {
   const Index lead = lead_pitch(table, held_mask);
   ThetaVector pull{};
@@ -48,7 +48,7 @@ double largest_entry(const ThetaVector& v, Index n) noexcept {
 }
 
 // Least room of any theta to its limit; negative when one is beyond it.
-double least_room_rad(const RobotTable& table, const ThetaVector& theta) noexcept {
+double min_room_rad(const RobotParams& table, const ThetaVector& theta) noexcept {
   double least = 1e300;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
     least =
@@ -59,15 +59,15 @@ double least_room_rad(const RobotTable& table, const ThetaVector& theta) noexcep
 
 // Where the arm stands, for all steps of a tick.
 struct Stand {
-  const RobotTable& table;
+  const RobotParams& table;
   const ThetaVector& theta_rad;
   const NullSpace& space;
-  double least_room_rad;
+  double min_room_rad;
 };
 
 // True when a rate with this largest entry may pass a limit within `time_s`.
 bool may_pass_limit(const Stand& stand, double time_s, double largest) noexcept {
-  return largest * time_s > stand.least_room_rad;
+  return largest * time_s > stand.min_room_rad;
 }
 
 // A node within its threshold wants nothing; one outside wants to come back within.
@@ -89,7 +89,7 @@ void add_node(const ArmKinematics& arm, const NodeTarget& target, PullSum& sum) 
 
 // Adds pull `index` of a round: nodes first, then every segment away from every target. False when there is no such
 // pull.
-bool add_pull_of_round(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm,
+bool add_pull_of_round(const RobotParams& table, const ThetaVector& theta_rad, const ArmKinematics& arm,
                        const NodeTargets& nodes, const KeepClearTargets& clear, Index index, PullSum& sum) noexcept {
   if (index < nodes.size()) {
     if (!is_node(table, nodes[index]) || !(nodes[index].weight > 0.0)) return false;
@@ -104,7 +104,7 @@ bool add_pull_of_round(const RobotTable& table, const ThetaVector& theta_rad, co
 }
 
 // Takes one more pull of the round; false when the round is complete. Other weights begin a new one.
-bool gather(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm, const NodeTargets& nodes,
+bool gather(const RobotParams& table, const ThetaVector& theta_rad, const ArmKinematics& arm, const NodeTargets& nodes,
             const KeepClearTargets& clear, double weight, ShapeState& state) noexcept {
   if (weight != state.weight) state.next_pull = 0;
   state.weight = weight;
@@ -145,7 +145,7 @@ ThetaVector wanted_rate(const Stand& stand, std::uint32_t held_mask, const Shape
 }
 
 // Change of the velocity over a cycle on its way to what is wanted.
-ThetaVector followed_change(const RobotTable& table, const ShapePace& pace, const ShapeState& state) noexcept {
+ThetaVector followed_change(const RobotParams& table, const ShapePace& pace, const ShapeState& state) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
   const double time_s = kShapeTicks * table.tick_s, share = smaller(1.0, time_s / pace.smoothing_s);
   ThetaVector change{};
@@ -174,7 +174,7 @@ void follow(const Stand& stand, bool at_once, const ShapePace& pace, ShapeState&
 }
 
 // Pulls of a round, some a tick.
-void gather_pulls(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm,
+void gather_pulls(const RobotParams& table, const ThetaVector& theta_rad, const ArmKinematics& arm,
                   const NodeTargets& nodes, const KeepClearTargets& clear, ShapeState& state) noexcept {
   const double weight = larger(largest_weight(table, nodes), largest_weight(clear));
   for (std::uint32_t i = 0; i < kPullsPerTick && !state.is_gathered; ++i)
@@ -183,7 +183,7 @@ void gather_pulls(const RobotTable& table, const ThetaVector& theta_rad, const A
 
 }  // namespace
 
-double node_excess_m(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes) noexcept {
+double node_excess_m(const RobotParams& table, const ArmKinematics& arm, const NodeTargets& nodes) noexcept {
   double sum_m = 0.0;
   for (const NodeTarget& target : nodes) {
     if (is_node(table, target))
@@ -192,7 +192,7 @@ double node_excess_m(const RobotTable& table, const ArmKinematics& arm, const No
   return sum_m;
 }
 
-double largest_weight(const RobotTable& table, const NodeTargets& nodes) noexcept {
+double largest_weight(const RobotParams& table, const NodeTargets& nodes) noexcept {
   double largest = 0.0;
   for (const NodeTarget& target : nodes) {
     if (is_node(table, target)) largest = larger(largest, target.weight);
@@ -200,13 +200,13 @@ double largest_weight(const RobotTable& table, const NodeTargets& nodes) noexcep
   return largest;
 }
 
-void add_nodes(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, PullSum& sum) noexcept {
+void add_nodes(const RobotParams& table, const ArmKinematics& arm, const NodeTargets& nodes, PullSum& sum) noexcept {
   for (const NodeTarget& target : nodes) {
     if (is_node(table, target) && target.weight > 0.0) add_node(arm, target, sum);
   }
 }
 
-ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes,
+ThetaVector shape_move(const RobotParams& table, const ArmKinematics& arm, const NodeTargets& nodes,
                        const KeepClearTargets& clear, std::uint32_t held_mask, const ShapePace& pace,
                        const ThetaVector& theta_rad, ShapeState& state) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
@@ -216,7 +216,7 @@ ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const 
   state.held_mask = held_mask;
   if (follows || solves) {
     const NullSpace space = null_space(arm.tip_jacobian, table.theta_count(), held_mask);
-    const Stand stand{table, theta_rad, space, least_room_rad(table, theta_rad)};
+    const Stand stand{table, theta_rad, space, min_room_rad(table, theta_rad)};
     if (solves) {
       state.wanted_rad_s = wanted_rate(stand, held_mask, pace, state);
       state.is_gathered = false;

@@ -35,13 +35,13 @@ constexpr ShapePace kShapeBesideTip{1.0, 0.35, 0.1, 0.5, 2.0};  // the shape has
 constexpr ShapePace kShapeAlone{0.75, 0.15, 0.025, 0.75, 6.0};
 
 // Sum over the nodes of lambda_j max(0, d_j - threshold_j) [m]: what add_nodes works on.
-double node_excess_m(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes) noexcept;
+double node_excess_m(const RobotParams& table, const ArmKinematics& arm, const NodeTargets& nodes) noexcept;
 
 // Largest weight of a node target; 0 when there is none.
-double largest_weight(const RobotTable& table, const NodeTargets& nodes) noexcept;
+double largest_weight(const RobotParams& table, const NodeTargets& nodes) noexcept;
 
 // Adds what the nodes want at `arm`. A node within its threshold wants nothing; one outside wants to come back within.
-void add_nodes(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, PullSum& sum) noexcept;
+void add_nodes(const RobotParams& table, const ArmKinematics& arm, const NodeTargets& nodes, PullSum& sum) noexcept;
 
 // The shape's work is spread over a cycle of ticks: in one the velocity that is kept until the next cycle, in one the
 // velocity that is wanted, in the others pulls. The null space turns by less than 0.1 deg within a cycle; the servo IK
@@ -70,7 +70,7 @@ struct ShapeState {
 // the rate limit (1 % more while the null space turns), held thetas still, |J move| <= 1e-9 |move| where a cycle ends
 // but for what the null space has turned by in it. The velocity in `state` follows what is wanted smoothly, so that a
 // new target never jerks the arm.
-ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes,
+ThetaVector shape_move(const RobotParams& table, const ArmKinematics& arm, const NodeTargets& nodes,
                        const KeepClearTargets& clear, std::uint32_t held_mask, const ShapePace& pace,
                        const ThetaVector& theta_rad, ShapeState& state) noexcept;
 

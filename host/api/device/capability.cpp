@@ -10,7 +10,7 @@ namespace liana::device {
 
 namespace {
 
-constexpr double kMostForce = 1000.0;  // [N] or [N m]
+constexpr double kMaxForce = 1000.0;  // [N] or [N m]
 
 [[noreturn]] void refuse(const std::string& field, const std::string& value, const std::string& allowed) {
   throw std::runtime_error("hello: " + field + " = " + value + ": allowed " + allowed);
@@ -23,7 +23,7 @@ std::string text(double value) {
 }
 
 void check_range(const std::string& field, double value, double low, double high) {
-  if (is_sound(value, kMostForce * 10.0) && value >= low && value <= high) return;
+  if (tensions_valid(value, kMaxForce * 10.0) && value >= low && value <= high) return;
   refuse(field, text(value), text(low) + " to " + text(high));
 }
 
@@ -44,7 +44,7 @@ std::string shown(std::string name) {
 
 // The words of use_device name no single device.
 bool is_word(const std::string& name) {
-  constexpr std::array kKinds{Kind::kNone, Kind::kHandController, Kind::kHandles, Kind::kPointer};
+  constexpr std::array kKinds{Kind::kNone, Kind::kHandController, Kind::kVrControllers, Kind::kPointer};
   return std::any_of(kKinds.begin(), kKinds.end(), [&](Kind kind) { return name == kind_name(kind); });
 }
 
@@ -60,8 +60,8 @@ void check(const std::string& field, const liana_hand& hand) {
     check_range(field + ".low_m", hand.low_m[i], -kRoom_m, kRoom_m);
     check_range(field + ".high_m", hand.high_m[i], hand.low_m[i], kRoom_m);
   }
-  check_range(field + ".most_force_N", hand.most_force_N, 0.0, kMostForce);
-  check_range(field + ".most_torque_Nm", hand.most_torque_Nm, 0.0, kMostForce);
+  check_range(field + ".most_force_N", hand.most_force_N, 0.0, kMaxForce);
+  check_range(field + ".most_torque_Nm", hand.most_torque_Nm, 0.0, kMaxForce);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace liana::device {
 enum class Kind : std::uint8_t {
   kNone = 0,
   kHandController = LIANA_HAND_CONTROLLER,
-  kHandles = LIANA_HANDLES,
+  kVrControllers = LIANA_HANDLES,
   kPointer = LIANA_POINTER,
 };
 

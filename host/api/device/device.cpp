@@ -67,8 +67,8 @@ void Device::take_sample(const liana_sample& packet, std::int64_t now_us) {
   if (problem == nullptr) problem = clock_problem(packet, now_us);
   if (problem != nullptr) {
     ++refused_samples_;
-    if (++refused_in_row_ >= kMostRefused)
-      refuse(std::to_string(kMostRefused) + " samples in a row were refused, the last for " + problem);
+    if (++refused_in_row_ >= kMaxRefused)
+      refuse(std::to_string(kMaxRefused) + " samples in a row were refused, the last for " + problem);
     return;
   }
   refused_in_row_ = 0;

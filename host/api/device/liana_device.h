@@ -130,9 +130,9 @@ struct liana_welcome {
   int64_t answers_us;    /* t_us of the hello: with the time at which this comes, the relation of the clocks */
   double interval_s;     /* T_c, from state to state */
   double silence_s;      /* a device in use that sends no sample for so long has let the arm hold */
-  double least_rate_hz;  /* samples below this are an alarm */
+  double min_rate_hz;  /* samples below this are an alarm */
   double tip_speed_m_s;  /* fastest that the tip follows */
-  uint32_t most_samples; /* of the device in one command interval; more close it */
+  uint32_t max_samples; /* of the device in one command interval; more close it */
   uint32_t reserved;
 };
 

@@ -6,11 +6,11 @@
 
 namespace liana::device {
 
-constexpr double kRoom_m = 10.0;                         // a device frame's size, each way
-constexpr std::int64_t kMostTime_us = 9007199254740992;  // 2^53: a double holds every whole number up to it
+constexpr double kRoom_m = 10.0;                        // a device frame's size, each way
+constexpr std::int64_t kMaxTime_us = 9007199254740992;  // 2^53: a double holds every whole number up to it
 
 // Finite, not denormal, and at most `most` in size.
-inline bool is_sound(double value, double most) {
+inline bool tensions_valid(double value, double most) {
   return (value == 0.0 || std::isnormal(value)) && std::fabs(value) <= most;
 }
 

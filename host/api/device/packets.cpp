@@ -11,7 +11,7 @@ namespace liana::device {
 
 namespace {
 
-constexpr double kMostSpeed = 1000.0;  // [m/s] or [rad/s]
+constexpr double kMaxSpeed = 1000.0;  // [m/s] or [rad/s]
 
 template <std::size_t N>
 void copy(const std::array<double, N>& from, double (&to)[N]) {
@@ -27,10 +27,10 @@ std::array<double, N> array_of(const double (&from)[N]) {
 
 template <std::size_t N>
 bool are_sound(const double (&values)[N], double most) {
-  return std::all_of(values, values + N, [most](double value) { return is_sound(value, most); });
+  return std::all_of(values, values + N, [most](double value) { return tensions_valid(value, most); });
 }
 
-bool is_time(std::int64_t t_us) { return t_us >= 0 && t_us <= kMostTime_us; }
+bool is_time(std::int64_t t_us) { return t_us >= 0 && t_us <= kMaxTime_us; }
 
 // 0: no such packet.
 std::size_t bytes_of_packet(std::uint16_t packet) {
@@ -113,11 +113,11 @@ const char* problem_of(const liana_sample& p, std::uint32_t hands) {
   if (!is_time(p.echo_us)) return "echo_us: allowed 0 to 2^53";
   if (p.hand >= hands) return "hand: allowed 0, and 1 where hello says two hands";
   if ((p.flags & ~kFlags) != 0) return "flags: allowed 0 to 7";
-  if (!is_sound(p.trigger, 1.0) || p.trigger < 0.0) return "trigger: allowed 0 to 1, not denormal";
+  if (!tensions_valid(p.trigger, 1.0) || p.trigger < 0.0) return "trigger: allowed 0 to 1, not denormal";
   if (!are_sound(p.measured_cp.position_m, kRoom_m)) return "measured_cp: position allowed within 10 m, not denormal";
   if (!are_sound(p.measured_cp.quaternion_wxyz, 2.0) || !is_valid(pose_of(p.measured_cp)))
     return "measured_cp: quaternion allowed of length 1 within 1e-6, not denormal";
-  if (!are_sound(p.measured_cv.linear_m_s, kMostSpeed) || !are_sound(p.measured_cv.angular_rad_s, kMostSpeed))
+  if (!are_sound(p.measured_cv.linear_m_s, kMaxSpeed) || !are_sound(p.measured_cv.angular_rad_s, kMaxSpeed))
     return "measured_cv: allowed within 1000 m/s and rad/s, not denormal";
   return nullptr;
 }

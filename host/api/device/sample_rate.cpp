@@ -19,8 +19,8 @@ void SampleRate::add(std::int64_t t_us) {
   }
   if (t_us <= last_us_) return;
   const double interval_s = seconds(t_us - last_us_);
-  least_s_ = intervals_ == 0 ? interval_s : std::min(least_s_, interval_s);
-  most_s_ = std::max(most_s_, interval_s);
+  min_s_ = intervals_ == 0 ? interval_s : std::min(min_s_, interval_s);
+  max_s_ = std::max(max_s_, interval_s);
   last_us_ = t_us;
   ++intervals_;
   ++in_second_;
@@ -35,7 +35,7 @@ void SampleRate::finish_interval(double interval_s) {
   second_s_ += interval_s;
   if (second_s_ < kSecond_s) return;
   now_hz_ = in_second_ > 0 ? static_cast<double>(in_second_) / seconds(last_us_ - second_from_us_) : 0.0;
-  is_slow_ = *now_hz_ < kLeastRate_hz - (is_slow_ ? 0.0 : kRateTolerance_hz);
+  is_slow_ = *now_hz_ < kMinRate_hz - (is_slow_ ? 0.0 : kRateTolerance_hz);
   second_s_ = 0.0;
   in_second_ = 0;
   second_from_us_ = last_us_;

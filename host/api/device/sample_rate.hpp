@@ -8,7 +8,7 @@
 namespace liana::device {
 
 // Least rate at which an operator's input is sampled [Hz]; a clock that is half a hertz off is not an alarm (A24).
-constexpr double kLeastRate_hz = 50.0;
+constexpr double kMinRate_hz = 50.0;
 constexpr double kRateTolerance_hz = 0.5;
 
 class SampleRate {
@@ -25,15 +25,15 @@ class SampleRate {
   // From the first to the newest sample [Hz]; 0 while there is no interval.
   double mean_hz() const;
   // Shortest and longest time from one sample to the next [s]; 0 while there is none.
-  double least_s() const { return intervals_ > 0 ? least_s_ : 0.0; }
-  double most_s() const { return most_s_; }
-  // Samples came, and since then fewer in a second than kLeastRate_hz. It ends when there are as many again.
+  double least_s() const { return intervals_ > 0 ? min_s_ : 0.0; }
+  double most_s() const { return max_s_; }
+  // Samples came, and since then fewer in a second than kMinRate_hz. It ends when there are as many again.
   bool is_slow() const { return is_slow_; }
 
  private:
   std::uint64_t count_ = 0, intervals_ = 0;
   std::int64_t first_us_ = 0, last_us_ = 0;
-  double least_s_ = 0.0, most_s_ = 0.0;
+  double min_s_ = 0.0, max_s_ = 0.0;
   double second_s_ = 0.0;            // of the second that has begun
   std::uint64_t in_second_ = 0;      // intervals that ended in it
   std::int64_t second_from_us_ = 0;  // newest sample before it

@@ -7,7 +7,7 @@ namespace liana::api {
 bool Outbox::add(Topic topic, bool droppable, std::string packet) {
   if (droppable && waiting_droppable_[index_of(topic)] >= kMaxDroppable) forget_oldest(topic);
   if (packets_.size() >= kMaxPackets) return false;
-  if (!packets_.empty() && bytes_ + packet.size() > most_bytes_) return false;
+  if (!packets_.empty() && bytes_ + packet.size() > max_bytes_) return false;
   bytes_ += packet.size();
   packets_.push_back({topic, droppable, std::move(packet)});
   ++waiting_[index_of(topic)];

@@ -18,7 +18,7 @@ class Outbox {
   static constexpr std::size_t kMaxBytesOfTicks = 32u << 20;  // of the archive, which may be slow for half a minute
 
   // From now on there is room for so many bytes.
-  void set_most_bytes(std::size_t bytes) { most_bytes_ = bytes; }
+  void set_most_bytes(std::size_t bytes) { max_bytes_ = bytes; }
   // Adds a packet; false when there is no room. A droppable one takes the place of the oldest droppable of its topic
   // when kMaxDroppable wait; dropped() counts those.
   bool add(Topic topic, bool droppable, std::string packet);
@@ -42,7 +42,7 @@ class Outbox {
 
   std::deque<Packet> packets_;
   std::array<std::size_t, kTopicNames.size()> waiting_{}, waiting_droppable_{};
-  std::size_t bytes_ = 0, most_bytes_ = kMaxBytes;
+  std::size_t bytes_ = 0, max_bytes_ = kMaxBytes;
   std::uint64_t dropped_ = 0;
 };
 

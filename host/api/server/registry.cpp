@@ -22,10 +22,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostWords = 256;
-constexpr std::size_t kMostEntries = 100000;  // of one folder
-constexpr std::size_t kMostSystems = 256;
-constexpr std::size_t kMostUnseen = 64;
+constexpr std::size_t kMaxWords = 256;
+constexpr std::size_t kMaxEntries = 100000;  // of one folder
+constexpr std::size_t kMaxSystems = 256;
+constexpr std::size_t kMaxUnseen = 64;
 
 std::string runtime_folder() {
   const char* given = std::getenv("XDG_RUNTIME_DIR");
@@ -51,7 +51,7 @@ std::vector<std::string> words_of_lianad(const std::string& process) {
   std::string name;
   if (!std::getline(name_file, name) || name != "lianad") return {};
   std::vector<std::string> words;
-  for (std::string word; words.size() < kMostWords && std::getline(words_file, word, '\0');) words.push_back(word);
+  for (std::string word; words.size() < kMaxWords && std::getline(words_file, word, '\0');) words.push_back(word);
   return words;
 }
 
@@ -158,14 +158,14 @@ class Search {
     struct stat status {};
     const bool is_there = ::stat(socket.c_str(), &status) == 0;
     if (is_there ? !files_.emplace(status.st_dev, status.st_ino).second : !names_.insert(socket).second) return;
-    if (++count_ <= kMostSystems) return found_(socket);
-    if (count_ == kMostSystems + 1) miss(socket, "more than 256 systems run", true);
+    if (++count_ <= kMaxSystems) return found_(socket);
+    if (count_ == kMaxSystems + 1) miss(socket, "more than 256 systems run", true);
   }
   // Names of one folder; those that come after a failure are missed, and said to be.
   template <class Visit>
   void for_each(const std::string& folder, bool is_ours, const Visit& visit) {
     std::error_code error;
-    std::size_t left = kMostEntries;
+    std::size_t left = kMaxEntries;
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
       if (left-- == 0) return miss(folder, "holds more than 100000 files", is_ours);
       visit(entry->path().filename().string());
@@ -177,7 +177,7 @@ class Search {
   }
   void miss(const std::string& place, const std::string& why, bool is_ours) {
     const bool is_new = std::none_of(unseen_.begin(), unseen_.end(), [&](const Unseen& u) { return u.place == place; });
-    if (is_new && (is_ours || unseen_.size() < kMostUnseen)) unseen_.push_back({place, why, is_ours});
+    if (is_new && (is_ours || unseen_.size() < kMaxUnseen)) unseen_.push_back({place, why, is_ours});
   }
 
   const std::function<void(const std::string&)>& found_;

@@ -52,7 +52,7 @@ std::string op_of(const Json& request) {
 
 ApiServer::ApiServer(const std::string& path, ApiHandler& handler, std::optional<gid_t> group)
     : group_(group), listener_(listen_at("--api", path, group)), handler_(handler) {
-  drop_strangers();
+  drop_unidentified();
 }
 ApiServer::~ApiServer() = default;
 
@@ -66,7 +66,7 @@ void ApiServer::pump(double timeout_s, int others) {
   }
   polled.push_back({others, POLLIN, 0});
   if (::poll(polled.data(), polled.size(), timeout_s > 0.0 ? static_cast<int>(timeout_s * 1e3) + 1 : 0) <= 0) {
-    drop_strangers();
+    drop_unidentified();
     return;
   }
   std::vector<Client*> talking;
@@ -77,7 +77,7 @@ void ApiServer::pump(double timeout_s, int others) {
   }
   read_from(talking);
   if (polled[0].revents != 0) accept_new();
-  drop_strangers();
+  drop_unidentified();
 }
 
 // Lockstep clients are read to the end, whatever the time: runs repeat. The others share a bounded time, one packet
@@ -277,13 +277,13 @@ void ApiServer::wait_done(std::uint64_t tick, double timeout_s) {
   const Clock::time_point start = Clock::now();
   const auto left_s = [&](const auto& client) { return timeout_s - client->late_s - seconds_since(start); };
   for (;;) {
-    double least_left_s = HUGE_VAL;
+    double min_left_s = HUGE_VAL;
     for (auto& client : clients_) {
       if (client->late_for(tick) && left_s(client) <= 0.0) close(*client, "too late in lockstep time, or silent");
-      if (client->late_for(tick)) least_left_s = std::min(least_left_s, left_s(client));
+      if (client->late_for(tick)) min_left_s = std::min(min_left_s, left_s(client));
     }
-    if (least_left_s == HUGE_VAL) break;
-    pump(least_left_s);
+    if (min_left_s == HUGE_VAL) break;
+    pump(min_left_s);
   }
   for (auto& client : clients_) {
     const double waited_s = std::chrono::duration<double>(client->done_at - start).count();

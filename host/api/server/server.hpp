@@ -85,7 +85,7 @@ class ApiServer {
   UniqueFd accept_one();
   void take_in(UniqueFd fd);
   std::vector<Client*> strangers() const;
-  void drop_strangers();
+  void drop_unidentified();
   void close_oldest_strangers(std::size_t most, const std::string& why);
   void forget_closed_strangers();
   void read_from(std::vector<Client*>& talking);

@@ -20,7 +20,7 @@ constexpr std::size_t kMaxClients = 32;  // that have said hello
 // Connections that have not: so many at once, each for so long. They take no place from clients.
 constexpr std::size_t kMaxStrangers = 16;
 constexpr double kStrangerPatience_s = 2.0;
-constexpr std::size_t kMostArrivals = 64;  // of one pump: what waits at the listener
+constexpr std::size_t kMaxArrivals = 64;  // of one pump: what waits at the listener
 // The last descriptors of this process are for files and for those who stop the arm; few strangers at once have them.
 constexpr rlim_t kKeptDescriptors = 8;
 constexpr std::size_t kFewStrangers = 4;
@@ -60,7 +60,7 @@ Role role_of(const std::string& name) {
 
 // There is always a place to be heard from: strangers make room, and one descriptor is kept.
 void ApiServer::accept_new() {
-  for (std::size_t i = 0; i < kMostArrivals; ++i) {
+  for (std::size_t i = 0; i < kMaxArrivals; ++i) {
     UniqueFd fd = accept_one();
     if (fd.get() < 0) return;
     if (is_admitted(fd.get(), group_)) {
@@ -122,7 +122,7 @@ void ApiServer::forget_closed_strangers() {
   });
 }
 
-void ApiServer::drop_strangers() {
+void ApiServer::drop_unidentified() {
   for (Client* stranger : strangers()) {
     if (seconds_since(stranger->since) > kStrangerPatience_s) close(*stranger, "did not say hello within 2 s");
   }

@@ -4,7 +4,7 @@ namespace liana::api {
 
 namespace {
 
-constexpr std::size_t kMostRawReason = 1000;
+constexpr std::size_t kMaxRawReason = 1000;
 
 // The first level of an object, member by member, as far as the bytes can be followed.
 class Members {
@@ -86,7 +86,7 @@ StopPacket read_stop(std::string_view packet) {
   if (!members.open()) return found;
   for (std::string_view name, value; members.next(name, value);) {
     if (name == "op" && value == "stop") found.is_stop = true;
-    if (name == "reason") found.reason = value.substr(0, kMostRawReason);
+    if (name == "reason") found.reason = value.substr(0, kMaxRawReason);
   }
   return found;
 }

@@ -17,7 +17,7 @@ constexpr double kLargestWeight = 1000.0;
 constexpr std::int64_t kLargestSeed = (std::int64_t{1} << 53) - 1;
 
 [[noreturn]] void refuse(std::string_view option, std::string_view value, const std::string& allowed) {
-  throw system::BadInput(std::string(option) + ": '" + std::string(value) + "': allowed: " + allowed);
+  throw launcher::BadInput(std::string(option) + ": '" + std::string(value) + "': allowed: " + allowed);
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
@@ -52,11 +52,11 @@ Vec3 checked_position(std::string_view option, std::string_view text, const std:
   return {v[0], v[1], v[2]};
 }
 
-double theta_limit_rad(const cable::RobotTable& robot, std::size_t theta) {
+double theta_limit_rad(const cable::RobotParams& robot, std::size_t theta) {
   return robot.segment[theta / 2].theta_limit_rad;
 }
 
-double checked_angle_deg(std::string_view option, std::string_view text, const cable::RobotTable& robot,
+double checked_angle_deg(std::string_view option, std::string_view text, const cable::RobotParams& robot,
                          std::size_t theta) {
   const double angle_deg = parse_number(option, text);
   const double limit_deg = theta_limit_rad(robot, theta) / kDegree;
@@ -96,7 +96,7 @@ std::int64_t parse_whole(std::string_view option, std::string_view text, std::in
   return value;
 }
 
-std::int32_t parse_node(std::string_view option, std::string_view text, const cable::RobotTable& robot) {
+std::int32_t parse_node(std::string_view option, std::string_view text, const cable::RobotParams& robot) {
   return static_cast<std::int32_t>(
       parse_whole(option, text, 1, robot.segment_count, ": a node (the end of a segment)"));
 }
@@ -117,7 +117,7 @@ std::vector<double> parse_numbers(std::string_view option, std::string_view text
   return values;
 }
 
-cable::ThetaVector parse_theta_deg(std::string_view option, std::string_view text, const cable::RobotTable& robot) {
+cable::ThetaVector parse_theta_deg(std::string_view option, std::string_view text, const cable::RobotParams& robot) {
   const auto count = static_cast<std::size_t>(robot.theta_count());
   const auto parts = split(text, ',');
   parse_numbers(option, text, count);
@@ -126,11 +126,11 @@ cable::ThetaVector parse_theta_deg(std::string_view option, std::string_view tex
   return theta_rad;
 }
 
-serial::JointVector parse_joint_deg(std::string_view option, std::string_view text, const serial::RobotTable& robot) {
+serial::JointVector parse_joint_deg(std::string_view option, std::string_view text, const serial::RobotParams& robot) {
   const std::vector<double> angles_deg = parse_numbers(option, text, robot.joints());
   serial::JointVector joint_rad{};
   for (std::size_t i = 0; i < robot.joints(); ++i) {
-    const serial::JointTable& joint = robot.joint[i];
+    const serial::JointParams& joint = robot.joint[i];
     const double low_deg = std::round(joint.low_rad / kDegree * 1e9) / 1e9;
     const double high_deg = std::round(joint.high_rad / kDegree * 1e9) / 1e9;
     if (angles_deg[i] < low_deg || angles_deg[i] > high_deg) {
@@ -156,7 +156,7 @@ Pose parse_pose(std::string_view option, std::string_view text) {
   return pose;
 }
 
-std::vector<HoldArgument> parse_hold(std::string_view text, const cable::RobotTable& robot) {
+std::vector<HoldArgument> parse_hold(std::string_view text, const cable::RobotParams& robot) {
   std::vector<HoldArgument> holds;
   for (const std::string_view part : split(text, ',')) {
     const std::size_t equals = part.find('=');
@@ -176,7 +176,7 @@ std::vector<HoldArgument> parse_hold(std::string_view text, const cable::RobotTa
   return holds;
 }
 
-ControlPointArgument parse_control_point(std::string_view text, const cable::RobotTable& robot) {
+ControlPointArgument parse_control_point(std::string_view text, const cable::RobotParams& robot) {
   const auto parts = split(text, ':');
   if (parts.size() != 2 && parts.size() != 3) refuse("--control-point", text, "NODE:x,y,z or NODE:x,y,z:WEIGHT");
   ControlPointArgument point;

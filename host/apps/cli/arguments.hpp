@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_params.hpp"
 #include "firmware_like/math/pose.hpp"
-#include "firmware_like/serial/robot_table.hpp"
+#include "firmware_like/serial/robot_params.hpp"
 
 namespace liana::cli {
 
@@ -39,7 +39,7 @@ std::int64_t parse_whole(std::string_view option, std::string_view text, std::in
                          std::string_view note = "");
 
 // A node, which is the end of a segment, counted from 1.
-std::int32_t parse_node(std::string_view option, std::string_view text, const cable::RobotTable& robot);
+std::int32_t parse_node(std::string_view option, std::string_view text, const cable::RobotParams& robot);
 
 // A whole number from 0 to 2^53 - 1, the largest that JSON keeps exactly.
 std::uint64_t parse_seed(std::string_view option, std::string_view text);
@@ -48,18 +48,18 @@ std::uint64_t parse_seed(std::string_view option, std::string_view text);
 std::vector<double> parse_numbers(std::string_view option, std::string_view text, std::size_t count);
 
 // Joint angles in degrees within the robot's limits, as radians; entries beyond the robot's are 0.
-cable::ThetaVector parse_theta_deg(std::string_view option, std::string_view text, const cable::RobotTable& robot);
+cable::ThetaVector parse_theta_deg(std::string_view option, std::string_view text, const cable::RobotParams& robot);
 
 // The angles of a serial arm's joints in degrees, from the base to the tip, within their ranges.
-serial::JointVector parse_joint_deg(std::string_view option, std::string_view text, const serial::RobotTable& robot);
+serial::JointVector parse_joint_deg(std::string_view option, std::string_view text, const serial::RobotParams& robot);
 
 // x,y,z,qw,qx,qy,qz: metres in the base frame within +-1000, quaternion of unit length within 1e-6.
 Pose parse_pose(std::string_view option, std::string_view text);
 
 // 7,9 or 7=0.5,9: variables to hold, each at most once, values in degrees within the robot's limits.
-std::vector<HoldArgument> parse_hold(std::string_view text, const cable::RobotTable& robot);
+std::vector<HoldArgument> parse_hold(std::string_view text, const cable::RobotParams& robot);
 
 // 3:x,y,z:weight: metres within +-1000; the weight, over 0 up to 1000, may be left out.
-ControlPointArgument parse_control_point(std::string_view text, const cable::RobotTable& robot);
+ControlPointArgument parse_control_point(std::string_view text, const cable::RobotParams& robot);
 
 }  // namespace liana::cli

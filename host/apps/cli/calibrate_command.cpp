@@ -22,7 +22,7 @@ constexpr const char* kFixtures = "zero,fixture,prepare";
 
 // The poses for which there are fixtures: those asked for, else those of the table.
 std::vector<std::string> poses_of(const CalibrateOptions& options, const config::RobotConfig& robot) {
-  if (options.poses.empty() && !robot.fixture_poses.empty()) return robot.fixture_poses;
+  if (options.poses.empty() && !robot.jig_poses.empty()) return robot.jig_poses;
   std::vector<std::string> names;
   const std::string list = options.poses.empty() ? kFixtures : options.poses;
   std::istringstream in(list);
@@ -37,8 +37,8 @@ std::string list_of(const std::vector<std::string>& names) {
 }
 
 // What runs in any case.
-system::RunOptions run_options(const CalibrateOptions& options, bool simulated) {
-  system::RunOptions run;
+launcher::RunOptions run_options(const CalibrateOptions& options, bool simulated) {
+  launcher::RunOptions run;
   if (options.robot != CalibrateOptions{}.robot) run.scene = "none";  // the slit's scene is that of its own arm
   run.robot = options.robot;
   run.bus = options.bus;
@@ -49,37 +49,38 @@ system::RunOptions run_options(const CalibrateOptions& options, bool simulated) 
 }
 
 // What runs while the arm lies in a fixture.
-system::SystemLayout plan_for(const CalibrateOptions& options, bool simulated, const std::string& pose) {
-  system::RunOptions run = run_options(options, simulated);
+launcher::SystemLayout plan_for(const CalibrateOptions& options, bool simulated, const std::string& pose) {
+  launcher::RunOptions run = run_options(options, simulated);
   run.fixture = pose;
   run.cross_wired = options.cross_wired;
-  return system::make_layout(run);
+  return launcher::make_layout(run);
 }
 
 // What `measure` finds with the programs of the plan, of which nothing is left behind.
 template <class Measure>
-auto found_with(const system::SystemLayout& plan, const system::InterruptGuard& interrupts, const Measure& measure) {
+auto found_with(const launcher::SystemLayout& plan, const launcher::InterruptGuard& interrupts,
+                const Measure& measure) {
   try {
-    const auto found = measure(system::CalibrateSession(plan, interrupts));  // the programs end with the session
-    system::clean_up(plan, true);
+    const auto found = measure(launcher::CalibrateSession(plan, interrupts));  // the programs end with the session
+    launcher::clean_up(plan, true);
     return found;
   } catch (...) {
-    system::clean_up(plan, true);
+    launcher::clean_up(plan, true);
     throw;
   }
 }
 
 // Ctrl-C counts at any time, while the programs start and end, too; it is why they then fail.
 calibration::CalibrationReading read_in(const CalibrateOptions& options, bool simulated, const std::string& pose) {
-  const system::InterruptGuard interrupts;
+  const launcher::InterruptGuard interrupts;
   calibration::CalibrationReading reading;
   try {
     reading = found_with(plan_for(options, simulated, pose), interrupts,
-                         [](system::CalibrateSession&& session) { return session.read(); });
+                         [](launcher::CalibrateSession&& session) { return session.read(); });
   } catch (const std::runtime_error&) {
     if (interrupts.count() == 0) throw;
   }
-  if (interrupts.count() > 0) throw system::Interrupted("interrupted: nothing was calibrated");
+  if (interrupts.count() > 0) throw launcher::Interrupted("interrupted: nothing was calibrated");
   return reading;
 }
 
@@ -90,8 +91,8 @@ std::vector<calibration::CalibrationReading> read_all(const CalibrateOptions& op
                                                       const std::vector<cable::ThetaVector>& thetas_rad) {
   std::vector<calibration::CalibrationReading> readings;
   if (!simulated)
-    system::clean_up(plan_for(options, simulated, poses.front()),
-                     true);  // what is missing is said before anybody lifts the arm
+    launcher::clean_up(plan_for(options, simulated, poses.front()),
+                       true);  // what is missing is said before anybody lifts the arm
   for (std::size_t p = 0; p < poses.size(); ++p) {
     if (!simulated) calibration::wait_for_fixture(std::cin, std::cerr, poses[p], p + 1, poses.size());
     std::fprintf(stderr, "pose %zu of %zu, %s: reading the drives\n", p + 1, poses.size(), poses[p].c_str());
@@ -139,61 +140,62 @@ void show(const calibration::Friction& friction, const calibration::Calibration&
 // The arm moves: what was found of its friction is added to what is known of it.
 int measure_friction(const CalibrateOptions& options, bool simulated, const config::RobotConfig& robot) {
   if (!options.out_file.empty() && options.calibration.empty())
-    throw system::BadInput("--out: '" + options.out_file +
-                           "': allowed with --friction only beside --calibration FILE, "
-                           "which friction is added to: run liana calibrate without --friction first");
+    throw launcher::BadInput("--out: '" + options.out_file +
+                             "': allowed with --friction only beside --calibration FILE, "
+                             "which friction is added to: run liana calibrate without --friction first");
   calibration::Calibration whole;
   if (!options.calibration.empty())
-    whole = system::checked(
+    whole = launcher::checked(
         [&] { return calibration::load_calibration(options.calibration, robot, calibration::today_utc()); });
-  system::RunOptions run = run_options(options, simulated);
+  launcher::RunOptions run = run_options(options, simulated);
   run.calibration = options.calibration;
-  const system::SystemLayout plan = system::make_layout(run);
-  const system::InterruptGuard interrupts;
-  whole.friction =
-      found_with(plan, interrupts, [&](system::CalibrateSession&& session) { return session.measure_friction(robot); });
+  const launcher::SystemLayout plan = launcher::make_layout(run);
+  const launcher::InterruptGuard interrupts;
+  whole.friction = found_with(plan, interrupts,
+                              [&](launcher::CalibrateSession&& session) { return session.measure_friction(robot); });
   show(*whole.friction, whole, options.json);
-  if (!options.out_file.empty()) system::write_output(options.out_file, calibration::calibration_json(whole));
-  return system::kExitOk;
+  if (!options.out_file.empty()) launcher::write_output(options.out_file, calibration::calibration_json(whole));
+  return launcher::kExitOk;
 }
 
 }  // namespace
 
 int calibrate_command(const CalibrateOptions& options) {
-  const std::string text = system::evaluate_table("robot", options.robot);
-  if (system::checked([&] { return config::robot_kind(text, options.robot); }) == "serial")
-    throw system::BadInput("--robot: '" + options.robot +
-                           "': has a serial arm, whose encoders are absolute: allowed a cable arm; its zeros are "
-                           "drives.zero_counts of its table");
-  const system::TableText table = system::buses_of(options.robot, text, options.bus);
-  const config::BusesConfig buses = system::checked([&] { return config::parse_buses(table.json, table.name); });
+  const std::string text = launcher::evaluate_table("robot", options.robot);
+  if (launcher::checked([&] { return config::robot_kind(text, options.robot); }) == "serial")
+    throw launcher::BadInput("--robot: '" + options.robot +
+                             "': has a serial arm, whose encoders are absolute: allowed a cable arm; its zeros are "
+                             "drives.zero_counts of its table");
+  const launcher::TableText table = launcher::buses_of(options.robot, text, options.bus);
+  const config::BusesConfig buses = launcher::checked([&] { return config::parse_buses(table.json, table.name); });
   const bool simulated = buses.backend == "embedded";
   if (!simulated && !options.cross_wired.empty())
-    throw system::BadInput("--cross-wired: '" + options.cross_wired + "': bus table " + table.name +
-                           " has real drives: allowed with the simulated arm only, --bus=embedded: leave it out");
+    throw launcher::BadInput("--cross-wired: '" + options.cross_wired + "': bus table " + table.name +
+                             " has real drives: allowed with the simulated arm only, --bus=embedded: leave it out");
   const config::RobotConfig robot =
-      system::checked([&] { return config::parse_robot(text, options.robot, options.physics, buses); });
-  system::check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
-  if (!options.out_file.empty()) system::check_output("--out", options.out_file);
+      launcher::checked([&] { return config::parse_robot(text, options.robot, options.physics, buses); });
+  launcher::check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
+  if (!options.out_file.empty()) launcher::check_output("--out", options.out_file);
   if (options.friction) return measure_friction(options, simulated, robot);
   if (!options.calibration.empty())
-    throw system::BadInput("--calibration: '" + options.calibration + "': allowed with --friction only: leave it out");
+    throw launcher::BadInput("--calibration: '" + options.calibration +
+                             "': allowed with --friction only: leave it out");
   const std::vector<std::string> poses = poses_of(options, robot);
   std::vector<cable::ThetaVector> thetas_rad;
   try {
     for (const std::string& pose : poses) thetas_rad.push_back(calibration::named_pose_rad(robot, pose));
     calibration::check_poses(robot, thetas_rad);
   } catch (const std::runtime_error& error) {
-    throw system::BadInput("--poses: '" + list_of(poses) + "': " + error.what() +
-                           (options.poses.empty() ? "; or name poses in the table, fixture_poses" : ""));
+    throw launcher::BadInput("--poses: '" + list_of(poses) + "': " + error.what() +
+                             (options.poses.empty() ? "; or name poses in the table, fixture_poses" : ""));
   }
   const calibration::CalibrationResult result =
       calibration::calibrate(robot, read_all(options, simulated, poses, thetas_rad), calibration::today_utc());
   show(result, options.json);
-  if (!result.problems.empty()) return system::kExitFailure;
+  if (!result.problems.empty()) return launcher::kExitFailure;
   if (!options.out_file.empty())
-    system::write_output(options.out_file, calibration::calibration_json(result.calibration));
-  return system::kExitOk;
+    launcher::write_output(options.out_file, calibration::calibration_json(result.calibration));
+  return launcher::kExitOk;
 }
 
 }  // namespace liana::cli

@@ -22,7 +22,7 @@ std::vector<double> numbers_in(const std::string& path) {
   return numbers;
 }
 
-DryRun dry_run(const system::SystemLayout& plan, const report::ReportSources& sources) {
+DryRun dry_run(const launcher::SystemLayout& plan, const report::ReportSources& sources) {
   DryRun run;
   run.report = report::make_report(sources);
   run.steps = report::steps_with_ticks(sources);
@@ -46,24 +46,24 @@ bool publish(const Json& report, bool is_serial, const std::string& file) {
 }  // namespace
 
 // The lianad of the dry run must not be found by those who look for the arm's: it has a runtime directory of its own.
-int check_command(const system::RunOptions& given) {
+int check_command(const launcher::RunOptions& given) {
   const Clock::time_point began = Clock::now();
-  system::RunOptions options = given;
+  launcher::RunOptions options = given;
   options.is_dry_run = true;
   options.time = "fast";
-  const system::SystemLayout plan = system::make_layout(options);
+  const launcher::SystemLayout plan = launcher::make_layout(options);
   setenv("XDG_RUNTIME_DIR", plan.socket_dir.c_str(), 1);
-  system::RunSession session(plan);
-  const system::RunEnd end = session.run();
+  launcher::RunSession session(plan);
+  const launcher::RunResult end = session.run();
   DryRun run;
   if (!end.bad_input) run = dry_run(plan, report_sources(options, plan, session, end));
-  system::discard(plan);
-  if (end.bad_input) throw system::BadInput(end.message);
+  launcher::discard(plan);
+  if (end.bad_input) throw launcher::BadInput(end.message);
   if (!end.message.empty()) std::fprintf(stderr, "liana: %s\n", end.message.c_str());
   run.wall_time_s = std::chrono::duration<double>(Clock::now() - began).count();
   const Json report = check_report(run);
   const bool written = publish(report, plan.is_serial, options.report_file);
-  return report["outcome"] == "success" && written ? system::kExitOk : system::kExitFailure;
+  return report["outcome"] == "success" && written ? launcher::kExitOk : launcher::kExitFailure;
 }
 
 }  // namespace liana::cli

@@ -11,13 +11,13 @@
 namespace liana::cli {
 namespace {
 
-using report::CommandLife;
+using report::CommandRecord;
 
 // Ticks in which commands of one step were asked for.
 struct Span {
   std::uint64_t first = 0;
   std::uint64_t end = std::numeric_limits<std::uint64_t>::max();
-  bool contains(const CommandLife& life) const { return life.tick >= first && life.tick < end; }
+  bool contains(const CommandRecord& life) const { return life.tick >= first && life.tick < end; }
 };
 
 Span span_of(const Json& step) {
@@ -26,10 +26,10 @@ Span span_of(const Json& step) {
 }
 
 // Of every limit the least that a command left of it, null where none was held against it.
-Json least_margins(const std::vector<CommandLife>& lives, const Span& span) {
+Json min_margins(const std::vector<CommandRecord>& lives, const Span& span) {
   Json least = Json::object();
   for (const char* name : event::kMarginNames) least[name] = nullptr;
-  for (const CommandLife& life : lives) {
+  for (const CommandRecord& life : lives) {
     if (!span.contains(life) || !life.simulation || !life.simulation->margins) continue;
     for (std::size_t i = 0; i < event::kMargins; ++i) {
       const double margin = (*life.simulation->margins)[i];
@@ -40,9 +40,9 @@ Json least_margins(const std::vector<CommandLife>& lives, const Span& span) {
   return least;
 }
 
-std::size_t count(const std::vector<CommandLife>& lives, const Span& span, bool (CommandLife::*counts)() const) {
+std::size_t count(const std::vector<CommandRecord>& lives, const Span& span, bool (CommandRecord::*counts)() const) {
   return static_cast<std::size_t>(std::count_if(
-      lives.begin(), lives.end(), [&](const CommandLife& life) { return span.contains(life) && (life.*counts)(); }));
+      lives.begin(), lives.end(), [&](const CommandRecord& life) { return span.contains(life) && (life.*counts)(); }));
 }
 
 Json steps_json(const DryRun& run) {
@@ -50,15 +50,15 @@ Json steps_json(const DryRun& run) {
   for (std::size_t i = 0; i < run.steps.size(); ++i) {
     const Span span = span_of(run.steps[i]);
     Json step = run.report["steps"][i];
-    step["commands"] = count(run.lives, span, &CommandLife::is_command);
-    step["refused"] = count(run.lives, span, &CommandLife::is_refused);
-    step["margins"] = least_margins(run.lives, span);
+    step["commands"] = count(run.lives, span, &CommandRecord::is_command);
+    step["refused"] = count(run.lives, span, &CommandRecord::is_refused);
+    step["margins"] = min_margins(run.lives, span);
     steps.push_back(step);
   }
   return steps;
 }
 
-Json step_name(const Json& steps, const CommandLife& life) {
+Json step_name(const Json& steps, const CommandRecord& life) {
   for (const Json& step : steps) {
     if (span_of(step).contains(life)) return step.value("name", "");
   }
@@ -66,7 +66,7 @@ Json step_name(const Json& steps, const CommandLife& life) {
 }
 
 // A command has a code, with a name and a remedy; a request has its answer.
-Json first_of(const DryRun& run, const CommandLife& life) {
+Json first_of(const DryRun& run, const CommandRecord& life) {
   Json out = {{"code", nullptr},
               {"name", nullptr},
               {"action", nullptr},
@@ -76,7 +76,7 @@ Json first_of(const DryRun& run, const CommandLife& life) {
               {"time_s", static_cast<double>(life.tick) * run.period_s},
               {"text", life.refusal->text}};
   if (!life.is_command()) return out;
-  const verify::RefusalRow& row = verify::row_of(static_cast<verify::Refusal>(life.refusal->number));
+  const verification::RefusalRow& row = verification::row_of(static_cast<verification::Refusal>(life.refusal->number));
   out["code"] = life.refusal->number;
   out["name"] = row.name;
   out["action"] = life.refusal->subject;
@@ -92,7 +92,7 @@ bool is_like(const Json& group, const Json& refusal) {
 // A steering hand is refused once an interval for as long as it goes on: what is alike within a step is told once.
 Json refusals_json(const DryRun& run) {
   Json groups = Json::array();
-  for (const CommandLife& life : run.lives) {
+  for (const CommandRecord& life : run.lives) {
     if (!life.is_refused()) continue;
     const Json refusal = first_of(run, life);
     const auto group =
@@ -168,11 +168,11 @@ Json check_report(const DryRun& run) {
           {"physics", report["physics"]},
           {"seed", report["seed"]},
           {"steps", steps_json(run)},
-          {"commands", count(run.lives, {}, &CommandLife::is_command)},
-          {"refused", count(run.lives, {}, &CommandLife::is_refused)},
+          {"commands", count(run.lives, {}, &CommandRecord::is_command)},
+          {"refused", count(run.lives, {}, &CommandRecord::is_refused)},
           {"refusals", refusals_json(run)},
           {"faults", report["faults"]},
-          {"margins", least_margins(run.lives, {})},
+          {"margins", min_margins(run.lives, {})},
           {"min_clearance_m", report.member_or_null("min_clearance_m")},
           {"verify_us", median_and_worst(run.verify_us)},
           {"arm_time_s", report["duration_s"]},

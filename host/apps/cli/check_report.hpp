@@ -15,7 +15,7 @@ struct DryRun {
   Json report;  // of the run (report::make_report)
   Json steps;   // report::steps_with_ticks
   double period_s = 0.0;
-  std::vector<report::CommandLife> lives;
+  std::vector<report::CommandRecord> lives;
   std::vector<double> verify_us;  // of each command
   double wall_time_s = 0.0;       // of the whole dry run, from tables to report
 };

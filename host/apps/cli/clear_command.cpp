@@ -27,15 +27,15 @@ struct Clearing {
 };
 
 std::string only_system(const std::string& given) {
-  const std::vector<std::string> systems = system::systems_to_ask(given);
+  const std::vector<std::string> systems = launcher::systems_to_ask(given);
   if (systems.size() == 1) return systems.front();
   std::string names;
   for (const std::string& system : systems) names += (names.empty() ? "" : ", ") + system;
-  throw system::BadInput("clear: several systems run: " + names + "; name the one you have looked at with --api");
+  throw launcher::BadInput("clear: several systems run: " + names + "; name the one you have looked at with --api");
 }
 
 Json state_of(api::ApiClient& client) {
-  auto state = system::wait_for(client, "state", kAnswerTimeout_s);
+  auto state = launcher::wait_for(client, "state", kAnswerTimeout_s);
   if (!state) throw std::runtime_error("lianad runs but sent no state within 5 s");
   return *state;
 }
@@ -52,7 +52,7 @@ void require_settled(const Clearing& before, const Json& state) {
 void ask(api::ApiClient& client, Json request, int id) {
   request["id"] = id;
   client.send(request);
-  if (!system::wait_for(client, "ok", kAnswerTimeout_s))
+  if (!launcher::wait_for(client, "ok", kAnswerTimeout_s))
     throw std::runtime_error("lianad did not answer " + request.value("op", "") + " within 5 s");
 }
 
@@ -60,7 +60,7 @@ void ask(api::ApiClient& client, Json request, int id) {
 event::Event verdict(api::ApiClient& client) {
   const auto deadline = Clock::now() + std::chrono::duration<double>(kVerdictTimeout_s);
   while (Clock::now() < deadline) {
-    const auto message = system::wait_for(client, "event", kAnswerTimeout_s);
+    const auto message = launcher::wait_for(client, "event", kAnswerTimeout_s);
     if (message && message->value("kind", "") == event::event_kind_name(event::EventKind::kClear))
       return event::event_from_json(*message);
   }
@@ -68,7 +68,7 @@ event::Event verdict(api::ApiClient& client) {
 }
 
 void clear(api::ApiClient& client, Clearing& clearing) {
-  system::say_hello(client, "liana clear", system::Observer::kClient);
+  launcher::say_hello(client, "liana clear", launcher::Observer::kClient);
   const Json state = state_of(client);
   clearing.stop = state.value("stop", Json());
   clearing.faults = state.value("faults", Json::array());
@@ -126,7 +126,7 @@ int clear_command(const ClientOptions& options) {
     print_text(api, clearing);
   }
   if (!clearing.good) std::fprintf(stderr, "liana: %s: %s\n", api.c_str(), clearing.said.c_str());
-  return clearing.good ? system::kExitOk : system::kExitFailure;
+  return clearing.good ? launcher::kExitOk : launcher::kExitFailure;
 }
 
 }  // namespace liana::cli

@@ -32,15 +32,15 @@ void attempt(Talk& talk, const Action& action) {
 
 // Greets every system before anything is waited for: one that hangs must not keep a stop from the others.
 template <typename Action>
-std::vector<Talk> begin_talks(const ClientOptions& options, const char* name, system::Observer observer,
+std::vector<Talk> begin_talks(const ClientOptions& options, const char* name, launcher::Observer observer,
                               const Action& action) {
   std::vector<Talk> talks;
-  for (const std::string& api : system::systems_to_ask(options.api)) {
+  for (const std::string& api : launcher::systems_to_ask(options.api)) {
     Talk& talk = talks.emplace_back();
     talk.api = api;
     attempt(talk, [&] {
       talk.client.emplace(api::ApiClient::connect(api, kConnectTimeout_s));
-      system::say_hello(*talk.client, name, observer);
+      launcher::say_hello(*talk.client, name, observer);
       action(*talk.client);
     });
   }
@@ -51,7 +51,7 @@ std::vector<Talk> begin_talks(const ClientOptions& options, const char* name, sy
 Json answer_of(Talk& talk, const char* op, const char* missing) {
   Json answer;
   attempt(talk, [&] {
-    auto message = system::wait_for(*talk.client, op, kAnswerTimeout_s);
+    auto message = launcher::wait_for(*talk.client, op, kAnswerTimeout_s);
     if (!message) throw std::runtime_error(missing);
     answer = std::move(*message);
   });
@@ -63,8 +63,8 @@ int exit_code_of(const std::vector<Talk>& talks) {
     if (!talk.problem.empty()) std::fprintf(stderr, "liana: %s: %s\n", talk.api.c_str(), talk.problem.c_str());
   }
   return std::all_of(talks.begin(), talks.end(), [](const Talk& talk) { return talk.problem.empty(); })
-             ? system::kExitOk
-             : system::kExitFailure;
+             ? launcher::kExitOk
+             : launcher::kExitFailure;
 }
 
 void print_state(const std::string& api, const Json& state) {
@@ -99,7 +99,7 @@ void print_state(const std::string& api, const Json& state) {
 }  // namespace
 
 int status_command(const ClientOptions& options) {
-  std::vector<Talk> talks = begin_talks(options, "liana status", system::Observer::kSeeing, [](api::ApiClient&) {});
+  std::vector<Talk> talks = begin_talks(options, "liana status", launcher::Observer::kSeeing, [](api::ApiClient&) {});
   for (Talk& talk : talks) {
     Json state = answer_of(talk, "state", "lianad runs but sent no state within 5 s");
     if (!talk.problem.empty()) continue;

@@ -105,22 +105,22 @@ struct PlanOptions {
 int plan_command(const PlanOptions& options);
 
 // Starts the whole system, runs one mission, reports; exit code 0 only on success.
-int run_command(const system::RunOptions& options);
+int run_command(const launcher::RunOptions& options);
 
 // The same without anything that moves and without a trace: virtual time on the embedded bus, found by nobody else's
 // status, estop or clear. Says what the steps leave of the limits and what is refused; exit code 0 only on success.
-int check_command(const system::RunOptions& given);
+int check_command(const launcher::RunOptions& given);
 
 struct ConsoleOptions {
-  SystemWish wish;
-  system::GatewayOptions gateway;  // where it listens, who may
+  SystemSelection wish;
+  launcher::GatewayOptions gateway;  // where it listens, who may
   bool json = false;
 };
 // The console of a running system, or of a simulated arm without a mission; tells the address, ends with Ctrl-C.
 int console_command(const ConsoleOptions& options);
 
 struct TeleopOptions {
-  SystemWish wish;
+  SystemSelection wish;
   std::string gamepad;  // its device; empty: keys alone
 };
 // Drives the arm from this terminal, of a running system or a simulated one, until x or Ctrl-C
@@ -239,7 +239,7 @@ struct CommandsOptions {
   bool json = false;
 };
 // What became of the commands of a run: both verdicts, release, start, completion, refusals.
-int commands_command(const CommandsOptions& options);
+int command_log(const CommandsOptions& options);
 
 constexpr double kLatestArmTime_s = 1e9;
 
@@ -276,16 +276,16 @@ int export_command(const ExportOptions& options);
 
 // How far a motor on a desk is turned.
 struct JogOptions {
-  std::string by;                   // the way, signed, in `unit`
-  std::string speed;                // in `unit` a second; empty: 0.05 turns/s
-  std::string unit = "turns";       // of the motor; or deg, mm
-  std::string mm_per_turn;          // for mm
-  std::string counts_per_turn;      // empty: the drive's 608F
-  std::string most = "0.25";        // turns
-  std::string most_speed = "0.25";  // turns/s
-  std::string torque = "300";       // permille of rated
-  bool yes = false;                 // without a typed word
-  bool clear = false;               // a fault from before
+  std::string by;                  // the way, signed, in `unit`
+  std::string speed;               // in `unit` a second; empty: 0.05 turns/s
+  std::string unit = "turns";      // of the motor; or deg, mm
+  std::string mm_per_turn;         // for mm
+  std::string counts_per_turn;     // empty: the drive's 608F
+  std::string most = "0.25";       // turns
+  std::string max_speed = "0.25";  // turns/s
+  std::string torque = "300";      // permille of rated
+  bool yes = false;                // without a typed word
+  bool clear = false;              // a fault from before
 };
 
 struct DriveOptions {

@@ -125,7 +125,7 @@ std::string names_of(const CommandHelp& command) {
 }
 
 void print_bash(const std::vector<CommandHelp>& commands) {
-  std::printf("_liana_program=%s\n", quoted(places::program_folder() + "/liana").c_str());
+  std::printf("_liana_program=%s\n", quoted(install_paths::program_folder() + "/liana").c_str());
   std::puts("declare -gA _liana_words=(");
   for (const CommandHelp& command : commands)
     std::printf("  [%s]=%s\n", quoted(command.path).c_str(), quoted(names_of(command)).c_str());
@@ -140,7 +140,7 @@ void print_bash(const std::vector<CommandHelp>& commands) {
 }
 
 void print_zsh(const std::vector<CommandHelp>& commands) {
-  std::printf("#compdef liana\n_liana_program=%s\n", quoted(places::program_folder() + "/liana").c_str());
+  std::printf("#compdef liana\n_liana_program=%s\n", quoted(install_paths::program_folder() + "/liana").c_str());
   std::puts("typeset -ga _liana_commands=(");
   for (const CommandHelp& command : commands) std::printf("  %s\n", quoted(command.path).c_str());
   std::puts(")\n_liana_list() {\n  case $1 in");
@@ -165,7 +165,7 @@ void print_zsh(const std::vector<CommandHelp>& commands) {
 // The names that there are in the Lua folders.
 void print_names(const std::string& table) {
   std::set<std::string> names;
-  for (const std::string& folder : places::lua_folders()) {
+  for (const std::string& folder : install_paths::lua_folders()) {
     std::error_code unreadable;
     for (const auto& entry : fs::directory_iterator(fs::path(folder) / table, unreadable)) {
       if (entry.path().extension() == ".lua") names.insert(entry.path().stem().string());
@@ -184,9 +184,9 @@ int completion_command(const std::string& what, const std::vector<CommandHelp>& 
   } else if (std::find(kKinds.begin(), kKinds.end(), what) != kKinds.end()) {
     print_names(what);
   } else {
-    throw system::BadInput("completion: '" + what + "': allowed: bash, zsh, robots, scenes, buses, missions");
+    throw launcher::BadInput("completion: '" + what + "': allowed: bash, zsh, robots, scenes, buses, missions");
   }
-  return system::kExitOk;
+  return launcher::kExitOk;
 }
 
 }  // namespace liana::cli

@@ -29,7 +29,7 @@ void tell(const ConsoleOptions& options, const std::string& api, const std::stri
 // For the gateway's log.
 class Folder {
  public:
-  Folder() : path_(system::temporary_directory()) {}
+  Folder() : path_(launcher::temporary_directory()) {}
   ~Folder() {
     std::error_code error;
     std::filesystem::remove_all(path_, error);
@@ -44,40 +44,40 @@ class Folder {
 
 // Nothing of the system belongs to us: it goes on when the console ends.
 int attach(const ConsoleOptions& options, const std::string& api) {
-  const system::InterruptGuard interrupts;
+  const launcher::InterruptGuard interrupts;
   const Folder folder;
-  const system::GatewayProcess gateway(api, options.gateway, folder.file("liana-gateway.log"));
+  const launcher::GatewayProcess gateway(api, options.gateway, folder.file("liana-gateway.log"));
   tell(options, api, gateway.address());
   while (interrupts.count() == 0) std::this_thread::sleep_for(kLook);
-  return system::kExitOk;
+  return launcher::kExitOk;
 }
 
-void simulate_and_show(const ConsoleOptions& options, const system::SystemLayout& plan) {
-  system::ConsoleSession session(plan);
+void simulate_and_show(const ConsoleOptions& options, const launcher::SystemLayout& plan) {
+  launcher::ConsoleSession session(plan);
   session.start();
-  const system::GatewayProcess gateway(plan.api_socket(), options.gateway, plan.file("liana-gateway.log"));
+  const launcher::GatewayProcess gateway(plan.api_socket(), options.gateway, plan.file("liana-gateway.log"));
   tell(options, plan.api_socket(), gateway.address());
   while (session.go_on()) {
   }
 }
 
 int simulate(const ConsoleOptions& options) {
-  system::RunOptions run = options.wish.run;
+  launcher::RunOptions run = options.wish.run;
   run.time = "paced";
   run.is_session = true;
-  const system::SystemLayout plan = system::make_layout(run);
+  const launcher::SystemLayout plan = launcher::make_layout(run);
   try {
     simulate_and_show(options, plan);
-  } catch (const system::BadInput&) {
-    system::discard(plan);
+  } catch (const launcher::BadInput&) {
+    launcher::discard(plan);
     throw;
   } catch (...) {
     std::fprintf(stderr, "liana: logs are kept in %s\n", plan.directory.c_str());
     throw;
   }
-  system::clean_up(plan, true);
+  launcher::clean_up(plan, true);
   std::fprintf(stderr, "recorded in %s; liana view makes a page of it\n", plan.directory.c_str());
-  return system::kExitOk;
+  return launcher::kExitOk;
 }
 
 }  // namespace

@@ -11,22 +11,22 @@
 namespace liana::cli {
 namespace {
 
-constexpr config::Range kPlace{-100, 100};            // m
-constexpr double kLeastGap_m = 0.001 * (1.0 - 1e-9);  // between the curve's points: 1 mm in decimals counts as 1 mm
+constexpr config::Range kPlace{-100, 100};          // m
+constexpr double kMinGap_m = 0.001 * (1.0 - 1e-9);  // between the curve's points: 1 mm in decimals counts as 1 mm
 
 std::vector<Vec3> points_of(const config::Field& curve) {
   curve.only({"points_m"});
   const config::Field rows = curve.at("points_m");
   const std::size_t count =
-      rows.size(2, plan::kMaxFollowPoints, "give the points of the curve in order, the tip's place first");
+      rows.size(2, planner::kMaxFollowPoints, "give the points of the curve in order, the tip's place first");
   std::vector<Vec3> points;
   for (std::size_t i = 0; i < count; ++i) {
     points.push_back(rows.element(i).numbers<3>(kPlace));
     if (i == 0) continue;
     const double gap_m = norm(subtract(points[i], points[i - 1]));
-    if (gap_m < kLeastGap_m)
+    if (gap_m < kMinGap_m)
       rows.element(i).refuse(
-          plan::text("points at least 1 mm apart; this is %.3f mm from the one before", 1000.0 * gap_m),
+          planner::text("points at least 1 mm apart; this is %.3f mm from the one before", 1000.0 * gap_m),
           "leave one of them out");
   }
   return points;
@@ -43,8 +43,8 @@ std::vector<Vec3> read_curve(const std::string& path) {
   const std::string name = "--follow: " + path;
   std::error_code unreadable;
   if (!std::filesystem::is_regular_file(path, unreadable))
-    throw system::BadInput(name + ": no such file; give a JSON file with points_m, or slit");
-  return system::checked([&] { return parse_curve(config::read_text_file(path), name); });
+    throw launcher::BadInput(name + ": no such file; give a JSON file with points_m, or slit");
+  return launcher::checked([&] { return parse_curve(config::read_text_file(path), name); });
 }
 
 }  // namespace liana::cli

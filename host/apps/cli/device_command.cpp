@@ -19,12 +19,12 @@ namespace {
 class Asked {
  public:
   explicit Asked(const std::string& api) : client_(api::ApiClient::connect(api, kConnectTimeout_s)) {
-    system::say_hello(client_, "liana device", system::Observer::kBlind);
+    launcher::say_hello(client_, "liana device", launcher::Observer::kBlind);
   }
   // Throws std::runtime_error, also for an arm that has no devices.
   Json devices() {
     client_.send({{"op", "devices"}, {"id", 1}});
-    const auto answer = system::wait_for(client_, "ok", kAnswerTimeout_s);
+    const auto answer = launcher::wait_for(client_, "ok", kAnswerTimeout_s);
     if (!answer) throw std::runtime_error("lianad runs but did not answer within 5 s");
     return answer->at("devices");
   }
@@ -84,8 +84,8 @@ void print_device(const Json& device) {
 }  // namespace
 
 int device_list_command(const DeviceOptions& options) {
-  int code = system::kExitOk;
-  for (const std::string& api : system::systems_to_ask(options.api)) {
+  int code = launcher::kExitOk;
+  for (const std::string& api : launcher::systems_to_ask(options.api)) {
     try {
       const Json devices = Asked(api).devices();
       if (options.json) {
@@ -95,7 +95,7 @@ int device_list_command(const DeviceOptions& options) {
       }
     } catch (const std::exception& error) {
       std::fprintf(stderr, "liana: %s: %s\n", api.c_str(), error.what());
-      code = system::kExitFailure;
+      code = launcher::kExitFailure;
     }
   }
   return code;
@@ -104,10 +104,10 @@ int device_list_command(const DeviceOptions& options) {
 int device_watch_command(const DeviceOptions& options) {
   const double period_s = 1.0 / parse_number_in("--rate", options.rate_hz, 0.1, 50.0, "Hz");
   const double seconds = parse_number_in("--seconds", options.seconds, 0.1, 86400.0, "s");
-  const std::vector<std::string> systems = system::systems_to_ask(options.api);
-  if (systems.size() > 1) throw system::BadInput("--api: more than one system runs: give the socket of one");
+  const std::vector<std::string> systems = launcher::systems_to_ask(options.api);
+  if (systems.size() > 1) throw launcher::BadInput("--api: more than one system runs: give the socket of one");
   Asked asked(systems.front());
-  const system::InterruptGuard interrupts;
+  const launcher::InterruptGuard interrupts;
   for (double at_s = 0.0; at_s < seconds && interrupts.count() == 0; at_s += period_s) {
     const Json devices = asked.devices();
     const Json& device = find(devices, options.name);
@@ -119,7 +119,7 @@ int device_watch_command(const DeviceOptions& options) {
     std::fflush(stdout);
     std::this_thread::sleep_for(std::chrono::duration<double>(period_s));
   }
-  return system::kExitOk;
+  return launcher::kExitOk;
 }
 
 }  // namespace liana::cli

@@ -47,7 +47,7 @@ void print_outlook(const Json& said) {
 }
 
 // What a look at the boot of this drive has found.
-Json looked_at(DriveSession& session, desk::Place at, const canopen::DriveExpectation& drive,
+Json looked_at(DriveSession& session, commissioning::Place at, const canopen::ExpectedDrive& drive,
                canopen::BootReference reference) {
   const std::unique_ptr<canopen::BootNode> node = session.desk.look_at_boot(drive);
   Json said = outlook(*node);
@@ -67,8 +67,8 @@ void print_refusals(const Json& said) {
 }
 
 int check_one(DriveSession& session, const DriveOptions& options, std::uint8_t node) {
-  const desk::Place at = session.place(node);
-  if (const desk::Answer there = session.desk.read(at, 0x1000, 0); !there.is_done())
+  const commissioning::Place at = session.place(node);
+  if (const commissioning::Answer there = session.desk.read(at, 0x1000, 0); !there.is_done())
     return tell_failure(session, at, "reading 1000", there, options.json);
   const Json said = looked_at(session, at, expected_drive(session, at, options), canopen::BootReference::kDesk);
   const bool is_good = said["ok"].get<bool>();
@@ -82,19 +82,19 @@ int check_one(DriveSession& session, const DriveOptions& options, std::uint8_t n
     print_outlook(said);
     if (said.contains("warning")) std::printf("warning: %s\n", said["warning"].text().c_str());
   }
-  return is_good ? system::ExitCode::kExitOk : system::ExitCode::kExitFailure;
+  return is_good ? launcher::ExitCode::kExitOk : launcher::ExitCode::kExitFailure;
 }
 
-std::vector<canopen::DriveExpectation> drives_of_robot(const std::string& name, const config::BusesConfig& buses) {
-  const std::string robot = system::evaluate_table("robot", name);
-  return system::checked([&] {
+std::vector<canopen::ExpectedDrive> drives_of_robot(const std::string& name, const config::BusesConfig& buses) {
+  const std::string robot = launcher::evaluate_table("robot", name);
+  return launcher::checked([&] {
     if (config::robot_kind(robot, name) == "serial")
       return canopen::drive_expectations(config::parse_serial_robot(robot, name), buses);
     return canopen::drive_expectations(config::parse_robot(robot, name, "nominal", buses), buses);
   });
 }
 
-Json silent(const DriveSession& session, desk::Place at, const canopen::DriveExpectation& drive) {
+Json silent(const DriveSession& session, commissioning::Place at, const canopen::ExpectedDrive& drive) {
   return {{"node", at.node},
           {"type", drive.type.name},
           {"ok", false},
@@ -115,12 +115,11 @@ void print_robot(const DriveSession& session, const std::string& robot, const Js
   std::printf("%s: %d of %zu drives answer as they have to; nothing was written\n", robot.c_str(), good, all.size());
 }
 
-int check_robot(DriveSession& session, const DriveOptions& options,
-                const std::vector<canopen::DriveExpectation>& drives) {
+int check_robot(DriveSession& session, const DriveOptions& options, const std::vector<canopen::ExpectedDrive>& drives) {
   Json all = Json::array();
   int good = 0, answering = 0;
-  for (const canopen::DriveExpectation& drive : drives) {
-    const desk::Place at{drive.bus, drive.node};
+  for (const canopen::ExpectedDrive& drive : drives) {
+    const commissioning::Place at{drive.bus, drive.node};
     const bool answers = session.desk.read(at, 0x1000, 0).is_done();
     all.push_back(answers ? looked_at(session, at, drive, canopen::BootReference::kRobotTable)
                           : silent(session, at, drive));
@@ -134,7 +133,7 @@ int check_robot(DriveSession& session, const DriveOptions& options,
     print_robot(session, options.robot, all, good);
   }
   if (answering == 0) return kNobodyAnswers;
-  return is_good ? system::ExitCode::kExitOk : system::ExitCode::kExitFailure;
+  return is_good ? launcher::ExitCode::kExitOk : launcher::ExitCode::kExitFailure;
 }
 
 }  // namespace
@@ -148,7 +147,7 @@ int drive_check_command(const DriveOptions& options) {
     return check_one(session, options, node);
   }
   const config::BusesConfig buses = drive_buses(options);
-  const std::vector<canopen::DriveExpectation> drives = drives_of_robot(options.robot, buses);
+  const std::vector<canopen::ExpectedDrive> drives = drives_of_robot(options.robot, buses);
   DriveSession session(options);
   refuse_beside_a_master(session);
   return check_robot(session, options, drives);

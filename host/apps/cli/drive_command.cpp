@@ -19,13 +19,13 @@ namespace {
 
 config::ObjectId object_of(const std::string& text) {
   const Json json = text;
-  return system::checked([&] { return config::parse_object(config::Field(json, "drive", "OBJECT"), text); });
+  return launcher::checked([&] { return config::parse_object(config::Field(json, "drive", "OBJECT"), text); });
 }
 
-Json found_json(DriveSession& session, desk::Place at) {
+Json found_json(DriveSession& session, commissioning::Place at) {
   Json out = {{"bus", session.buses.buses[static_cast<std::size_t>(at.bus)].name}, {"node", at.node}};
   const auto add = [&](const char* key, std::uint16_t index, std::uint8_t sub) {
-    const desk::Answer answer = session.desk.read(at, index, sub);
+    const commissioning::Answer answer = session.desk.read(at, index, sub);
     if (!answer.is_done()) return;
     if (const std::optional<std::string> text = text_of(answer.bytes)) {
       out[key] = *text;
@@ -54,7 +54,7 @@ std::string described(const Json& found) {
          (found.contains("modes") ? (has_csp ? ", has csp" : ", has no csp") : ", is no CiA 402 drive");
 }
 
-bool is_of_another_size(const desk::Answer& answer) {
+bool is_of_another_size(const commissioning::Answer& answer) {
   constexpr std::array<std::uint32_t, 3> kLengths{0x06070010, 0x06070012, 0x06070013};
   return std::find(kLengths.begin(), kLengths.end(), answer.abort_code) != kLengths.end();
 }
@@ -62,26 +62,26 @@ bool is_of_another_size(const desk::Answer& answer) {
 }  // namespace
 
 int drive_scan_command(const DriveOptions& options) {
-  const auto first = static_cast<std::uint8_t>(parse_whole("--first", options.first, 1, kMostNode));
-  const auto last = static_cast<std::uint8_t>(parse_whole("--last", options.last, first, kMostNode));
+  const auto first = static_cast<std::uint8_t>(parse_whole("--first", options.first, 1, kMaxNode));
+  const auto last = static_cast<std::uint8_t>(parse_whole("--last", options.last, first, kMaxNode));
   DriveSession session(options);
   Json all = Json::array();
-  for (const desk::Place at : session.desk.scan(first, last)) all.push_back(found_json(session, at));
+  for (const commissioning::Place at : session.desk.scan(first, last)) all.push_back(found_json(session, at));
   if (options.json) {
     std::printf("%s\n", all.dump().c_str());
   } else {
     for (const Json& each : all) std::printf("%s\n", described(each).c_str());
     if (all.empty()) std::printf("nobody answers: check supply, bit rate, termination and node ids\n");
   }
-  return all.empty() ? kNobodyAnswers : system::ExitCode::kExitOk;
+  return all.empty() ? kNobodyAnswers : launcher::ExitCode::kExitOk;
 }
 
 int drive_read_command(const DriveOptions& options) {
   const config::ObjectId object = object_of(options.object);
   const std::uint8_t node = node_of(options);
   DriveSession session(options);
-  const desk::Place at = session.place(node);
-  const desk::Answer answer = session.desk.read(at, object.index, object.sub);
+  const commissioning::Place at = session.place(node);
+  const commissioning::Answer answer = session.desk.read(at, object.index, object.sub);
   if (!answer.is_done())
     return tell_failure(session, at, "reading " + config::object_name(object), answer, options.json);
   if (options.json) {
@@ -93,33 +93,33 @@ int drive_read_command(const DriveOptions& options) {
   } else {
     std::printf("%s = %s\n", config::object_name(object).c_str(), value_text(answer).c_str());
   }
-  return system::ExitCode::kExitOk;
+  return launcher::ExitCode::kExitOk;
 }
 
 int drive_write_command(const DriveOptions& options) {
   const config::ObjectId object = object_of(options.object);
   const std::int64_t bits = parse_whole("--bits", options.bits, 8, 32, ": 8, 16 or 32");
   if (bits != 8 && bits != 16 && bits != 32)
-    throw system::BadInput("--bits: '" + options.bits + "': allowed 8, 16 or 32, the size of the object");
+    throw launcher::BadInput("--bits: '" + options.bits + "': allowed 8, 16 or 32, the size of the object");
   const std::int64_t most = (std::int64_t{1} << bits) - 1;
   const std::int64_t value = value_of(options.value, bits);
   if (object.index == 0x6040 || object.index == 0x6060)
-    throw system::BadInput("OBJECT: " + options.object + ": this switches torque: allowed is any other object");
+    throw launcher::BadInput("OBJECT: " + options.object + ": this switches torque: allowed is any other object");
   const std::uint8_t node = node_of(options);
   std::array<std::uint8_t, 4> bytes{};
   for (std::size_t i = 0; i < 4; ++i) bytes[i] = static_cast<std::uint8_t>(value >> (8 * i));
   DriveSession session(options);
   refuse_beside_a_master(session);
-  const desk::Place at = session.place(node);
+  const commissioning::Place at = session.place(node);
   const std::string what = "writing " + options.value + " to " + config::object_name(object);
-  const desk::Answer written =
+  const commissioning::Answer written =
       session.desk.write(at, object.index, object.sub, {bytes.data(), static_cast<std::size_t>(bits / 8)});
   if (!written.is_done()) {
     const char* remedy =
         is_of_another_size(written) ? ": give --bits as liana drive read says them of this object" : "";
     return tell_failure(session, at, what, written, options.json, remedy);
   }
-  const desk::Answer answer = session.desk.read(at, object.index, object.sub);
+  const commissioning::Answer answer = session.desk.read(at, object.index, object.sub);
   const bool kept = answer.is_done() && answer.value() == (static_cast<std::uint32_t>(value) & most);
   if (options.json) {
     Json said = value_json(answer);
@@ -131,7 +131,7 @@ int drive_write_command(const DriveOptions& options) {
     std::printf("%s = %s%s\n", config::object_name(object).c_str(), value_text(answer).c_str(),
                 kept ? "" : ": the drive did not keep it");
   }
-  return kept ? system::ExitCode::kExitOk : system::ExitCode::kExitFailure;
+  return kept ? launcher::ExitCode::kExitOk : launcher::ExitCode::kExitFailure;
 }
 
 int drive_watch_command(const DriveOptions& options) {
@@ -140,9 +140,9 @@ int drive_watch_command(const DriveOptions& options) {
   const double seconds = parse_number_in("--seconds", options.seconds, 0.1, 86400.0, "s");
   const std::uint8_t node = node_of(options);
   DriveSession session(options);
-  const desk::Place at = session.place(node);
+  const commissioning::Place at = session.place(node);
   for (double at_s = 0.0; at_s < seconds; at_s += period_s) {
-    const desk::Answer answer = session.desk.read(at, object.index, object.sub);
+    const commissioning::Answer answer = session.desk.read(at, object.index, object.sub);
     if (!answer.is_done())
       return tell_failure(session, at, "reading " + config::object_name(object), answer, options.json);
     if (options.json) {
@@ -155,7 +155,7 @@ int drive_watch_command(const DriveOptions& options) {
     std::fflush(stdout);
     session.desk.wait(period_s);
   }
-  return system::ExitCode::kExitOk;
+  return launcher::ExitCode::kExitOk;
 }
 
 }  // namespace liana::cli

@@ -18,11 +18,11 @@
 namespace liana::cli {
 namespace {
 
-using desk::JogEnd;
+using commissioning::JogResult;
 
-constexpr double kLeastTurns = 0.001, kMostTurns = 100.0;  // of a way, and of a way in a second
-constexpr double kUsualTurns_per_s = 0.05;                 // where no speed is asked for
-constexpr double kWindowTurns = 0.02, kWindow_s = 0.1;     // behind its target a motor may be so far, and so long
+constexpr double kMinTurns = 0.001, kMaxTurns = 100.0;  // of a way, and of a way in a second
+constexpr double kUsualTurns_per_s = 0.05;              // where no speed is asked for
+constexpr double kWindowTurns = 0.02, kWindow_s = 0.1;  // behind its target a motor may be so far, and so long
 constexpr double kSettledTurns = 0.0005;
 constexpr std::uint16_t kDeadline_ms = 100;  // of targets: a desk has no real-time kernel
 
@@ -41,42 +41,43 @@ struct Way {
 
 double units_in_turn(const JogOptions& jog) {
   if (jog.unit != "mm" && !jog.mm_per_turn.empty())
-    throw system::BadInput("--mm-per-turn: given, but --by is in " + jog.unit +
-                           ": allowed only with --unit mm; add it, or leave this out");
+    throw launcher::BadInput("--mm-per-turn: given, but --by is in " + jog.unit +
+                             ": allowed only with --unit mm; add it, or leave this out");
   if (jog.unit == "turns") return 1.0;
   if (jog.unit == "deg") return 360.0;
-  if (jog.unit != "mm") throw system::BadInput("--unit: " + jog.unit + ": allowed are turns, deg and mm");
+  if (jog.unit != "mm") throw launcher::BadInput("--unit: " + jog.unit + ": allowed are turns, deg and mm");
   if (jog.mm_per_turn.empty())
-    throw system::BadInput("--unit: mm needs --mm-per-turn, the way of one turn of the motor: allowed 0.001 to 10000");
+    throw launcher::BadInput(
+        "--unit: mm needs --mm-per-turn, the way of one turn of the motor: allowed 0.001 to 10000");
   return parse_number_in("--mm-per-turn", jog.mm_per_turn, 0.001, 10000.0, "mm");
 }
 
-// An amount that is asked for in the unit of the way: its least is kLeastTurns.
+// An amount that is asked for in the unit of the way: its least is kMinTurns.
 struct Amount {
   const char* option;
-  const char* most_option;  // raises its most
-  double most_turns;
+  const char* max_option;  // raises its most
+  double max_turns;
   bool is_signed;
   const char* per;  // behind the unit
 };
 
 [[noreturn]] void refuse_turns(const Amount& amount, const std::string& text, bool is_too_much, const Way& way) {
   char range[96];
-  std::snprintf(range, sizeof range, "%g to %g ", kLeastTurns * way.per_turn, amount.most_turns * way.per_turn);
+  std::snprintf(range, sizeof range, "%g to %g ", kMinTurns * way.per_turn, amount.max_turns * way.per_turn);
   const std::string unit = way.unit + amount.per;
-  const std::string raise = is_too_much && amount.most_turns < kMostTurns
-                                ? std::string(", or raise ") + amount.most_option + " when nothing can be in the way"
+  const std::string raise = is_too_much && amount.max_turns < kMaxTurns
+                                ? std::string(", or raise ") + amount.max_option + " when nothing can be in the way"
                                 : "";
-  throw system::BadInput(std::string(amount.option) + ": " + text + " " + unit + ": allowed " + range + unit +
-                         (amount.is_signed ? " either way" : ", the sign of --by says which way") + ": ask for " +
-                         (is_too_much ? "less" : "an amount within it") + raise);
+  throw launcher::BadInput(std::string(amount.option) + ": " + text + " " + unit + ": allowed " + range + unit +
+                           (amount.is_signed ? " either way" : ", the sign of --by says which way") + ": ask for " +
+                           (is_too_much ? "less" : "an amount within it") + raise);
 }
 
 double parse_turns(const Amount& amount, const std::string& text, const Way& way) {
   const double turns = parse_number(amount.option, text) / way.per_turn;
   const double size = amount.is_signed ? std::fabs(turns) : turns;
-  const bool is_too_much = size > amount.most_turns * (1.0 + 1e-9);
-  if (is_too_much || size < kLeastTurns * (1.0 - 1e-9)) refuse_turns(amount, text, is_too_much, way);
+  const bool is_too_much = size > amount.max_turns * (1.0 + 1e-9);
+  if (is_too_much || size < kMinTurns * (1.0 - 1e-9)) refuse_turns(amount, text, is_too_much, way);
   return turns;
 }
 
@@ -84,8 +85,8 @@ Way way_of(const JogOptions& jog) {
   Way way;
   way.unit = jog.unit;
   way.per_turn = units_in_turn(jog);
-  const double most = parse_number_in("--most", jog.most, kLeastTurns, kMostTurns, "turns of the motor");
-  const double fastest = parse_number_in("--most-speed", jog.most_speed, kLeastTurns, kMostTurns, "turns/s");
+  const double most = parse_number_in("--most", jog.most, kMinTurns, kMaxTurns, "turns of the motor");
+  const double fastest = parse_number_in("--most-speed", jog.max_speed, kMinTurns, kMaxTurns, "turns/s");
   way.by_turns = parse_turns({"--by", "--most", most, true, ""}, jog.by, way);
   way.turns_per_s = jog.speed.empty() ? std::min(kUsualTurns_per_s, fastest)
                                       : parse_turns({"--speed", "--most-speed", fastest, false, "/s"}, jog.speed, way);
@@ -95,7 +96,7 @@ Way way_of(const JogOptions& jog) {
 void ask_for_the_word(const DriveOptions& options, const Way& way) {
   if (options.jog.yes) return;
   if (isatty(STDIN_FILENO) == 0)
-    throw system::BadInput("drive jog: nothing moves unasked: allowed is --yes, or the word jog typed at a terminal");
+    throw launcher::BadInput("drive jog: nothing moves unasked: allowed is --yes, or the word jog typed at a terminal");
   std::fprintf(stderr,
                "Node %s will turn its motor by %s, at %s/s, with at most %s permille of its rated torque.\n"
                "Nothing and nobody in the way, its emergency stop in reach? Type jog to move: ",
@@ -103,29 +104,29 @@ void ask_for_the_word(const DriveOptions& options, const Way& way) {
                options.jog.torque.c_str());
   std::string word;
   if (!std::getline(std::cin, word) || word != "jog")
-    throw system::BadInput("drive jog: \"" + word + "\": allowed is the word jog; nothing has moved");
+    throw launcher::BadInput("drive jog: \"" + word + "\": allowed is the word jog; nothing has moved");
 }
 
 // Encoder counts of one turn of the motor: as given, else as the drive says, or its type.
-std::uint32_t counts_per_turn(DriveSession& session, desk::Place at, const DriveOptions& options) {
+std::uint32_t counts_per_turn(DriveSession& session, commissioning::Place at, const DriveOptions& options) {
   constexpr std::int64_t kMost = 1 << 30;
   if (!options.jog.counts_per_turn.empty())
     return static_cast<std::uint32_t>(parse_whole("--counts-per-turn", options.jog.counts_per_turn, 1, kMost));
-  const desk::Answer counts = session.desk.read(at, 0x608F, 1), turns = session.desk.read(at, 0x608F, 2);
+  const commissioning::Answer counts = session.desk.read(at, 0x608F, 1), turns = session.desk.read(at, 0x608F, 2);
   const bool is_known = counts.is_done() && counts.value() > 0 && !drive_type_of(options).units.encoder;
   if (is_known) return counts.value() / std::max(1U, turns.is_done() ? turns.value() : 1U);
-  throw system::BadInput("--counts-per-turn: not given, and the drive has no 608F that says it: allowed 1 to " +
-                         std::to_string(kMost) + ", from the motor's data sheet");
+  throw launcher::BadInput("--counts-per-turn: not given, and the drive has no 608F that says it: allowed 1 to " +
+                           std::to_string(kMost) + ", from the motor's data sheet");
 }
 
 struct Prepared {
-  canopen::DriveExpectation drive;
-  desk::JogRequest request;
+  canopen::ExpectedDrive drive;
+  commissioning::JogRequest request;
   std::uint32_t counts_per_turn = 1;
 };
 
 // Boot and way: the drive's own torque, window and deadline are set narrow, too.
-Prepared prepare(DriveSession& session, desk::Place at, const DriveOptions& options, const Way& way) {
+Prepared prepare(DriveSession& session, commissioning::Place at, const DriveOptions& options, const Way& way) {
   Prepared out;
   out.drive = expected_drive(session, at, options);
   const std::uint32_t counts = counts_per_turn(session, at, options);
@@ -156,33 +157,33 @@ std::string emergency_said(std::uint16_t code) {
   return "emergency " + hex(code, 4) + ", " + canopen::emergency_text(code);
 }
 
-std::string why(const desk::JogOutcome& outcome) {
+std::string why(const commissioning::JogOutcome& outcome) {
   std::string code = emergency_said(outcome.emergency_code);
   switch (outcome.end) {
-    case JogEnd::kFaultBefore:
+    case JogResult::kFaultBefore:
       return "it has a fault: " + code + "; when its cause is gone, --clear makes it forget it";
-    case JogEnd::kNotEnabled:
+    case JogResult::kNotEnabled:
       return "not enabled within 5 s: " + code + "; is its STO input closed, and is its power stage supplied?";
-    case JogEnd::kFault:
+    case JogResult::kFault:
       return "the drive stopped by itself: " + code;
-    case JogEnd::kEmergency:
+    case JogResult::kEmergency:
       return code;
-    case JogEnd::kReportsLost:
+    case JogResult::kReportsLost:
       return "its reports stopped coming: is its cable, or its supply, off?";
-    case JogEnd::kHeartbeatLost:
+    case JogResult::kHeartbeatLost:
       return "its heartbeat stopped, or says that it is not operational any more";
-    case JogEnd::kRanAway:
+    case JogResult::kRanAway:
       return "the motor is not where it was told to be: is it blocked, too weak for --torque, or is "
              "--counts-per-turn another?";
-    case JogEnd::kTorque:
+    case JogResult::kTorque:
       return "it needed more than --torque: is it blocked, or loaded? Does the drive obey 6072?";
-    case JogEnd::kBounds:
+    case JogResult::kBounds:
       return "a target was out of bounds and was not sent: a mistake of this program, please report it";
-    case JogEnd::kNotSettled:
+    case JogResult::kNotSettled:
       return "it does not come to its goal: is --torque too low?";
-    case JogEnd::kNone:
-    case JogEnd::kArrived:
-    case JogEnd::kInterrupted:
+    case JogResult::kNone:
+    case JogResult::kArrived:
+    case JogResult::kInterrupted:
       break;
   }
   return "interrupted";
@@ -190,7 +191,7 @@ std::string why(const desk::JogOutcome& outcome) {
 
 std::string state_of(std::uint16_t statusword) { return drive_state_name(decode(statusword)); }
 
-Json sample_json(const desk::JogSample& sample, double turn) {
+Json sample_json(const commissioning::JogSample& sample, double turn) {
   Json out = {{"time_s", sample.time_s},
               {"position_counts", sample.seen.position_counts},
               {"moved_turns", sample.moved_counts / turn},
@@ -200,7 +201,7 @@ Json sample_json(const desk::JogSample& sample, double turn) {
   return out;
 }
 
-void print_sample(const desk::JogSample& sample, const Way& way, double turn) {
+void print_sample(const commissioning::JogSample& sample, const Way& way, double turn) {
   std::string current = "   -";
   if (sample.current_permille) {
     char text[16];
@@ -213,14 +214,14 @@ void print_sample(const desk::JogSample& sample, const Way& way, double turn) {
   std::fflush(stdout);
 }
 
-int exit_code(const desk::JogOutcome& outcome) {
-  if (outcome.end == JogEnd::kArrived && outcome.is_off) return system::ExitCode::kExitOk;
-  const bool is_interrupted = outcome.end == JogEnd::kInterrupted && outcome.is_off;
-  return is_interrupted ? system::ExitCode::kExitInterrupted : system::ExitCode::kExitFailure;
+int exit_code(const commissioning::JogOutcome& outcome) {
+  if (outcome.end == JogResult::kArrived && outcome.is_off) return launcher::ExitCode::kExitOk;
+  const bool is_interrupted = outcome.end == JogResult::kInterrupted && outcome.is_off;
+  return is_interrupted ? launcher::ExitCode::kExitInterrupted : launcher::ExitCode::kExitFailure;
 }
 
-Json outcome_json(const desk::JogOutcome& outcome, const Prepared& prepared) {
-  Json said = {{"ok", exit_code(outcome) == system::ExitCode::kExitOk},
+Json outcome_json(const commissioning::JogOutcome& outcome, const Prepared& prepared) {
+  Json said = {{"ok", exit_code(outcome) == launcher::ExitCode::kExitOk},
                {"node", prepared.drive.node},
                {"counts_per_turn", prepared.counts_per_turn},
                {"start_counts", outcome.start_counts},
@@ -229,13 +230,13 @@ Json outcome_json(const desk::JogOutcome& outcome, const Prepared& prepared) {
                {"most_torque_permille", outcome.most_torque_permille},
                {"is_off", outcome.is_off},
                {"status", state_of(outcome.statusword)}};
-  if (outcome.end != JogEnd::kArrived) said["why"] = why(outcome);
+  if (outcome.end != JogResult::kArrived) said["why"] = why(outcome);
   if (outcome.emergency_code != 0) said["emergency_code"] = outcome.emergency_code;
   return said;
 }
 
-int tell_outcome(const DriveSession& session, desk::Place at, const desk::JogOutcome& outcome, const Prepared& prepared,
-                 const Way& way, Json* json) {
+int tell_outcome(const DriveSession& session, commissioning::Place at, const commissioning::JogOutcome& outcome,
+                 const Prepared& prepared, const Way& way, Json* json) {
   if (json != nullptr) {
     Json said = outcome_json(outcome, prepared);
     said["samples"] = *json;
@@ -243,7 +244,7 @@ int tell_outcome(const DriveSession& session, desk::Place at, const desk::JogOut
   }
   const std::string moved = way.said(outcome.moved_counts / static_cast<double>(prepared.counts_per_turn));
   const std::string state = state_of(outcome.statusword), where = session.where(at);
-  if (outcome.end != JogEnd::kArrived) {
+  if (outcome.end != JogResult::kArrived) {
     std::fprintf(stderr, "liana: %s: %s; it has moved %s\n", where.c_str(), why(outcome).c_str(), moved.c_str());
   } else if (json == nullptr) {
     std::printf("%s moved %s (%d counts), at most %.1f %% of its rated torque\n", where.c_str(), moved.c_str(),
@@ -253,12 +254,12 @@ int tell_outcome(const DriveSession& session, desk::Place at, const desk::JogOut
     std::fprintf(stderr, "liana: %s does not say that it is disabled (%s): switch off its supply\n", where.c_str(),
                  state.c_str());
   } else if (json == nullptr) {
-    std::fprintf(outcome.end == JogEnd::kArrived ? stdout : stderr, "disabled: %s\n", state.c_str());
+    std::fprintf(outcome.end == JogResult::kArrived ? stdout : stderr, "disabled: %s\n", state.c_str());
   }
   return exit_code(outcome);
 }
 
-int tell_refusals(const DriveSession& session, desk::Place at, const canopen::BootNode& node, bool json) {
+int tell_refusals(const DriveSession& session, commissioning::Place at, const canopen::BootNode& node, bool json) {
   Json refusals = Json::array();
   for (const canopen::BootMismatch& mismatch : node.mismatches())
     refusals.push_back(canopen::describe({&mismatch, 1}, 0, session.bus_of(at), canopen::BootReference::kDesk));
@@ -266,7 +267,7 @@ int tell_refusals(const DriveSession& session, desk::Place at, const canopen::Bo
   if (json) std::printf("%s\n", said.dump().c_str());
   for (const Json& each : refusals) std::fprintf(stderr, "liana: refused: %s\n", each.text().c_str());
   std::fprintf(stderr, "liana: %s was not enabled: liana drive check says more\n", session.where(at).c_str());
-  return system::ExitCode::kExitFailure;
+  return launcher::ExitCode::kExitFailure;
 }
 
 }  // namespace
@@ -275,9 +276,10 @@ int drive_jog_command(const DriveOptions& options) {
   const Way way = way_of(options.jog);
   const config::DriveType type = drive_type_of(options);  // bad input before anything is asked
   if (type.is_cst)
-    throw system::BadInput("--type: " + options.type +
-                           ": follows torques, and jog leads positions: allowed is a type that follows positions, such "
-                           "as cia402_csp; drives that follow torques are moved as such with a robot only");
+    throw launcher::BadInput(
+        "--type: " + options.type +
+        ": follows torques, and jog leads positions: allowed is a type that follows positions, such "
+        "as cia402_csp; drives that follow torques are moved as such with a robot only");
   parse_whole("--torque", options.jog.torque, 10, 1000, " permille of rated torque");
   const std::uint8_t node = node_of(options);
   if (const std::string warning = nothing_stops(type); !warning.empty())
@@ -285,16 +287,16 @@ int drive_jog_command(const DriveOptions& options) {
   ask_for_the_word(options, way);
   DriveSession session(options);
   refuse_beside_a_master(session);
-  const desk::Place at = session.place(node);
-  if (const desk::Answer there = session.desk.read(at, 0x1000, 0); !there.is_done())
+  const commissioning::Place at = session.place(node);
+  if (const commissioning::Answer there = session.desk.read(at, 0x1000, 0); !there.is_done())
     return tell_failure(session, at, "reading 1000", there, options.json);
   const Prepared prepared = prepare(session, at, options, way);
-  desk::JogRun run(session.desk, prepared.drive);
+  commissioning::JogRun run(session.desk, prepared.drive);
   if (const canopen::BootNode& node = run.boot(); node.phase() != canopen::NodePhase::kOperational)
     return tell_refusals(session, at, node, options.json);
   Json samples = Json::array();
   const double turn = prepared.counts_per_turn;
-  const desk::JogOutcome outcome = run.jog(prepared.request, [&](const desk::JogSample& sample) {
+  const commissioning::JogOutcome outcome = run.jog(prepared.request, [&](const commissioning::JogSample& sample) {
     if (options.json) {
       samples.push_back(sample_json(sample, turn));
     } else {

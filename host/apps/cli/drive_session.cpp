@@ -22,16 +22,16 @@ constexpr double kSilence_s = 3.0;
 
 timing::TimeMode time_of(const DriveOptions& options) {
   const auto mode = timing::time_mode_from(options.time);
-  if (!mode) throw system::BadInput("--time: " + options.time + ": allowed are fast, paced and real");
+  if (!mode) throw launcher::BadInput("--time: " + options.time + ": allowed are fast, paced and real");
   return *mode;
 }
 
 // On a desk node 1, of a robot all.
 std::vector<std::int32_t> nodes_of(const DriveOptions& options) {
   if (options.robot.empty()) return {1};
-  const std::string robot = system::evaluate_table("robot", options.robot);
+  const std::string robot = launcher::evaluate_table("robot", options.robot);
   std::vector<std::int32_t> nodes(
-      static_cast<std::size_t>(system::checked([&] { return config::drive_count(robot, options.robot); })));
+      static_cast<std::size_t>(launcher::checked([&] { return config::drive_count(robot, options.robot); })));
   std::iota(nodes.begin(), nodes.end(), 1);
   return nodes;
 }
@@ -40,10 +40,10 @@ std::vector<std::int32_t> nodes_of(const DriveOptions& options) {
 
 config::BusesConfig drive_buses(const DriveOptions& options) {
   if (options.can.empty() == options.bus.empty())
-    throw system::BadInput("drive: say which bus: --can INTERFACE, or --bus TABLE (allowed is one of them)");
+    throw launcher::BadInput("drive: say which bus: --can INTERFACE, or --bus TABLE (allowed is one of them)");
   if (!options.bus.empty()) {
-    const std::string table = system::evaluate_table("buses", options.bus);
-    return system::checked([&] { return config::parse_buses(table, options.bus); });
+    const std::string table = launcher::evaluate_table("buses", options.bus);
+    return launcher::checked([&] { return config::parse_buses(table, options.bus); });
   }
   config::BusesConfig buses;
   buses.name = "desk";
@@ -59,8 +59,8 @@ config::BusesConfig drive_buses(const DriveOptions& options) {
 
 DriveSession::DriveSession(const DriveOptions& options)
     : buses(drive_buses(options)),
-      desk(system::checked(  // no bus where there should be one is bad input
-          [&] { return desk::Desk(buses, time_of(options), options.bus_socket, guard.any()); })),
+      desk(launcher::checked(  // no bus where there should be one is bad input
+          [&] { return commissioning::Desk(buses, time_of(options), options.bus_socket, guard.any()); })),
       silence(kSilence_s, [this, seen = desk.tick_count()](double since_s) mutable {
         const std::uint64_t now = desk.tick_count();
         if (now != std::exchange(seen, now)) return;
@@ -68,14 +68,14 @@ DriveSession::DriveSession(const DriveOptions& options)
                      since_s);
         if (!guard.any()) return;
         std::fprintf(stderr, "liana: interrupted; where the time of the bus stands still, no drive moves\n");
-        std::_Exit(system::ExitCode::kExitInterrupted);  // this command waits for the bus, which does not come back
+        std::_Exit(launcher::ExitCode::kExitInterrupted);  // this command waits for the bus, which does not come back
       }) {}
 
 std::uint8_t node_of(const DriveOptions& options) {
   if (options.node.empty())
-    throw system::BadInput("--node: not given: allowed 1 to " + std::to_string(kMostNode) +
-                           ": say which drive is meant; liana drive scan shows who answers");
-  return static_cast<std::uint8_t>(parse_whole("--node", options.node, 1, kMostNode));
+    throw launcher::BadInput("--node: not given: allowed 1 to " + std::to_string(kMaxNode) +
+                             ": say which drive is meant; liana drive scan shows who answers");
+  return static_cast<std::uint8_t>(parse_whole("--node", options.node, 1, kMaxNode));
 }
 
 std::string hex(std::uint32_t value, int digits) {
@@ -84,8 +84,8 @@ std::string hex(std::uint32_t value, int digits) {
   return text;
 }
 
-int tell_failure(const DriveSession& session, desk::Place at, const std::string& what, const desk::Answer& answer,
-                 bool json, const std::string& remedy) {
+int tell_failure(const DriveSession& session, commissioning::Place at, const std::string& what,
+                 const commissioning::Answer& answer, bool json, const std::string& remedy) {
   const bool silent = answer.status == canopen::SdoStatus::kTimeout;
   const std::string why = silent ? "no answer within 1 s: the node is missing, stopped, or has another id or bit rate"
                                  : "refused with abort code " + hex(answer.abort_code, 8) + ", " +
@@ -96,7 +96,7 @@ int tell_failure(const DriveSession& session, desk::Place at, const std::string&
     std::printf("%s\n", said.dump().c_str());
   }
   std::fprintf(stderr, "liana: %s: %s: %s\n", session.where(at).c_str(), what.c_str(), why.c_str());
-  return silent ? kNobodyAnswers : system::ExitCode::kExitFailure;
+  return silent ? kNobodyAnswers : launcher::ExitCode::kExitFailure;
 }
 
 std::string nothing_stops(const config::DriveType& type) {
@@ -111,17 +111,17 @@ void refuse_beside_a_master(DriveSession& session) {
 }
 
 config::DriveType drive_type_of(const DriveOptions& options) {
-  const std::string table = system::evaluate_table("drive", options.type);
-  return system::checked(
+  const std::string table = launcher::evaluate_table("drive", options.type);
+  return launcher::checked(
       [&] { return config::parse_drive_type(config::parse_json(table, options.type), options.type); });
 }
 
-canopen::DriveExpectation expected_drive(DriveSession& session, desk::Place at, const DriveOptions& options) {
+canopen::ExpectedDrive expected_drive(DriveSession& session, commissioning::Place at, const DriveOptions& options) {
   const auto said = [&](std::uint16_t index, std::uint8_t sub, std::uint32_t otherwise) {
-    const desk::Answer answer = session.desk.read(at, index, sub);
+    const commissioning::Answer answer = session.desk.read(at, index, sub);
     return answer.is_done() ? answer.value() : otherwise;
   };
-  canopen::DriveExpectation drive;
+  canopen::ExpectedDrive drive;
   drive.bus = at.bus;
   drive.node = at.node;
   drive.type = drive_type_of(options);

@@ -11,7 +11,7 @@
 namespace liana::cli {
 namespace {
 
-std::int64_t as_signed(const desk::Answer& answer) {
+std::int64_t as_signed(const commissioning::Answer& answer) {
   const std::uint32_t value = answer.value();
   const std::size_t bits = 8 * std::min<std::size_t>(4, answer.bytes.size());
   if (bits == 0 || bits == 32) return static_cast<std::int32_t>(value);
@@ -32,7 +32,7 @@ std::optional<std::string> text_of(const std::vector<std::uint8_t>& bytes) {
   return is_text && bytes.size() > 4 ? std::optional(std::string(bytes.begin(), end)) : std::nullopt;
 }
 
-Json value_json(const desk::Answer& answer) {
+Json value_json(const commissioning::Answer& answer) {
   Json out = {{"bytes", answer.bytes}};
   if (answer.bytes.size() <= 4) {
     out["unsigned"] = answer.value();
@@ -43,7 +43,7 @@ Json value_json(const desk::Answer& answer) {
   return out;
 }
 
-std::string value_text(const desk::Answer& answer) {
+std::string value_text(const commissioning::Answer& answer) {
   if (const std::optional<std::string> text = text_of(answer.bytes)) return "\"" + *text + "\"";
   if (answer.bytes.size() > 4) return bytes_text(answer.bytes);
   const std::int64_t number = as_signed(answer);
@@ -60,8 +60,8 @@ std::int64_t value_of(const std::string& text, std::int64_t bits) {
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data() + 2, text.data() + text.size(), value, 16);
   if (error != std::errc{} || end != text.data() + text.size() || value < 0 || value > most)
-    throw system::BadInput("VALUE: '" + text + "': allowed: 0x0 to " + hex(static_cast<std::uint32_t>(most), 1) +
-                           " for --bits " + std::to_string(bits));
+    throw launcher::BadInput("VALUE: '" + text + "': allowed: 0x0 to " + hex(static_cast<std::uint32_t>(most), 1) +
+                             " for --bits " + std::to_string(bits));
   return value;
 }
 

@@ -16,9 +16,9 @@ namespace liana::cli {
 std::optional<std::string> text_of(const std::vector<std::uint8_t>& bytes);
 
 // "0x000004D2  1234  (32 bits)", with the negative number where the sign bit is set; text in quotes; else all bytes.
-std::string value_text(const desk::Answer& answer);
+std::string value_text(const commissioning::Answer& answer);
 // `bytes`, and `unsigned` and `signed` of up to four of them, `text` of more where they are one.
-Json value_json(const desk::Answer& answer);
+Json value_json(const commissioning::Answer& answer);
 
 // A whole number that fits into 8, 16 or 32 bits: decimal, of either sign, or hexadecimal as value_text() has it.
 // Throws BadInput with what is allowed.

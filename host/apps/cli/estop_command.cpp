@@ -139,9 +139,9 @@ std::vector<api::Unseen> call_all(const std::string& given, std::vector<StopCall
   const auto call = [&calls](const std::string& api) { calls.emplace_back(api).go_on(); };
   if (given.empty()) return api::look_everywhere(call);
   try {
-    call(system::systems_to_ask(given).front());
-  } catch (const system::BadInput& error) {
-    throw system::BadInput(nothing_stopped(error.what()));
+    call(launcher::systems_to_ask(given).front());
+  } catch (const launcher::BadInput& error) {
+    throw launcher::BadInput(nothing_stopped(error.what()));
   }
   return {};
 }
@@ -149,7 +149,7 @@ std::vector<api::Unseen> call_all(const std::string& given, std::vector<StopCall
 [[noreturn]] void end_without_systems(const std::vector<api::Unseen>& unseen, bool all_seen) {
   const std::string text = nothing_stopped("No running system was found in " + api::places_to_look() +
                                            (unseen.empty() ? "" : "; could not look at " + places_of(unseen)));
-  if (all_seen) throw system::NothingStopped(text);
+  if (all_seen) throw launcher::NothingStopped(text);
   throw std::runtime_error(text);
 }
 
@@ -165,7 +165,7 @@ int estop_command(const ClientOptions& options) {
   for (const StopCall& call : calls) print(call, options.json);
   if (!unseen.empty()) std::fprintf(stderr, "liana: could not look for systems at %s\n", places_of(unseen).c_str());
   const bool all = std::all_of(calls.begin(), calls.end(), [](const StopCall& call) { return call.is_confirmed(); });
-  return all && all_seen ? system::kExitOk : system::kExitFailure;
+  return all && all_seen ? launcher::kExitOk : launcher::kExitFailure;
 }
 
 }  // namespace liana::cli

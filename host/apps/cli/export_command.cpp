@@ -10,18 +10,18 @@
 namespace liana::cli {
 
 int export_command(const ExportOptions& options) {
-  if (!options.file.empty()) system::check_output("--out", options.file);
-  const std::string text = system::evaluate_table("robot", options.robot);
+  if (!options.file.empty()) launcher::check_output("--out", options.file);
+  const std::string text = launcher::evaluate_table("robot", options.robot);
   const std::string table =
-      system::checked(
+      launcher::checked(
           [&] { return config::check_table("robot", config::parse_json(text, options.robot), options.robot); }) +
       "\n";
   if (options.file.empty()) {
     std::fputs(table.c_str(), stdout);
   } else {
-    system::write_output(options.file, table);
+    launcher::write_output(options.file, table);
   }
-  return system::kExitOk;
+  return launcher::kExitOk;
 }
 
 }  // namespace liana::cli

@@ -35,23 +35,23 @@ void print_text(const std::vector<report::FaultRow>& rows) {
   }
 }
 
-Json json_of(std::span<const verify::RefusalRow> rows) {
+Json json_of(std::span<const verification::RefusalRow> rows) {
   Json list = Json::array();
-  for (const verify::RefusalRow& row : rows) {
+  for (const verification::RefusalRow& row : rows) {
     list.push_back({{"code", static_cast<int>(row.code)},
                     {"name", row.name},
                     {"text", row.says},
                     {"unit", row.unit},
-                    {"action", verify::refusal_action_name(row.action)},
+                    {"action", verification::refusal_action_name(row.action)},
                     {"remedy", row.remedy}});
   }
   return list;
 }
 
 report::FaultTimes times_of(const std::string& robot) {
-  const std::string text = system::evaluate_table("robot", robot);
-  const system::TableText buses = system::buses_of(robot, text, "");
-  return system::checked([&]() -> report::FaultTimes {
+  const std::string text = launcher::evaluate_table("robot", robot);
+  const launcher::TableText buses = launcher::buses_of(robot, text, "");
+  return launcher::checked([&]() -> report::FaultTimes {
     const config::BusesConfig parsed = config::parse_buses(buses.json, buses.name);
     if (config::robot_kind(text, robot) == "serial") return {parsed.tick_s()};
     return {parsed.tick_s(), config::parse_robot(text, robot, "nominal", parsed).table.segment_count};
@@ -59,25 +59,25 @@ report::FaultTimes times_of(const std::string& robot) {
 }
 
 void print_refusals(const FaultsOptions& options) {
-  const std::span<const verify::RefusalRow> rows = verify::refusal_table();
+  const std::span<const verification::RefusalRow> rows = verification::refusal_table();
   if (options.json) {
     std::puts(json_of(rows).dump(1).c_str());
   } else if (options.markdown) {
-    std::fputs(verify::markdown_of(rows).c_str(), stdout);
+    std::fputs(verification::markdown_of(rows).c_str(), stdout);
   } else {
-    for (const verify::RefusalRow& row : rows)
+    for (const verification::RefusalRow& row : rows)
       std::printf("%d %s (%s): %s\n     %s\n", static_cast<int>(row.code), row.name,
-                  verify::refusal_action_name(row.action), row.says, row.remedy);
+                  verification::refusal_action_name(row.action), row.says, row.remedy);
   }
 }
 
 }  // namespace
 
 int faults_command(const FaultsOptions& options) {
-  if (options.json && options.markdown) throw system::BadInput("--json, --markdown: give one of them");
+  if (options.json && options.markdown) throw launcher::BadInput("--json, --markdown: give one of them");
   if (options.refusals) {
     print_refusals(options);
-    return system::kExitOk;
+    return launcher::kExitOk;
   }
   const std::vector<report::FaultRow> rows = report::fault_rows(times_of(options.robot));
   if (options.json) {
@@ -87,7 +87,7 @@ int faults_command(const FaultsOptions& options) {
   } else {
     print_text(rows);
   }
-  return system::kExitOk;
+  return launcher::kExitOk;
 }
 
 }  // namespace liana::cli

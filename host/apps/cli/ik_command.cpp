@@ -13,7 +13,7 @@ namespace liana::cli {
 namespace {
 
 // Fixes the held angles, at their own value where one was given.
-void hold(const std::string& text, const cable::RobotTable& robot, solve::GoalIkProblem& problem) {
+void hold(const std::string& text, const cable::RobotParams& robot, inverse_kinematics::GoalIkProblem& problem) {
   problem.held_rad = problem.from_rad;
   if (text.empty()) return;
   for (const HoldArgument& held : parse_hold(text, robot)) {
@@ -23,10 +23,11 @@ void hold(const std::string& text, const cable::RobotTable& robot, solve::GoalIk
   }
 }
 
-void aim_nodes(const std::vector<std::string>& texts, const cable::RobotTable& robot, solve::GoalIkProblem& problem) {
+void aim_nodes(const std::vector<std::string>& texts, const cable::RobotParams& robot,
+               inverse_kinematics::GoalIkProblem& problem) {
   if (texts.size() > problem.node.size()) {
-    throw system::BadInput("--control-point: " + std::to_string(texts.size()) + " given: allowed: at most " +
-                           std::to_string(problem.node.size()));
+    throw launcher::BadInput("--control-point: " + std::to_string(texts.size()) + " given: allowed: at most " +
+                             std::to_string(problem.node.size()));
   }
   for (std::size_t i = 0; i < texts.size(); ++i) {
     const ControlPointArgument point = parse_control_point(texts[i], robot);
@@ -34,7 +35,7 @@ void aim_nodes(const std::vector<std::string>& texts, const cable::RobotTable& r
   }
 }
 
-Json to_json(const solve::GoalIkResult& result, std::size_t theta_count, std::size_t node_count) {
+Json to_json(const inverse_kinematics::GoalIkResult& result, std::size_t theta_count, std::size_t node_count) {
   Json theta = Json::array();
   for (std::size_t i = 0; i < theta_count; ++i) theta.push_back(result.theta_rad[i] / kDegree);
   Json distances = Json::array(), reaches = Json::array();
@@ -62,22 +63,22 @@ void print_goal(const Json& answer) {
 }  // namespace
 
 int ik_command(const IkOptions& options) {
-  if (const auto serial = system::serial_robot_for_kinematics(options.robot))
+  if (const auto serial = launcher::serial_robot_for_kinematics(options.robot))
     return serial_ik_command(*serial, options);
-  const cable::RobotTable robot = system::robot_for_kinematics(options.robot).table;
-  solve::GoalIkProblem problem;
+  const cable::RobotParams robot = launcher::robot_for_kinematics(options.robot).table;
+  inverse_kinematics::GoalIkProblem problem;
   problem.from_rad = parse_theta_deg("--from-deg", options.from_deg, robot);
   problem.tip_in_base = parse_pose("--tip", options.tip);
   hold(options.hold, robot, problem);
   aim_nodes(options.control_points, robot, problem);
-  const solve::GoalIkResult result = solve::solve_goal(robot, problem);
+  const inverse_kinematics::GoalIkResult result = inverse_kinematics::solve_goal(robot, problem);
   const Json answer = to_json(result, static_cast<std::size_t>(robot.theta_count()), options.control_points.size());
   if (options.json) {
     std::puts(answer.dump().c_str());
   } else {
     print_goal(answer);
   }
-  return result.converged ? system::kExitOk : system::kExitNotConverged;
+  return result.converged ? launcher::kExitOk : launcher::kExitNotConverged;
 }
 
 }  // namespace liana::cli

@@ -27,7 +27,7 @@ std::string table_of(const LatencyOptions& options) {
   for (const RateTable& table : kTables) {
     if (parse_number("--rate", options.rate_hz) == parse_number("--rate", table.rate_hz)) return table.name;
   }
-  throw system::BadInput(
+  throw launcher::BadInput(
       "--rate: " + options.rate_hz +
       " Hz: allowed 250 (buses embedded) or 500 (buses embedded_500); for another rate name a table that "
       "carries it with --buses");
@@ -37,18 +37,18 @@ void check_rate(const LatencyOptions& options, const config::BusesConfig& buses)
   if (options.rate_hz.empty() || parse_number("--rate", options.rate_hz) == buses.rate_hz) return;
   char rate[32];
   std::snprintf(rate, sizeof rate, "%g Hz", buses.rate_hz);
-  throw system::BadInput("--rate: " + options.rate_hz + " Hz: bus table " + buses.name + " has " + rate +
-                         "; leave --rate out or take another table");
+  throw launcher::BadInput("--rate: " + options.rate_hz + " Hz: bus table " + buses.name + " has " + rate +
+                           "; leave --rate out or take another table");
 }
 
 void check_arm(const LatencyOptions& options) {
-  if (options.arm != "full" && !options.robot.empty() && system::serial_robot_for_kinematics(options.robot))
-    throw system::BadInput("--arm: '" + options.arm + "': robot " + options.robot +
-                           " has a serial arm: its bench knows full only; leave it out");
+  if (options.arm != "full" && !options.robot.empty() && launcher::serial_robot_for_kinematics(options.robot))
+    throw launcher::BadInput("--arm: '" + options.arm + "': robot " + options.robot +
+                             " has a serial arm: its bench knows full only; leave it out");
 }
 
-report::LatencyMeasurement measured(const system::SystemLayout& plan, double seconds) {
-  system::LatencySession session(plan);
+report::LatencyMeasurement measured(const launcher::SystemLayout& plan, double seconds) {
+  launcher::LatencySession session(plan);
   return session.measure(seconds);
 }
 
@@ -56,24 +56,25 @@ report::LatencyMeasurement measured(const system::SystemLayout& plan, double sec
 
 int latency_command(const LatencyOptions& options) {
   check_arm(options);
-  system::RunOptions run;
+  launcher::RunOptions run;
   run.robot = options.robot;
   run.bus = table_of(options);
   run.time = "real";
   run.arm = options.arm;
-  run.fixture = system::bent_pose(options.robot);
+  run.fixture = launcher::bent_pose(options.robot);
   if (options.arm == "light") run.physics = "ideal";
-  const system::SystemLayout plan = system::for_latency(system::make_layout(run));
+  const launcher::SystemLayout plan = launcher::for_latency(launcher::make_layout(run));
   try {
     check_rate(options, plan.buses);
     Json report = report::latency_report(measured(plan, options.seconds), plan.buses, options.seconds,
                                          report::examine_realtime());
     report["arm"] = options.arm;
-    system::clean_up(plan, true);
+    launcher::clean_up(plan, true);
     std::fputs((options.json ? report.dump() + "\n" : report::latency_text(report)).c_str(), stdout);
-    return report.value("overruns", 1) == 0 && report.value("enabled", false) ? system::kExitOk : system::kExitFailure;
+    return report.value("overruns", 1) == 0 && report.value("enabled", false) ? launcher::kExitOk
+                                                                              : launcher::kExitFailure;
   } catch (...) {
-    system::clean_up(plan, true);
+    launcher::clean_up(plan, true);
     throw;
   }
 }

@@ -21,41 +21,41 @@ namespace liana::cli {
 namespace {
 
 constexpr int kStep_ms = 1;
-constexpr std::size_t kMostDevices = 8;  // as lianad has them
+constexpr std::size_t kMaxDevices = 8;  // as lianad has them
 
 std::int64_t now_us() {
   const auto since = std::chrono::steady_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::microseconds>(since).count();
 }
 
-haptic::Delays delays_of(const LinkOptions& options) {
+haptics::Delays delays_of(const LinkOptions& options) {
   try {
-    return haptic::delays_of(options.delay);
+    return haptics::delays_of(options.delay);
   } catch (const std::invalid_argument& error) {
-    throw system::BadInput(std::string("--delay: ") + error.what());
+    throw launcher::BadInput(std::string("--delay: ") + error.what());
   }
 }
 
 api::UniqueFd listener_of(const LinkOptions& options) {
   const auto whole = [](const std::string& path) { return std::filesystem::weakly_canonical(path); };
   if (whole(options.listen) == whole(options.devices))
-    throw system::BadInput("--listen: " + options.listen +
-                           ": allowed is another socket than that of --devices: name a file for the devices' side");
+    throw launcher::BadInput("--listen: " + options.listen +
+                             ": allowed is another socket than that of --devices: name a file for the devices' side");
   try {
     return api::listen_at("--listen", options.listen);
   } catch (const std::runtime_error& error) {
-    throw system::BadInput(error.what());
+    throw launcher::BadInput(error.what());
   }
 }
 
 // The link of all devices that have come.
-class LinkDesk {
+class LinkRelay {
  public:
-  explicit LinkDesk(const LinkOptions& options)
+  explicit LinkRelay(const LinkOptions& options)
       : options_(options), delays_(delays_of(options)), listener_(listener_of(options)) {}
-  ~LinkDesk() { ::unlink(options_.listen.c_str()); }
-  LinkDesk(const LinkDesk&) = delete;
-  LinkDesk& operator=(const LinkDesk&) = delete;
+  ~LinkRelay() { ::unlink(options_.listen.c_str()); }
+  LinkRelay(const LinkRelay&) = delete;
+  LinkRelay& operator=(const LinkRelay&) = delete;
 
   // Lets devices in and carries their packets, a millisecond.
   void step() {
@@ -79,33 +79,33 @@ class LinkDesk {
     if (fd < 0) return;
     api::UniqueFd device(fd);
     try {
-      if (relays_.size() == kMostDevices) throw std::runtime_error("the link has 8 devices already: end one");
+      if (relays_.size() == kMaxDevices) throw std::runtime_error("the link has 8 devices already: end one");
       api::UniqueFd arm = api::connect_to("--devices", options_.devices, 0.0);
-      relays_.push_back(std::make_unique<hand_side::Relay>(std::move(device), std::move(arm), table(delays_.forward_s),
-                                                           table(delays_.back_s), options_.seed + next_++));
+      relays_.push_back(std::make_unique<station::Relay>(std::move(device), std::move(arm), table(delays_.forward_s),
+                                                         table(delays_.back_s), options_.seed + next_++));
     } catch (const std::runtime_error& error) {
       api::send_packet(device.get(), device::bytes_of(device::refused_of(error.what())));
     }
   }
 
-  haptic::LinkTable table(double delay_s) const { return {delay_s, options_.jitter, options_.loss}; }
+  haptics::LinkTable table(double delay_s) const { return {delay_s, options_.jitter, options_.loss}; }
 
   LinkOptions options_;
-  haptic::Delays delays_;
+  haptics::Delays delays_;
   api::UniqueFd listener_;
-  std::vector<std::unique_ptr<hand_side::Relay>> relays_;
+  std::vector<std::unique_ptr<station::Relay>> relays_;
   std::uint64_t next_ = 0;
 };
 
 }  // namespace
 
 int link_command(const LinkOptions& options) {
-  system::InterruptGuard interrupts;
-  LinkDesk desk(options);
+  launcher::InterruptGuard interrupts;
+  LinkRelay desk(options);
   std::fprintf(stderr, "liana: devices come in at %s and go on to %s; Ctrl-C ends it\n", options.listen.c_str(),
                options.devices.c_str());
   while (interrupts.count() == 0) desk.step();
-  return system::kExitOk;
+  return launcher::kExitOk;
 }
 
 }  // namespace liana::cli

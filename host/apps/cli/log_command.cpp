@@ -199,7 +199,7 @@ int export_ticks(const archive::Reader& reader, archive::Span span, const LogOpt
   if (result.differing > 0)
     std::fprintf(stderr, "liana: this core gives other Outputs for %" PRIu64 " ticks than they had\n",
                  result.differing);
-  return result.left_out + result.differing == 0 ? system::kExitOk : system::kExitFailure;
+  return result.left_out + result.differing == 0 ? launcher::kExitOk : launcher::kExitFailure;
 }
 
 std::string seconds(double value_s) {
@@ -210,8 +210,8 @@ std::string seconds(double value_s) {
 
 archive::Span span_of(const LogOptions& options, const archive::Reader& reader) {
   if (options.from_s > options.to_s)
-    throw system::BadInput("log: --from " + seconds(options.from_s) + ", --to " + seconds(options.to_s) +
-                           ": nothing lies between; allowed: --from 0 to --to; exchange them");
+    throw launcher::BadInput("log: --from " + seconds(options.from_s) + ", --to " + seconds(options.to_s) +
+                             ": nothing lies between; allowed: --from 0 to --to; exchange them");
   return reader.span_of(options.from_s, options.to_s);
 }
 
@@ -219,16 +219,16 @@ archive::Span span_of(const LogOptions& options, const archive::Reader& reader) 
 
 int log_list_command(const LogOptions& options) {
   Json all = Json::array();
-  for (const std::string& folder : system::kept_runs(system::runs_folder())) all.push_back(run_json(folder));
+  for (const std::string& folder : launcher::kept_runs(launcher::runs_folder())) all.push_back(run_json(folder));
   if (options.json) {
     std::puts(all.dump(-1, Json::BadUtf8::kReplace).c_str());
-    return system::kExitOk;
+    return launcher::kExitOk;
   }
   for (const Json& run : all) print_run(run);
   if (all.empty())
     std::fprintf(stderr, "liana: no run is kept in %s; runs that could not be kept there said where they went\n",
-                 system::runs_folder().empty() ? "a home folder: there is none" : system::runs_folder().c_str());
-  return system::kExitOk;
+                 launcher::runs_folder().empty() ? "a home folder: there is none" : launcher::runs_folder().c_str());
+  return launcher::kExitOk;
 }
 
 int log_show_command(const LogOptions& options) {
@@ -250,7 +250,7 @@ int log_show_command(const LogOptions& options) {
       print_shown(line);
     }
   }
-  return system::kExitOk;
+  return launcher::kExitOk;
 }
 
 int log_export_command(const LogOptions& options) {
@@ -260,9 +260,9 @@ int log_export_command(const LogOptions& options) {
       {"--mcap", "messages", options.mcap, archive::write_mcap},
       {"--candump", "frames", options.candump, archive::write_candump}};
   if (options.csv.empty() && options.mcap.empty() && options.candump.empty() && options.ticks.empty())
-    throw system::BadInput("log export: no file given; give --csv, --mcap, --candump or --ticks");
+    throw launcher::BadInput("log export: no file given; give --csv, --mcap, --candump or --ticks");
   for (const auto& [option, unit, file, write] : kinds) {
-    if (!file.empty()) system::check_output(option, file);
+    if (!file.empty()) launcher::check_output(option, file);
   }
   const archive::Reader reader = reader_of(options.run);
   Json written = Json::array();
@@ -273,7 +273,7 @@ int log_export_command(const LogOptions& options) {
     written.push_back({{"file", file}, {"count", count}, {"unit", unit}});
   }
   const int code =
-      options.ticks.empty() ? system::kExitOk : export_ticks(reader, span_of(options, reader), options, written);
+      options.ticks.empty() ? launcher::kExitOk : export_ticks(reader, span_of(options, reader), options, written);
   if (options.json) std::puts(written.dump().c_str());
   return code;
 }
@@ -285,7 +285,7 @@ int log_verify_command(const LogOptions& options) {
   } else {
     print_check(check);
   }
-  return check.problems.empty() ? system::kExitOk : system::kExitFailure;
+  return check.problems.empty() ? launcher::kExitOk : launcher::kExitFailure;
 }
 
 }  // namespace liana::cli

@@ -12,7 +12,7 @@ namespace {
 
 // What is confirmed is what the step asks for: where none does, nobody may believe that something was.
 void check_waits(api::ApiClient& client) {
-  const auto state = system::wait_for(client, "state", kAnswerTimeout_s);
+  const auto state = launcher::wait_for(client, "state", kAnswerTimeout_s);
   if (!state) throw std::runtime_error("lianad did not say within 5 s what the mission waits for");
   const Json& step = state->member_or_null("step");
   const std::string waits = step.is_object() && step.member_or_null("waits").is_string() ? step.at("waits").text() : "";
@@ -24,13 +24,13 @@ void check_waits(api::ApiClient& client) {
 }  // namespace
 
 int mission_command(const MissionOptions& options) {
-  const std::vector<std::string> systems = system::systems_to_ask(options.api);
-  if (systems.size() != 1) throw system::BadInput("mission: several systems run: name one with --api");
+  const std::vector<std::string> systems = launcher::systems_to_ask(options.api);
+  if (systems.size() != 1) throw launcher::BadInput("mission: several systems run: name one with --api");
   api::ApiClient client = api::ApiClient::connect(systems.front(), kConnectTimeout_s);
-  system::say_hello(client, "liana mission", system::Observer::kClient);
+  launcher::say_hello(client, "liana mission", launcher::Observer::kClient);
   if (options.command == "confirm") check_waits(client);
   client.send({{"op", "mission_control"}, {"command", options.command}, {"id", 1}});
-  const auto answer = system::wait_for(client, "ok", kAnswerTimeout_s);
+  const auto answer = launcher::wait_for(client, "ok", kAnswerTimeout_s);
   if (!answer) throw std::runtime_error("lianad did not answer within 5 s");
   if (options.json) {
     std::puts(
@@ -39,7 +39,7 @@ int mission_command(const MissionOptions& options) {
     std::printf("%s: the mission is told to %s; liana status says what it waits for\n", systems.front().c_str(),
                 options.command.c_str());
   }
-  return system::kExitOk;
+  return launcher::kExitOk;
 }
 
 }  // namespace liana::cli

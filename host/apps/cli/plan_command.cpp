@@ -10,7 +10,7 @@
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/interrupt.hpp"
 #include "host/apps/launcher/output.hpp"
-#include "host/apps/launcher/plan_way.hpp"
+#include "host/apps/launcher/planned_path_check.hpp"
 #include "host/apps/launcher/silence.hpp"
 #include "host/apps/launcher/tables.hpp"
 #include "host/base/json/json.hpp"
@@ -24,15 +24,16 @@ constexpr double kSilent_s = 5.0;              // nothing is said for no longer
 constexpr double kTransitionShare =
     1.0 / 3.0;  // of the way, in which a held angle with another value than the start's gets there
 
-void add_phase(const plan::HeldPhase& phase, const PlanOptions& options, plan::PlanRequest& request) {
-  for (const plan::HeldPhase& other : request.held) {
+void add_phase(const planner::HeldPhase& phase, const PlanOptions& options, planner::PlanRequest& request) {
+  for (const planner::HeldPhase& other : request.held) {
     if (other.theta == phase.theta)
-      throw system::BadInput("--planar: '" + options.planar + "': allowed: angles that --hold and --planar name once");
+      throw launcher::BadInput("--planar: '" + options.planar +
+                               "': allowed: angles that --hold and --planar name once");
   }
   request.held.push_back(phase);
 }
 
-void read_hold(const PlanOptions& options, plan::PlanRequest& request) {
+void read_hold(const PlanOptions& options, planner::PlanRequest& request) {
   if (options.hold.empty()) return;
   for (const HoldArgument& held : parse_hold(options.hold, request.robot.table)) {
     const double at_start = request.from_rad[static_cast<std::size_t>(held.theta - 1)];
@@ -42,7 +43,7 @@ void read_hold(const PlanOptions& options, plan::PlanRequest& request) {
 }
 
 // SEGMENT@SHARE,... : the segment's pitch is 0 from that share of the way on.
-void read_planar(const PlanOptions& options, plan::PlanRequest& request) {
+void read_planar(const PlanOptions& options, planner::PlanRequest& request) {
   std::string_view rest = options.planar;
   while (!rest.empty()) {
     const std::size_t comma = std::min(rest.find(','), rest.size());
@@ -54,32 +55,33 @@ void read_planar(const PlanOptions& options, plan::PlanRequest& request) {
     const bool good = segment >= 1 && segment <= request.robot.table.segment_count && segment == std::floor(segment) &&
                       share >= 0 && share <= 1;
     if (!good)
-      throw system::BadInput("--planar: '" + std::string(part) +
-                             "': allowed: SEGMENT@SHARE, a segment of the robot and a share from 0 to 1");
+      throw launcher::BadInput("--planar: '" + std::string(part) +
+                               "': allowed: SEGMENT@SHARE, a segment of the robot and a share from 0 to 1");
     add_phase({2 * static_cast<std::int32_t>(segment) - 2, 0.0, share}, options, request);
   }
 }
 
 // The end of a held angle must be the goal's.
-void check_held_goal(const plan::PlanRequest& request) {
-  for (const plan::HeldPhase& phase : request.held) {
+void check_held_goal(const planner::PlanRequest& request) {
+  for (const planner::HeldPhase& phase : request.held) {
     const auto k = static_cast<std::size_t>(phase.theta);
     const std::string name = "theta " + std::to_string(phase.theta + 1);
     if (request.to_rad && std::fabs((*request.to_rad)[k] - phase.value_rad) > 1e-12) {
-      throw system::BadInput("--to-deg: " + name + " is " + std::to_string((*request.to_rad)[k] / kDegree) +
-                             ": allowed: the value at which it is held, " + std::to_string(phase.value_rad / kDegree));
+      throw launcher::BadInput("--to-deg: " + name + " is " + std::to_string((*request.to_rad)[k] / kDegree) +
+                               ": allowed: the value at which it is held, " +
+                               std::to_string(phase.value_rad / kDegree));
     }
     if (phase.from_share == 0.0 && std::fabs(request.from_rad[k] - phase.value_rad) > 1e-12) {
-      throw system::BadInput("--planar: " + name + " is " + std::to_string(request.from_rad[k] / kDegree) +
-                             " at the start: allowed: a share over 0, in which it can reach 0");
+      throw launcher::BadInput("--planar: " + name + " is " + std::to_string(request.from_rad[k] / kDegree) +
+                               " at the start: allowed: a share over 0, in which it can reach 0");
     }
   }
 }
 
-void read_follow(const PlanOptions& options, plan::PlanRequest& request) {
+void read_follow(const PlanOptions& options, planner::PlanRequest& request) {
   if (options.follow.empty()) return;
   const auto refuse = [](const std::string& option, const char* why) {
-    throw system::BadInput(option + ": not with --follow: " + why);
+    throw launcher::BadInput(option + ": not with --follow: " + why);
   };
   if (!options.planar.empty()) refuse("--planar", "the curve says where the arm is; leave it out");
   if (!options.control_points.empty()) refuse("--control-point", "the curve says where the arm is; leave it out");
@@ -93,40 +95,40 @@ void read_follow(const PlanOptions& options, plan::PlanRequest& request) {
       refuse("--to-deg, --tip", "the curve's end is the goal; leave them out");
     request.follow->points_m = read_curve(options.follow);
   } else if (!request.scene.slit) {
-    throw system::BadInput("--follow: slit: the scene '" + options.scene +
-                           "' has none; give a --scene with a slit, or a curve's file");
+    throw launcher::BadInput("--follow: slit: the scene '" + options.scene +
+                             "' has none; give a --scene with a slit, or a curve's file");
   }
 }
 
-void read_goal(const PlanOptions& options, plan::PlanRequest& request) {
+void read_goal(const PlanOptions& options, planner::PlanRequest& request) {
   read_follow(options, request);
   if (request.follow && !request.follow->points_m.empty()) return;
   if (options.to_deg.empty() == options.tip.empty())
-    throw system::BadInput("--to-deg, --tip: allowed: exactly one of them");
+    throw launcher::BadInput("--to-deg, --tip: allowed: exactly one of them");
   if (!options.to_deg.empty()) request.to_rad = parse_theta_deg("--to-deg", options.to_deg, request.robot.table);
   if (!options.tip.empty()) request.tip_in_base = parse_pose("--tip", options.tip);
   if (request.tip_in_base) request.tip_in_base->quaternion = normalize(request.tip_in_base->quaternion);
 }
 
-void read_sizes(const PlanOptions& options, plan::PlanRequest& request) {
-  constexpr double kLeastStep_deg = 0.001;
+void read_sizes(const PlanOptions& options, planner::PlanRequest& request) {
+  constexpr double kMinStep_deg = 0.001;
   const std::int64_t fewest = request.tip_in_base ? 1 : 2;
   const char* note = request.tip_in_base ? "; 1: the end pose alone" : "; 1, the end pose alone, is for --tip";
   if (!options.waypoints.empty())
     request.waypoints =
-        static_cast<std::int32_t>(parse_whole("--waypoints", options.waypoints, fewest, plan::kMaxWaypoints, note));
+        static_cast<std::int32_t>(parse_whole("--waypoints", options.waypoints, fewest, planner::kMaxWaypoints, note));
   request.margin_m = parse_number_in("--margin", options.margin_m, 0.0, 0.5, "m");
   request.max_step_rad =
       options.max_step_deg.empty()
-          ? (request.follow ? plan::kFollowMaxStep_rad
-                            : plan::default_max_step_rad(request.robot.table, request.waypoints))
-          : parse_number_in("--max-step-deg", options.max_step_deg, kLeastStep_deg, 180.0, "deg") * kDegree;
+          ? (request.follow ? planner::kFollowMaxStep_rad
+                            : planner::default_max_step_rad(request.robot.table, request.waypoints))
+          : parse_number_in("--max-step-deg", options.max_step_deg, kMinStep_deg, 180.0, "deg") * kDegree;
 }
 
-void read_control_points(const PlanOptions& options, plan::PlanRequest& request) {
-  if (options.control_points.size() > plan::kMaxControlPoints) {
-    throw system::BadInput("--control-point: " + std::to_string(options.control_points.size()) +
-                           " given: allowed: at most " + std::to_string(plan::kMaxControlPoints));
+void read_control_points(const PlanOptions& options, planner::PlanRequest& request) {
+  if (options.control_points.size() > planner::kMaxControlPoints) {
+    throw launcher::BadInput("--control-point: " + std::to_string(options.control_points.size()) +
+                             " given: allowed: at most " + std::to_string(planner::kMaxControlPoints));
   }
   for (const std::string& text : options.control_points) {
     const ControlPointArgument point = parse_control_point(text, request.robot.table);
@@ -134,10 +136,10 @@ void read_control_points(const PlanOptions& options, plan::PlanRequest& request)
   }
 }
 
-plan::PlanRequest request_of(const PlanOptions& options) {
-  plan::PlanRequest request;
-  request.robot = system::robot_for_kinematics(options.robot);
-  request.scene = system::scene_of(options.scene);
+planner::PlanRequest request_of(const PlanOptions& options) {
+  planner::PlanRequest request;
+  request.robot = launcher::robot_for_kinematics(options.robot);
+  request.scene = launcher::scene_of(options.scene);
   request.from_rad = parse_theta_deg("--from-deg", options.from_deg, request.robot.table);
   read_goal(options, request);
   read_hold(options, request);
@@ -148,7 +150,7 @@ plan::PlanRequest request_of(const PlanOptions& options) {
   return request;
 }
 
-Json to_json(const plan::PlanRequest& request, const plan::PlanResult& result, double time_s) {
+Json to_json(const planner::PlanRequest& request, const planner::PlanResult& result, double time_s) {
   Json waypoints = Json::array();
   for (const cable::ThetaVector& theta : result.waypoints_rad) {
     Json row = Json::array();
@@ -156,7 +158,7 @@ Json to_json(const plan::PlanRequest& request, const plan::PlanResult& result, d
       row.push_back(theta[static_cast<std::size_t>(k)] / kDegree);
     waypoints.push_back(row);
   }
-  Json answer{{"outcome", plan::name_of(result.outcome)},
+  Json answer{{"outcome", planner::name_of(result.outcome)},
               {"waypoints_deg", waypoints},
               {"objective", result.objective},
               {"iterations", result.iterations},
@@ -165,9 +167,9 @@ Json to_json(const plan::PlanRequest& request, const plan::PlanResult& result, d
               {"time_s", time_s},
               {"start", result.start},
               {"checked", nullptr},
-              {"hash", plan::plan_hash(request, result)}};
+              {"hash", planner::plan_hash(request, result)}};
   if (result.checked) {
-    const plan::PlanCheck& check = *result.checked;
+    const planner::PlanCheck& check = *result.checked;
     answer["checked"] = {{"min_clearance_m", check.min_clearance_m},
                          {"nearest", check.nearest},
                          {"nearest_link", check.nearest_link},
@@ -184,7 +186,7 @@ Json to_json(const plan::PlanRequest& request, const plan::PlanResult& result, d
                          {"poses", check.poses}};
   }
   if (result.follow) {
-    const plan::FollowFigures& figures = *result.follow;
+    const planner::FollowStatistics& figures = *result.follow;
     answer["follow"] = {{"curve_length_m", figures.curve_length_m}, {"tip_off_m", figures.tip_off_m},
                         {"body_off_m", figures.body_off_m},         {"mean_body_off_m", figures.mean_body_off_m},
                         {"worst_link", figures.worst_link},         {"worst_tip_along_m", figures.worst_tip_along_m}};
@@ -194,13 +196,13 @@ Json to_json(const plan::PlanRequest& request, const plan::PlanResult& result, d
   return answer;
 }
 
-Json follow_json(const plan::PlanRequest& request) {
+Json follow_json(const planner::PlanRequest& request) {
   if (!request.follow) return nullptr;
   return request.follow->points_m.empty() ? Json("slit") : Json{{"points_m", request.follow->points_m}};
 }
 
 // What the plan was asked for, as it was given.
-Json inputs(const PlanOptions& options, const plan::PlanRequest& request) {
+Json inputs(const PlanOptions& options, const planner::PlanRequest& request) {
   return {{"robot", Json::parse(request.robot.canonical_json)},
           {"scene", Json::parse(request.scene.canonical_json)},
           {"from_deg", options.from_deg},
@@ -245,9 +247,9 @@ void print_plan(const Json& answer) {
 }
 
 // What is planned nearer than the arm may be predicted wrongly is refused when the arm gets there.
-void warn_of_refusal(const plan::PlanRequest& request, const plan::PlanResult& result) {
+void warn_of_refusal(const planner::PlanRequest& request, const planner::PlanResult& result) {
   const double prediction_m = request.scene.margins.prediction_m;
-  if (result.outcome != plan::PlanOutcome::solved || !result.checked || result.checked->nearest.empty()) return;
+  if (result.outcome != planner::PlanOutcome::solved || !result.checked || result.checked->nearest.empty()) return;
   if (result.checked->min_clearance_m >= prediction_m) return;
   std::fprintf(
       stderr,
@@ -257,21 +259,21 @@ void warn_of_refusal(const plan::PlanRequest& request, const plan::PlanResult& r
       prediction_m + kBeyondPrediction_m);
 }
 
-int exit_code(plan::PlanOutcome outcome) {
-  if (outcome == plan::PlanOutcome::solved) return system::kExitOk;
-  return outcome == plan::PlanOutcome::cancelled ? system::kExitInterrupted : system::kExitNotConverged;
+int exit_code(planner::PlanOutcome outcome) {
+  if (outcome == planner::PlanOutcome::solved) return launcher::kExitOk;
+  return outcome == planner::PlanOutcome::cancelled ? launcher::kExitInterrupted : launcher::kExitNotConverged;
 }
 
 }  // namespace
 
 int plan_command(const PlanOptions& options) {
-  const system::InterruptGuard interrupt;
-  plan::PlanControl control;
+  const launcher::InterruptGuard interrupt;
+  planner::PlanControl control;
   if (!options.max_iterations.empty())
     control.max_iterations = static_cast<std::int32_t>(parse_whole("--iterations", options.max_iterations, 1, 100000));
-  if (!options.out_file.empty()) system::check_output("--out", options.out_file);
-  const plan::PlanRequest request = request_of(options);
-  system::Silence silence(kSilent_s, [&request](double since_s) {
+  if (!options.out_file.empty()) launcher::check_output("--out", options.out_file);
+  const planner::PlanRequest request = request_of(options);
+  launcher::Silence silence(kSilent_s, [&request](double since_s) {
     std::fprintf(stderr, "plan: computing for %.0f s, %d waypoints; Ctrl-C ends it\n", since_s, request.waypoints);
   });
   control.progress = [&silence](const std::string& line) {
@@ -280,7 +282,7 @@ int plan_command(const PlanOptions& options) {
   };
   control.cancelled = &interrupt.any();
   const auto begin = std::chrono::steady_clock::now();
-  const plan::PlanResult result = plan::plan(request, control);
+  const planner::PlanResult result = planner::plan(request, control);
   const double time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   Json answer = to_json(request, result, time_s);
   if (options.json) {
@@ -290,13 +292,13 @@ int plan_command(const PlanOptions& options) {
   }
   warn_of_refusal(request, result);
   if (!options.out_file.empty() &&
-      result.outcome != plan::PlanOutcome::solved) {  // an earlier plan in the file is worth more
+      result.outcome != planner::PlanOutcome::solved) {  // an earlier plan in the file is worth more
     std::fprintf(stderr, "plan: --out: nothing was written to %s: the outcome is %s\n", options.out_file.c_str(),
-                 plan::name_of(result.outcome));
+                 planner::name_of(result.outcome));
   } else if (!options.out_file.empty()) {
     answer["inputs"] = inputs(options, request);
-    answer["digest"] = system::digest_of_plan(answer);
-    system::write_output(options.out_file, answer.dump(1) + "\n");
+    answer["digest"] = launcher::digest_of_plan(answer);
+    launcher::write_output(options.out_file, answer.dump(1) + "\n");
   }
   return exit_code(result.outcome);
 }

@@ -13,7 +13,7 @@
 namespace liana::cli {
 namespace {
 
-Json pose_of(const cable::RobotTable& table, const cable::ThetaVector& theta_rad) {
+Json pose_of(const cable::RobotParams& table, const cable::ThetaVector& theta_rad) {
   const cable::ArmTrig trig = arm_trig(table, theta_rad);
   const cable::ArmKinematics arm = forward_kinematics(table, trig);
   const cable::CableLayout layout = cable_layout(table);
@@ -50,15 +50,15 @@ void print_summary(const Json& pose) {
 }  // namespace
 
 int pose_command(const PoseOptions& options) {
-  if (const auto serial = system::serial_robot_for_kinematics(options.robot))
+  if (const auto serial = launcher::serial_robot_for_kinematics(options.robot))
     return serial_pose_command(*serial, options);
-  const config::RobotConfig robot = system::robot_for_kinematics(options.robot);
+  const config::RobotConfig robot = launcher::robot_for_kinematics(options.robot);
   const cable::ThetaVector theta_rad = parse_theta_deg("--theta-deg", options.theta_deg, robot.table);
   Json pose = pose_of(robot.table, theta_rad);
   if (!options.scene.empty()) {
-    const config::SceneConfig scene = system::scene_of(options.scene);
+    const config::SceneConfig scene = launcher::scene_of(options.scene);
     if (!scene.slit)
-      throw system::BadInput("--scene: '" + options.scene + "': has no slit; name a scene with one, or leave it out");
+      throw launcher::BadInput("--scene: '" + options.scene + "': has no slit; name a scene with one, or leave it out");
     pose["slit"] = slit_part(robot, scene, theta_rad);
   }
   if (options.json) {

@@ -26,38 +26,38 @@ std::string number_list(const std::vector<double>& numbers) {
 
 // The waypoints of a file: what `liana plan --json` prints, or a JSON object with waypoints_deg (rows of joint angles,
 // degrees).
-std::vector<cable::ThetaVector> read_waypoints(const std::string& path, const cable::RobotTable& robot) {
+std::vector<cable::ThetaVector> read_waypoints(const std::string& path, const cable::RobotParams& robot) {
   std::error_code unreadable;
   if (!std::filesystem::is_regular_file(path, unreadable))
-    throw system::BadInput("--path: " + path + ": cannot be read; give an existing JSON file with waypoints_deg");
-  const std::string text = system::checked([&] { return config::read_text_file(path); });
-  const Json document = system::checked(
+    throw launcher::BadInput("--path: " + path + ": cannot be read; give an existing JSON file with waypoints_deg");
+  const std::string text = launcher::checked([&] { return config::read_text_file(path); });
+  const Json document = launcher::checked(
       [&] { return config::parse_json(text, "--path: " + path, "give a JSON object with waypoints_deg"); });
   const Json rows = document.is_object() ? document.value("waypoints_deg", Json()) : Json();
-  if (!rows.is_array() || rows.empty() || rows.size() > reach::kMaxWaypoints) {
-    throw system::BadInput("--path: " + path + ": waypoints_deg: allowed: a JSON object with 1 to " +
-                           std::to_string(reach::kMaxWaypoints) + " rows of joint angles under this key");
+  if (!rows.is_array() || rows.empty() || rows.size() > workspace::kMaxWaypoints) {
+    throw launcher::BadInput("--path: " + path + ": waypoints_deg: allowed: a JSON object with 1 to " +
+                             std::to_string(workspace::kMaxWaypoints) + " rows of joint angles under this key");
   }
   std::vector<cable::ThetaVector> waypoints;
   for (const Json& row : rows) {
     const std::string name = "--path: " + path + ": waypoints_deg row " + std::to_string(waypoints.size() + 1);
     const auto is_number = [](const Json& value) { return value.is_number(); };
     if (!row.is_array() || !std::all_of(row.begin(), row.end(), is_number))
-      throw system::BadInput(name + ": allowed: an array of numbers");
+      throw launcher::BadInput(name + ": allowed: an array of numbers");
     waypoints.push_back(parse_theta_deg(name, number_list(row.get<std::vector<double>>()), robot));
   }
   return waypoints;
 }
 
-Json theta_degrees(const cable::ThetaVector& theta_rad, const cable::RobotTable& robot) {
+Json theta_degrees(const cable::ThetaVector& theta_rad, const cable::RobotParams& robot) {
   Json list = Json::array();
   for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i)
     list.push_back(theta_rad[i] / kDegree);
   return list;
 }
 
-Json point_json(const reach::PathPoint& point, const cable::RobotTable& robot) {
-  const double condition = reach::condition_number(point);
+Json point_json(const workspace::PathPoint& point, const cable::RobotParams& robot) {
+  const double condition = workspace::condition_number(point);
   return {{"way", point.way},
           {"theta_deg", theta_degrees(point.theta_rad, robot)},
           {"tip_m", point.tip_in_base_m},
@@ -67,9 +67,9 @@ Json point_json(const reach::PathPoint& point, const cable::RobotTable& robot) {
           {"nearest_theta", point.nearest_theta}};
 }
 
-Json path_json(const reach::PathReport& report, std::uint32_t held_mask, const config::RobotConfig& robot) {
+Json path_json(const workspace::PathStatus& report, std::uint32_t held_mask, const config::RobotConfig& robot) {
   Json points = Json::array();
-  for (const reach::PathPoint& point : report.points) points.push_back(point_json(point, robot.table));
+  for (const workspace::PathPoint& point : report.points) points.push_back(point_json(point, robot.table));
   return {{"robot", robot.name},
           {"held_theta", config::theta_numbers(held_mask)},
           {"joint_travel_deg", report.joint_travel_rad / kDegree},
@@ -79,12 +79,12 @@ Json path_json(const reach::PathReport& report, std::uint32_t held_mask, const c
           {"points", points}};
 }
 
-void print_path(const reach::PathReport& report) {
-  const reach::PathPoint& worst = report.points[report.worst_conditioned];
-  const reach::PathPoint& nearest = report.points[report.nearest_limit];
+void print_path(const workspace::PathStatus& report) {
+  const workspace::PathPoint& worst = report.points[report.worst_conditioned];
+  const workspace::PathPoint& nearest = report.points[report.nearest_limit];
   std::printf("%zu points over %.1f deg of joint travel\n", report.points.size(), report.joint_travel_rad / kDegree);
   std::printf("least singular value %.4f at %.1f %% of the way, condition %.1f\n", worst.least_singular_value,
-              100.0 * worst.way, reach::condition_number(worst));
+              100.0 * worst.way, workspace::condition_number(worst));
   std::printf("nearest limit: theta %d, %.3f deg left at %.1f %% of the way\n", nearest.nearest_theta,
               nearest.limit_margin_rad / kDegree, 100.0 * nearest.way);
 }
@@ -97,15 +97,15 @@ std::uint32_t mask_of(const std::vector<HoldArgument>& holds) {
   return mask;
 }
 
-std::vector<HoldArgument> holds_of(const ReachOptions& options, const cable::RobotTable& robot) {
+std::vector<HoldArgument> holds_of(const ReachOptions& options, const cable::RobotParams& robot) {
   return options.hold.empty() ? std::vector<HoldArgument>{} : parse_hold(options.hold, robot);
 }
 
 void require_free(std::uint32_t held_mask, std::int32_t theta_count, const std::string& what) {
   const std::uint32_t all = (1u << theta_count) - 1u;
   if ((held_mask & all) == all)
-    throw system::BadInput("--hold: nothing is left that moves " + what + "; free at least one of theta 1 to " +
-                           std::to_string(theta_count));
+    throw launcher::BadInput("--hold: nothing is left that moves " + what + "; free at least one of theta 1 to " +
+                             std::to_string(theta_count));
 }
 
 int reach_along_path(const ReachOptions& options, const config::RobotConfig& robot) {
@@ -119,18 +119,19 @@ int reach_along_path(const ReachOptions& options, const config::RobotConfig& rob
   const auto holds = holds_of(options, robot.table);
   for (const HoldArgument& hold : holds) {
     if (hold.has_value)
-      throw system::BadInput("--hold: a path gives every angle; name the held thetas without values, e.g. 7,9");
+      throw launcher::BadInput("--hold: a path gives every angle; name the held thetas without values, e.g. 7,9");
   }
   const std::uint32_t held_mask = mask_of(holds);
   require_free(held_mask, robot.table.theta_count(), "the tip");
-  const reach::PathReport report = reach::examine_path(robot.table, waypoints_rad, held_mask);
-  if (!options.svg_file.empty()) system::write_output(options.svg_file, reach::path_picture(robot, report, held_mask));
+  const workspace::PathStatus report = workspace::examine_path(robot.table, waypoints_rad, held_mask);
+  if (!options.svg_file.empty())
+    launcher::write_output(options.svg_file, workspace::path_picture(robot, report, held_mask));
   if (options.json) {
     std::puts(path_json(report, held_mask, robot).dump().c_str());
   } else {
     print_path(report);
   }
-  return system::kExitOk;
+  return launcher::kExitOk;
 }
 
 }  // namespace liana::cli

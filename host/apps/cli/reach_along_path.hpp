@@ -12,7 +12,7 @@
 namespace liana::cli {
 
 // What `--hold` of `reach` names; none where it is not given. Throws BadInput.
-std::vector<HoldArgument> holds_of(const ReachOptions& options, const cable::RobotTable& robot);
+std::vector<HoldArgument> holds_of(const ReachOptions& options, const cable::RobotParams& robot);
 
 // Bit i: theta i + 1 is among them.
 std::uint32_t mask_of(const std::vector<HoldArgument>& holds);

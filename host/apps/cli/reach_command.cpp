@@ -23,7 +23,7 @@ bool is_path(const ReachOptions& options) { return !options.path.empty() || !opt
 
 // Options that only one of the two uses have no silent effect on the other.
 void refuse_contradictions(const ReachOptions& options) {
-  const auto refuse = [](const char* text) { throw system::BadInput(text); };
+  const auto refuse = [](const char* text) { throw launcher::BadInput(text); };
   if (!options.path.empty() && !options.to_deg.empty()) refuse("--path: not together with --to-deg; give one of them");
   if (!options.path.empty() && !options.from_deg.empty())
     refuse("--path: not together with --from-deg; the file's first waypoint is the start");
@@ -35,22 +35,22 @@ void refuse_contradictions(const ReachOptions& options) {
 
 // A region of either kind of arm.
 struct RegionQuestion {
-  reach::ReachArm arm;
-  reach::ArmDrawn drawn;
-  reach::RegionRequest request;
+  workspace::ReachArm arm;
+  workspace::ArmDrawn drawn;
+  workspace::RegionRequest request;
 };
 
-reach::RegionRequest request_without_node(const ReachOptions& options) {
-  reach::RegionRequest request;
-  request.samples =
-      static_cast<std::int32_t>(parse_whole("--samples", options.samples, reach::kMinSamples, reach::kMaxSamples));
+workspace::RegionRequest request_without_node(const ReachOptions& options) {
+  workspace::RegionRequest request;
+  request.samples = static_cast<std::int32_t>(
+      parse_whole("--samples", options.samples, workspace::kMinSamples, workspace::kMaxSamples));
   request.seed = options.seed;
   return request;
 }
 
 RegionQuestion question_of(const ReachOptions& options, const config::RobotConfig& robot) {
-  RegionQuestion asked{reach::arm_of(robot.table), {robot.name, robot.module_radius_m, {}}, {}};
-  reach::AngleVector& pose_rad = asked.drawn.angle_rad;
+  RegionQuestion asked{workspace::arm_of(robot.table), {robot.name, robot.module_radius_m, {}}, {}};
+  workspace::AngleVector& pose_rad = asked.drawn.angle_rad;
   if (!options.from_deg.empty()) pose_rad = parse_theta_deg("--from-deg", options.from_deg, robot.table);
   const std::int32_t tip = robot.table.segment_count;
   const std::int32_t node = options.node.empty() ? tip : parse_node("--node", options.node, robot.table);
@@ -66,9 +66,9 @@ RegionQuestion question_of(const ReachOptions& options, const config::RobotConfi
 }
 
 // Joint angles 0, or as near to it as the ranges let them: where the arm is drawn when nobody says where.
-reach::AngleVector nearest_to_zero(const reach::ReachArm& arm) {
-  reach::AngleVector angle_rad{};
-  for (std::size_t i = 0; i < angle_rad.size(); ++i) angle_rad[i] = reach::into_range(arm.range[i], 0.0);
+workspace::AngleVector nearest_to_zero(const workspace::ReachArm& arm) {
+  workspace::AngleVector angle_rad{};
+  for (std::size_t i = 0; i < angle_rad.size(); ++i) angle_rad[i] = workspace::into_range(arm.range[i], 0.0);
   return angle_rad;
 }
 
@@ -78,10 +78,10 @@ RegionQuestion question_of(const ReachOptions& options, const config::SerialRobo
   refuse_cable_option("--path", options.path, robot, instead);
   refuse_cable_option("--to-deg", options.to_deg, robot, instead);
   RegionQuestion asked{
-      reach::arm_of(robot.table), {robot.name, robot.link_radius_m, {}}, request_without_node(options)};
+      workspace::arm_of(robot.table), {robot.name, robot.link_radius_m, {}}, request_without_node(options)};
   asked.drawn.angle_rad = options.from_deg.empty()
                               ? nearest_to_zero(asked.arm)
-                              : reach::angles_of(parse_joint_deg("--from-deg", options.from_deg, robot.table));
+                              : workspace::angles_of(parse_joint_deg("--from-deg", options.from_deg, robot.table));
   asked.request.point.node = robot.table.joint_count;
   if (!options.node.empty())
     asked.request.point.node = static_cast<std::int32_t>(
@@ -92,7 +92,7 @@ RegionQuestion question_of(const ReachOptions& options, const config::SerialRobo
 
 // --- what is answered ---
 
-Json degrees(const reach::AngleVector& angle_rad, const reach::ReachArm& arm) {
+Json degrees(const workspace::AngleVector& angle_rad, const workspace::ReachArm& arm) {
   Json list = Json::array();
   for (std::size_t i = 0; i < static_cast<std::size_t>(arm.angle_count); ++i) list.push_back(angle_rad[i] / kDegree);
   return list;
@@ -106,16 +106,16 @@ Json held_json(const RegionQuestion& asked) {
   return held;
 }
 
-Json end_json(const reach::BoundaryPoint& end, const reach::ReachArm& arm) {
+Json end_json(const workspace::BoundaryPoint& end, const workspace::ReachArm& arm) {
   return {{"distance_m", end.distance_m},
           {"point_m", end.point_in_base_m},
           {"theta_deg", degrees(end.angle_rad, arm)},
           {"binding_theta", config::theta_numbers(end.binding)}};
 }
 
-Json bins_json(const reach::Region& region, const reach::ReachArm& arm) {
+Json bins_json(const workspace::Region& region, const workspace::ReachArm& arm) {
   Json bins = Json::array();
-  for (const reach::DirectionBin& bin : region.bins) {
+  for (const workspace::DirectionBin& bin : region.bins) {
     Json row = {{"polar_deg", bin.polar_rad / kDegree},
                 {"azimuth_deg", bin.azimuth_rad / kDegree},
                 {"polar_width_deg", bin.polar_width_rad / kDegree},
@@ -132,24 +132,24 @@ Json bins_json(const reach::Region& region, const reach::ReachArm& arm) {
   return bins;
 }
 
-Json shells_json(const reach::Region& region) {
+Json shells_json(const workspace::Region& region) {
   Json shells = Json::array();
-  const double width_m = region.length_m / reach::kRadialShells;
-  for (std::size_t i = 0; i < reach::kRadialShells; ++i) {
+  const double width_m = region.length_m / workspace::kRadialShells;
+  for (std::size_t i = 0; i < workspace::kRadialShells; ++i) {
     const double from_m = static_cast<double>(i) * width_m;
     shells.push_back({{"from_m", from_m}, {"to_m", from_m + width_m}, {"share", region.shell_share[i]}});
   }
   return shells;
 }
 
-Json binding_json(const reach::Region& region, const reach::ReachArm& arm) {
+Json binding_json(const workspace::Region& region, const workspace::ReachArm& arm) {
   Json shares = Json::array();
   for (std::size_t i = 0; i < static_cast<std::size_t>(arm.angle_count); ++i)
     shares.push_back(region.outer_binding_share[i]);
   return {{"theta_share", shares}, {"no_limit_share", region.outer_stretched_share}};
 }
 
-Json region_json(const RegionQuestion& asked, const reach::Region& region) {
+Json region_json(const RegionQuestion& asked, const workspace::Region& region) {
   Json extent = Json::object();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     extent[std::string(1, "xyz"[axis])] = {region.extent_m[0][axis], region.extent_m[1][axis]};
@@ -170,11 +170,11 @@ Json region_json(const RegionQuestion& asked, const reach::Region& region) {
           {"boundary", bins_json(region, asked.arm)}};
 }
 
-void print_region(const RegionQuestion& asked, const reach::Region& region) {
-  const reach::ReachArm& arm = asked.arm;
+void print_region(const RegionQuestion& asked, const workspace::Region& region) {
+  const workspace::ReachArm& arm = asked.arm;
   const auto text = [](std::string_view name) { return std::string(name); };
   std::printf("%s %d, held: %s\n", text(arm.node_name).c_str(), asked.request.point.node,
-              reach::held_text(arm, asked.request.point.held_mask, asked.request.held_rad).c_str());
+              workspace::held_text(arm, asked.request.point.held_mask, asked.request.held_rad).c_str());
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::printf("%c: %.3f .. %.3f m\n", "xyz"[axis], region.extent_m[0][axis], region.extent_m[1][axis]);
   }
@@ -191,31 +191,33 @@ void print_region(const RegionQuestion& asked, const reach::Region& region) {
 
 int reach_region(const ReachOptions& options, const RegionQuestion& asked) {
   std::optional<config::SceneConfig> scene;
-  if (!options.scene.empty()) scene = system::scene_of(options.scene);
-  const reach::Region region = reach::explore_region(asked.arm, asked.request);
+  if (!options.scene.empty()) scene = launcher::scene_of(options.scene);
+  const workspace::Region region = workspace::explore_region(asked.arm, asked.request);
   if (region.dimension == 0)
-    throw system::BadInput("--node: '" + options.node + "': no joint moves it, it lies on the axes of all before it; " +
-                           "allowed: one further on, or leave it out for the tip");
+    throw launcher::BadInput("--node: '" + options.node +
+                             "': no joint moves it, it lies on the axes of all before it; " +
+                             "allowed: one further on, or leave it out for the tip");
   if (!options.svg_file.empty()) {
-    system::write_output(options.svg_file, reach::region_picture(asked.arm, asked.drawn, scene ? &*scene : nullptr,
-                                                                 asked.request, region));
+    launcher::write_output(
+        options.svg_file,
+        workspace::region_picture(asked.arm, asked.drawn, scene ? &*scene : nullptr, asked.request, region));
   }
   if (options.json) {
     std::puts(region_json(asked, region).dump().c_str());
   } else {
     print_region(asked, region);
   }
-  return system::kExitOk;
+  return launcher::kExitOk;
 }
 
 }  // namespace
 
 int reach_command(const ReachOptions& options) {
   refuse_contradictions(options);
-  if (!options.svg_file.empty()) system::check_output("--svg", options.svg_file);
-  if (const auto serial = system::serial_robot_for_kinematics(options.robot))
+  if (!options.svg_file.empty()) launcher::check_output("--svg", options.svg_file);
+  if (const auto serial = launcher::serial_robot_for_kinematics(options.robot))
     return reach_region(options, question_of(options, *serial));
-  const config::RobotConfig robot = system::robot_for_kinematics(options.robot);
+  const config::RobotConfig robot = launcher::robot_for_kinematics(options.robot);
   return is_path(options) ? reach_along_path(options, robot) : reach_region(options, question_of(options, robot));
 }
 

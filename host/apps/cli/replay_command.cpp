@@ -14,7 +14,7 @@
 namespace liana::cli {
 namespace {
 
-void print_json(const record::ReplayResult& result, const record::ImagesCheck& images) {
+void print_json(const recording::ReplayResult& result, const recording::ImagesCheck& images) {
   std::puts(Json{{"ticks", result.ticks},
                  {"differing_ticks", result.differing_ticks},
                  {"missing_ticks", result.missing_ticks},
@@ -23,25 +23,25 @@ void print_json(const record::ReplayResult& result, const record::ImagesCheck& i
                  {"recorded_by", result.recorded_by},
                  {"first_differing_tick", result.differing_ticks > 0 ? Json(result.first_differing_tick) : nullptr},
                  {"first_differing_field", result.first_differing_field},
-                 {"compared", {record::kRecordingFile}},
-                 {"images", {{"file", record::kImagesFile}, {"state", images.state}, {"count", images.count}}}}
+                 {"compared", {recording::kRecordingFile}},
+                 {"images", {{"file", recording::kImagesFile}, {"state", images.state}, {"count", images.count}}}}
                 .dump()
                 .c_str());
 }
 
-void print_text(const record::ReplayResult& result, const record::ImagesCheck& images) {
+void print_text(const recording::ReplayResult& result, const recording::ImagesCheck& images) {
   std::printf("%" PRIu64 " ticks, %" PRIu64 " differ\n", result.ticks, result.differing_ticks);
   if (result.differing_ticks > 0) {
     std::printf("first: tick %" PRIu64 ", field %s\n", result.first_differing_tick,
                 result.first_differing_field.c_str());
   }
   if (result.missing_ticks > 0) std::printf("%" PRIu64 " ticks are missing in the recording\n", result.missing_ticks);
-  std::printf("compared: %s, every field of Outputs\n", record::kRecordingFile);
+  std::printf("compared: %s, every field of Outputs\n", recording::kRecordingFile);
   if (images.state == "whole") {
     std::printf("checked: %s, its checksums, and that each of its %" PRIu64 " images can be read\n",
-                record::kImagesFile, images.count);
+                recording::kImagesFile, images.count);
   } else if (images.good()) {
-    std::printf("not there, so not checked: %s\n", record::kImagesFile);
+    std::printf("not there, so not checked: %s\n", recording::kImagesFile);
   }
   std::printf("recorded by %s build (%s)\n", result.same_build ? "this" : "another", result.recorded_by.c_str());
 }
@@ -50,13 +50,13 @@ void print_text(const record::ReplayResult& result, const record::ImagesCheck& i
 
 int replay_command(const ReplayOptions& options) {
   const std::string directory = named_run("replay", options.directory);
-  const std::filesystem::path file = std::filesystem::path(directory) / record::kRecordingFile;
+  const std::filesystem::path file = std::filesystem::path(directory) / recording::kRecordingFile;
   if (!std::filesystem::exists(file)) {
-    throw system::BadInput("replay: '" + directory + "': holds no " + record::kRecordingFile +
-                           "; give a directory that liana run --record wrote");
+    throw launcher::BadInput("replay: '" + directory + "': holds no " + recording::kRecordingFile +
+                             "; give a directory that liana run --record wrote");
   }
-  const record::ReplayResult result = record::replay(directory);
-  const record::ImagesCheck images = record::check_images(directory, result.is_serial);
+  const recording::ReplayResult result = recording::replay(directory);
+  const recording::ImagesCheck images = recording::check_images(directory, result.is_serial);
   if (options.json) {
     print_json(result, images);
   } else {
@@ -77,10 +77,10 @@ int replay_command(const ReplayOptions& options) {
   }
   if (!images.good()) {
     std::fprintf(stderr, "liana: %s/%s: %s; take a good copy of the file: a replay from mid-run needs it\n",
-                 directory.c_str(), record::kImagesFile, images.state.c_str());
+                 directory.c_str(), recording::kImagesFile, images.state.c_str());
   }
-  return result.complete && images.good() && result.ticks > 0 && result.differing_ticks == 0 ? system::kExitOk
-                                                                                             : system::kExitFailure;
+  return result.complete && images.good() && result.ticks > 0 && result.differing_ticks == 0 ? launcher::kExitOk
+                                                                                             : launcher::kExitFailure;
 }
 
 }  // namespace liana::cli

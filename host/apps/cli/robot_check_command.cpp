@@ -20,7 +20,7 @@
 namespace liana::cli {
 namespace {
 
-constexpr double kLeastHoleDistance_m = 0.001;
+constexpr double kMinHoleDistance_m = 0.001;
 constexpr double kUnknown_m = 0.01e-3;   // of a length, after homing: arms of the bench stay above their floor by it
 constexpr std::int32_t kSamples = 5000;  // of the workspace, whose boundary is then climbed to
 constexpr std::int32_t kTipValues = 6;   // place and attitude
@@ -47,7 +47,7 @@ struct Planned {
   bool is_balanced = true;
 };
 
-Planned planned_at(const cable::RobotTable& table, const cable::ThetaVector& theta_rad) {
+Planned planned_at(const cable::RobotParams& table, const cable::ThetaVector& theta_rad) {
   const cable::CableLayout layout = cable_layout(table);
   const cable::ArmTrig trig = arm_trig(table, theta_rad);
   const cable::TensionRatio ratio = tension_ratio(table, layout, trig, cable::SlipState{});
@@ -83,14 +83,14 @@ Json poses_of(const config::RobotConfig& robot, Json& problems) {
   return poses;
 }
 
-void look_at_holes(const cable::RobotTable& table, Json& problems) {
+void look_at_holes(const cable::RobotParams& table, Json& problems) {
   const cable::CableLayout layout = cable_layout(table);
   const auto cables = static_cast<std::size_t>(layout.cable_count);
   for (std::size_t a = 0; a < cables; ++a) {
     for (std::size_t b = a + 1; b < cables; ++b) {
       const double distance_m =
           std::hypot(layout.hole_y_m[a] - layout.hole_y_m[b], layout.hole_z_m[a] - layout.hole_z_m[b]);
-      if (distance_m < kLeastHoleDistance_m)
+      if (distance_m < kMinHoleDistance_m)
         problems.push_back(
             text("cables %zu and %zu: their holes are %.1f mm apart in the discs that both pass: turn "
                  "a segment's cables.phase_deg",
@@ -100,9 +100,9 @@ void look_at_holes(const cable::RobotTable& table, Json& problems) {
 }
 
 void look_at_fixtures(const config::RobotConfig& robot, Json& problems) {
-  if (robot.fixture_poses.empty()) return;
+  if (robot.jig_poses.empty()) return;
   std::vector<cable::ThetaVector> thetas_rad;
-  for (const std::string& name : robot.fixture_poses) thetas_rad.push_back(calibration::named_pose_rad(robot, name));
+  for (const std::string& name : robot.jig_poses) thetas_rad.push_back(calibration::named_pose_rad(robot, name));
   try {
     calibration::check_poses(robot, thetas_rad);
   } catch (const std::runtime_error& error) {
@@ -143,7 +143,7 @@ void look_at_mass(const config::RobotConfig& robot, const Json& table, Json& pro
 
 // What nobody knows of a cable's length, times its stiffness, may not take the tension from what is planned to the
 // floor at the motor. The shortest cable, of segment 1, is the stiffest.
-void look_at_stiffness(const cable::RobotTable& table, Json& problems) {
+void look_at_stiffness(const cable::RobotParams& table, Json& problems) {
   const double shortest_m = table.segment[0].modules * table.segment[0].module_length_m + table.lead_m;
   const double change_N = kUnknown_m * table.cable_EA_N / shortest_m;
   const double allowed_N = table.tension.plan_N - table.tension.floor_motor_N;
@@ -155,23 +155,23 @@ void look_at_stiffness(const cable::RobotTable& table, Json& problems) {
 }
 
 // Cables that move too little between any two poses do not tell their drives' directions.
-void look_at_travel(const cable::RobotTable& table, Json& notes) {
+void look_at_travel(const cable::RobotParams& table, Json& notes) {
   for (std::size_t j = 0; j < static_cast<std::size_t>(table.segment_count); ++j) {
-    const cable::SegmentTable& segment = table.segment[j];
+    const cable::SegmentParams& segment = table.segment[j];
     const double most_m = table.hole_radius_m * segment.modules * segment.theta_limit_rad;
-    if (most_m >= calibration::kLeastChange_m) continue;
+    if (most_m >= calibration::kMinChange_m) continue;
     notes.push_back(
         text("segment %zu moves its cables by %.1f mm at most: liana calibrate needs %g mm: set drives.zero_counts "
              "and .direction by hand (docs/how-to/calibrate.md)",
-             j + 1, 1e3 * most_m, 1e3 * calibration::kLeastChange_m));
+             j + 1, 1e3 * most_m, 1e3 * calibration::kMinChange_m));
   }
 }
 
-Json workspace_of(const cable::RobotTable& table) {
-  reach::RegionRequest request;
+Json workspace_of(const cable::RobotParams& table) {
+  workspace::RegionRequest request;
   request.point.node = table.segment_count;
   request.samples = kSamples;
-  const reach::Region region = reach::explore_region(reach::arm_of(table), request);
+  const workspace::Region region = workspace::explore_region(workspace::arm_of(table), request);
   return {{"length_m", region.length_m},
           {"nearest_m", region.nearest_m},
           {"farthest_m", region.farthest_m},
@@ -180,7 +180,7 @@ Json workspace_of(const cable::RobotTable& table) {
 }
 
 Json checked_cable_robot(const config::RobotConfig& robot) {
-  const cable::RobotTable& table = robot.table;
+  const cable::RobotParams& table = robot.table;
   std::int32_t modules = 0;
   for (std::size_t j = 0; j < static_cast<std::size_t>(table.segment_count); ++j) modules += table.segment[j].modules;
   Json problems = Json::array();
@@ -252,23 +252,23 @@ void print_parts(const Json& checked) {
 }  // namespace
 
 int robot_check_command(const RobotCheckOptions& options) {
-  const std::string robot_text = system::evaluate_table("robot", options.robot);
-  const system::TableText table = system::buses_of(options.robot, robot_text, options.bus);
-  const config::BusesConfig buses = system::checked([&] { return config::parse_buses(table.json, table.name); });
-  const bool is_serial = system::checked([&] { return config::robot_kind(robot_text, options.robot); }) == "serial";
+  const std::string robot_text = launcher::evaluate_table("robot", options.robot);
+  const launcher::TableText table = launcher::buses_of(options.robot, robot_text, options.bus);
+  const config::BusesConfig buses = launcher::checked([&] { return config::parse_buses(table.json, table.name); });
+  const bool is_serial = launcher::checked([&] { return config::robot_kind(robot_text, options.robot); }) == "serial";
   if (is_serial && !options.svg_file.empty())
-    throw system::BadInput("--svg: robot " + options.robot + " has a serial arm, without cables; leave it out");
+    throw launcher::BadInput("--svg: robot " + options.robot + " has a serial arm, without cables; leave it out");
   if (!is_serial && !options.scene.empty())
-    throw system::BadInput("--scene: robot " + options.robot + " has cables and carries no payload; leave it out");
-  const config::SceneConfig scene = options.scene.empty() ? config::SceneConfig{} : system::scene_of(options.scene);
+    throw launcher::BadInput("--scene: robot " + options.robot + " has cables and carries no payload; leave it out");
+  const config::SceneConfig scene = options.scene.empty() ? config::SceneConfig{} : launcher::scene_of(options.scene);
   Json checked;
   if (is_serial) {
-    checked = system::checked(
+    checked = launcher::checked(
         [&] { return checked_serial_robot(config::parse_serial_robot(robot_text, options.robot, buses), scene); });
   } else {
     const config::RobotConfig robot =
-        system::checked([&] { return config::parse_robot(robot_text, options.robot, "nominal", buses); });
-    if (!options.svg_file.empty()) system::write_output(options.svg_file, reach::routing_picture(robot));
+        launcher::checked([&] { return config::parse_robot(robot_text, options.robot, "nominal", buses); });
+    if (!options.svg_file.empty()) launcher::write_output(options.svg_file, workspace::routing_picture(robot));
     checked = checked_cable_robot(robot);
   }
   checked["buses"] = buses_of(buses);
@@ -277,7 +277,7 @@ int robot_check_command(const RobotCheckOptions& options) {
   } else {
     print_parts(checked);
   }
-  return checked["problems"].empty() ? system::kExitOk : system::kExitFailure;
+  return checked["problems"].empty() ? launcher::kExitOk : launcher::kExitFailure;
 }
 
 }  // namespace liana::cli

@@ -19,7 +19,7 @@ namespace {
 constexpr double kHoleShare = 0.8;                         // of the radius, where the cables' holes are
 constexpr double kHoleApart_m = 0.0015;                    // between neighbours among them
 constexpr double kUsualPlan_N = 30.0, kUsualJump_N = 7.0;  // of discs of 25 mm radius
-constexpr double kLeastPlan_N = 3.0;      // less is lost in a drive's friction and the steps of its torque
+constexpr double kMinPlan_N = 3.0;        // less is lost in a drive's friction and the steps of its torque
 constexpr double kShortestLead_m = 0.1;   // drives are not smaller with the arm
 constexpr double kThetaRate_deg_s = 2.0;  // no faster than the tip needs it
 constexpr double kShareOfAccel = 0.7;     // for the tip on its line; what is left catches up where the way gets harder
@@ -74,9 +74,9 @@ Answers ask(const RobotNewOptions& options) {
   answers.theta_limit_deg = asking.number(kAskLimit, options.theta_limit_deg, kAskLimit.usual);
   const int cables = answers.segments * answers.cables;
   if (cables > cable::kMaxCables)
-    throw system::BadInput("--cables: " + std::to_string(answers.cables) + " in each of " +
-                           std::to_string(answers.segments) + " segments are " + std::to_string(cables) + ": allowed " +
-                           std::to_string(cable::kMaxCables) + " in all; give fewer");
+    throw launcher::BadInput("--cables: " + std::to_string(answers.cables) + " in each of " +
+                             std::to_string(answers.segments) + " segments are " + std::to_string(cables) +
+                             ": allowed " + std::to_string(cable::kMaxCables) + " in all; give fewer");
   return answers;
 }
 
@@ -134,7 +134,7 @@ std::string head(const std::string& name, const Answers& a) {
 // Sizes in proportion to an arm of 1.44 m with discs of 25 mm radius.
 std::string body(const std::string& name, const Answers& a) {
   const double arm_m = a.segments * a.modules * a.length_m, size = a.radius_m / 0.025;
-  const double plan_N = std::max(kLeastPlan_N, kUsualPlan_N * size * size), drum_m = 0.012 * std::sqrt(size),
+  const double plan_N = std::max(kMinPlan_N, kUsualPlan_N * size * size), drum_m = 0.012 * std::sqrt(size),
                hard_N = 15.0 * plan_N;
   const double mass_kg = std::max(0.001, 0.2 * size * size * (a.length_m / 0.08)), reach = std::min(1.0, arm_m / 1.44);
   const double tip_m_deg = tip_way_m_deg({a.segments, a.modules, a.theta_limit_deg}, arm_m);
@@ -199,16 +199,16 @@ int robot_new_command(const RobotNewOptions& options) {
   const bool is_name = !options.name.empty() && options.name.size() <= 40 &&
                        options.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos;
   if (!is_name)
-    throw system::BadInput("robot new: name: '" + options.name +
-                           "': allowed 1 to 40 small letters, digits and _; choose another");
+    throw launcher::BadInput("robot new: name: '" + options.name +
+                             "': allowed 1 to 40 small letters, digits and _; choose another");
   const std::string file = options.file.empty() ? options.name + ".lua" : options.file;
   if (access(file.c_str(), F_OK) == 0)
-    throw system::BadInput("robot new: " + file + ": exists already; give another --out, or move it away");
-  system::check_output("--out", file);
+    throw launcher::BadInput("robot new: " + file + ": exists already; give another --out, or move it away");
+  launcher::check_output("--out", file);
   const Answers answers = ask(options);
-  system::write_output(file, head(options.name, answers) + body(options.name, answers));
+  launcher::write_output(file, head(options.name, answers) + body(options.name, answers));
   std::printf("%s\nnext: liana robot check %s\n", file.c_str(), file.c_str());
-  return system::kExitOk;
+  return launcher::kExitOk;
 }
 
 }  // namespace liana::cli

@@ -15,7 +15,7 @@
 namespace liana::cli {
 namespace {
 
-bool publish_report(const system::RunOptions& options, const system::SystemLayout& plan, const Json& report) {
+bool publish_report(const launcher::RunOptions& options, const launcher::SystemLayout& plan, const Json& report) {
   bool written = write_report(plan.file("report.json"), report);
   if (options.report_file == "-") {
     std::puts(report.dump().c_str());
@@ -27,16 +27,16 @@ bool publish_report(const system::RunOptions& options, const system::SystemLayou
 }
 
 // Without lianad there are logs only.
-std::string where_to_look(const system::SystemLayout& plan) {
+std::string where_to_look(const launcher::SystemLayout& plan) {
   if (!std::filesystem::exists(plan.events_file())) return "its logs are kept in " + plan.directory;
   return "what happened and why is in " + plan.events_file() + ", its logs are beside it";
 }
 
 // A mission is not kept from running by a console that cannot.
-std::unique_ptr<system::GatewayProcess> console_of(const system::SystemLayout& plan) {
+std::unique_ptr<launcher::GatewayProcess> console_of(const launcher::SystemLayout& plan) {
   try {
-    auto gateway = std::make_unique<system::GatewayProcess>(plan.api_socket(), system::GatewayOptions(),
-                                                            plan.file("liana-gateway.log"));
+    auto gateway = std::make_unique<launcher::GatewayProcess>(plan.api_socket(), launcher::GatewayOptions(),
+                                                              plan.file("liana-gateway.log"));
     std::fprintf(stderr, "console: %s\n", gateway->address().c_str());
     return gateway;
   } catch (const std::exception& error) {
@@ -47,15 +47,15 @@ std::unique_ptr<system::GatewayProcess> console_of(const system::SystemLayout& p
 
 }  // namespace
 
-int run_command(const system::RunOptions& options) {
-  const system::SystemLayout plan = system::make_layout(options);
-  system::RunSession session(plan);
-  std::unique_ptr<system::GatewayProcess> console;
+int run_command(const launcher::RunOptions& options) {
+  const launcher::SystemLayout plan = launcher::make_layout(options);
+  launcher::RunSession session(plan);
+  std::unique_ptr<launcher::GatewayProcess> console;
   if (options.has_console) console = console_of(plan);
-  const system::RunEnd end = session.run();
+  const launcher::RunResult end = session.run();
   if (end.bad_input) {
-    system::discard(plan);
-    throw system::BadInput(end.message);
+    launcher::discard(plan);
+    throw launcher::BadInput(end.message);
   }
   const Json report = report::make_report(report_sources(options, plan, session, end));
   const bool written = publish_report(options, plan, report);
@@ -66,8 +66,8 @@ int run_command(const system::RunOptions& options) {
   }
   const bool stays = plan.directory != plan.socket_dir || !success;
   if (stays) leave_page(plan.directory, options.report_file == "-" ? stderr : stdout);
-  system::clean_up(plan, success);
-  return success && written ? system::kExitOk : system::kExitFailure;
+  launcher::clean_up(plan, success);
+  return success && written ? launcher::kExitOk : launcher::kExitFailure;
 }
 
 }  // namespace liana::cli

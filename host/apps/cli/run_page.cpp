@@ -10,11 +10,11 @@ namespace liana::cli {
 void leave_page(const std::string& folder, std::FILE* out) {
   const std::string file = folder + "/page.html";
   try {
-    if (view::is_page_built()) view::write_page(folder, file);
-    if (view::is_page_built()) {
+    if (run_page::is_page_built()) run_page::write_page(folder, file);
+    if (run_page::is_page_built()) {
       std::fprintf(out, "page: %s\n", file.c_str());
     } else {
-      std::fprintf(out, "page: %s makes one of %s\n", places::is_installed() ? "liana view" : "./dev view",
+      std::fprintf(out, "page: %s makes one of %s\n", install_paths::is_installed() ? "liana view" : "./dev view",
                    folder.c_str());
     }
   } catch (const std::exception& error) {

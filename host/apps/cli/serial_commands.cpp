@@ -11,7 +11,7 @@
 namespace liana::cli {
 namespace {
 
-Json pose_of(const serial::RobotTable& table, const serial::JointVector& joint_rad) {
+Json pose_of(const serial::RobotParams& table, const serial::JointVector& joint_rad) {
   const serial::ArmKinematics arm = forward_kinematics(table, joint_rad);
   Json points = Json::array();
   for (std::size_t i = 0; i <= table.joints(); ++i) points.push_back(arm.point_in_base[i]);
@@ -27,7 +27,7 @@ void print_pose(const Json& pose) {
   }
 }
 
-Json to_json(const solve::SerialGoalResult& result, std::size_t joints) {
+Json to_json(const inverse_kinematics::SerialGoalResult& result, std::size_t joints) {
   Json theta_deg = Json::array();
   for (std::size_t i = 0; i < joints; ++i) theta_deg.push_back(result.joint_rad[i] / kDegree);
   return {{"theta_deg", theta_deg},
@@ -51,8 +51,8 @@ void print_ik(const Json& answer) {
 void refuse_cable_option(const char* option, const std::string& value, const config::SerialRobotConfig& robot,
                          const char* what_to_do) {
   if (value.empty()) return;
-  throw system::BadInput(std::string(option) + ": '" + value + "': allowed with cable arms only: robot " + robot.name +
-                         " has a serial arm; " + what_to_do);
+  throw launcher::BadInput(std::string(option) + ": '" + value + "': allowed with cable arms only: robot " +
+                           robot.name + " has a serial arm; " + what_to_do);
 }
 
 int serial_pose_command(const config::SerialRobotConfig& robot, const PoseOptions& options) {
@@ -63,22 +63,22 @@ int serial_pose_command(const config::SerialRobotConfig& robot, const PoseOption
   } else {
     print_pose(pose);
   }
-  return system::kExitOk;
+  return launcher::kExitOk;
 }
 
 int serial_ik_command(const config::SerialRobotConfig& robot, const IkOptions& options) {
   refuse_cable_option("--hold", options.hold, robot);
   for (const std::string& point : options.control_points) refuse_cable_option("--control-point", point, robot);
-  const solve::SerialGoal goal{parse_pose("--tip", options.tip),
-                               parse_joint_deg("--from-deg", options.from_deg, robot.table)};
-  const solve::SerialGoalResult result = solve_goal(robot.table, goal);
+  const inverse_kinematics::SerialGoal goal{parse_pose("--tip", options.tip),
+                                            parse_joint_deg("--from-deg", options.from_deg, robot.table)};
+  const inverse_kinematics::SerialGoalResult result = solve_goal(robot.table, goal);
   const Json answer = to_json(result, robot.table.joints());
   if (options.json) {
     std::puts(answer.dump().c_str());
   } else {
     print_ik(answer);
   }
-  return result.converged ? system::kExitOk : system::kExitNotConverged;
+  return result.converged ? launcher::kExitOk : launcher::kExitNotConverged;
 }
 
 }  // namespace liana::cli

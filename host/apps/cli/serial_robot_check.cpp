@@ -21,11 +21,11 @@ Json swings_of(const config::SerialRobotConfig& robot, const serial::JointVector
   serial::JointVector stiffness_Nm_rad{};
   std::copy(robot.stiffness_Nm_rad.begin(), robot.stiffness_Nm_rad.end(), stiffness_Nm_rad.begin());
   const config::LockedBase& base = *robot.base;
-  const std::array<sweep::SpringyArm, 2> chain = {{
+  const std::array<self_motion::SpringyArm, 2> chain = {{
       {base.table, base.masses, base.joint_rad, base.stiffness_Nm_rad},
       {robot.table, robot.masses, joint_rad, stiffness_Nm_rad},
   }};
-  const std::vector<double> periods_s = sweep::swing_periods_s(chain, load);
+  const std::vector<double> periods_s = self_motion::swing_periods_s(chain, load);
   return {periods_s[0], periods_s[1]};
 }
 
@@ -52,7 +52,7 @@ Json swings_at_poses(const config::SerialRobotConfig& robot, const config::Scene
 Json checked_serial_robot(const config::SerialRobotConfig& robot, const config::SceneConfig& scene) {
   Json problems = Json::array();
   for (const auto& [name, angles_deg] : robot.named_poses_deg) {
-    const std::string inside = system::inside_itself(robot, angles_deg);
+    const std::string inside = launcher::inside_itself(robot, angles_deg);
     if (!inside.empty())
       problems.push_back("named_poses_deg." + name + ": " + inside +
                          ": choose other angles, or a thinner link_radius_m");
@@ -60,7 +60,7 @@ Json checked_serial_robot(const config::SerialRobotConfig& robot, const config::
   if (const std::string why = config::why_not_carried(robot, scene); !why.empty())
     problems.push_back("scene " + scene.name + ": " + why);
   Json notes = Json::array();
-  if (simulate::SerialContact(simulate::serial_model(robot)).pairs() == 0)
+  if (simulation::SerialContact(simulation::serial_model(robot)).pairs() == 0)
     notes.push_back(
         "link_radius_m: so thick that no two links are far enough apart along the arm: it is not kept off itself");
   return {{"robot", robot.name},

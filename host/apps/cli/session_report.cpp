@@ -17,15 +17,15 @@ report::Criteria criteria(const std::string& robot_file, const std::string& phys
   return report::criteria_of(Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}}), physics);
 }
 
-report::BodyAt body_at(const system::RunOptions& options, const system::SystemLayout& plan) {
+report::BodyAt body_at(const launcher::RunOptions& options, const launcher::SystemLayout& plan) {
   const config::RobotConfig robot =
       config::parse_robot(config::read_text_file(plan.file("robot.json")), plan.robot, options.physics, plan.buses);
   return [robot, scene = plan.scene](const std::vector<double>& theta_deg) {
-    return system::nearest_body(robot, scene, theta_deg);
+    return launcher::nearest_body(robot, scene, theta_deg);
   };
 }
 
-Json people_of(const system::OperatorChoice& people) {
+Json people_of(const launcher::OperatorChoice& people) {
   const auto given = [](const std::string& word) { return word.empty() ? Json() : Json(word); };
   return {{"who", people.who.empty() ? "recorded" : people.who},
           {"delay_s", given(people.delay)},
@@ -37,8 +37,8 @@ Json people_of(const system::OperatorChoice& people) {
 
 }  // namespace
 
-report::ReportSources report_sources(const system::RunOptions& options, const system::SystemLayout& plan,
-                                     const system::RunSession& session, const system::RunEnd& end) {
+report::ReportSources report_sources(const launcher::RunOptions& options, const launcher::SystemLayout& plan,
+                                     const launcher::RunSession& session, const launcher::RunResult& end) {
   report::ReportSources sources;
   sources.robot = plan.robot;
   sources.mission = options.mission;
@@ -76,7 +76,7 @@ report::ReportSources report_sources(const system::RunOptions& options, const sy
 
 bool write_report(const std::string& path, const Json& report) {
   try {
-    system::write_output(path, report.dump(1) + "\n");
+    launcher::write_output(path, report.dump(1) + "\n");
     return true;
   } catch (const std::runtime_error& error) {
     std::fprintf(stderr, "liana: the report is lost: %s\n", error.what());

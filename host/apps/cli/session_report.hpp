@@ -8,8 +8,8 @@
 namespace liana::cli {
 
 // Everything that `session`, which must outlive it, and the files of `plan` tell of a run that has ended.
-report::ReportSources report_sources(const system::RunOptions& options, const system::SystemLayout& plan,
-                                     const system::RunSession& session, const system::RunEnd& end);
+report::ReportSources report_sources(const launcher::RunOptions& options, const launcher::SystemLayout& plan,
+                                     const launcher::RunSession& session, const launcher::RunResult& end);
 
 // Writes a report. What happened since its place was looked at must not lose the rest: false, with the reason on
 // standard error, when it cannot be written.

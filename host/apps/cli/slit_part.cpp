@@ -8,7 +8,7 @@
 namespace liana::cli {
 namespace {
 
-Json range_deg(const solve::YawInterval& interval) {
+Json range_deg(const inverse_kinematics::YawInterval& interval) {
   if (interval.empty) return nullptr;
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   return {interval.lowest_rad * kDegrees, interval.highest_rad * kDegrees};
@@ -18,22 +18,22 @@ Json range_deg(const solve::YawInterval& interval) {
 
 Json slit_part(const config::RobotConfig& robot, const config::SceneConfig& scene,
                const cable::ThetaVector& theta_rad) {
-  const cable::RobotTable& table = robot.table;
-  const solve::SlitMouth mouth = config::slit_mouth(*scene.slit, robot.module_radius_m);
-  const std::int32_t segments =
-      solve::planar_segments(table, link_points(table, theta_rad), mouth, solve::PlanarSwitch{}, 0);
-  const solve::PlanarPart part{segments, forward_kinematics(table, theta_rad).tip_in_base, theta_rad};
+  const cable::RobotParams& table = robot.table;
+  const inverse_kinematics::SlitMouth mouth = config::slit_mouth(*scene.slit, robot.module_radius_m);
+  const std::int32_t segments = inverse_kinematics::planar_segments(table, link_points(table, theta_rad), mouth,
+                                                                    inverse_kinematics::PlanarSwitch{}, 0);
+  const inverse_kinematics::PlanarPart part{segments, forward_kinematics(table, theta_rad).tip_in_base, theta_rad};
   Json out{{"planar_segments", segments},
-           {"held_theta", config::theta_numbers(solve::planar_pitches(table, segments))},
+           {"held_theta", config::theta_numbers(inverse_kinematics::planar_pitches(table, segments))},
            {"root", nullptr},
            {"yaw_range_deg", Json::array()}};
   if (segments == 0) return out;
-  const Pose root = solve::root_of(table, part);
+  const Pose root = inverse_kinematics::root_of(table, part);
   const Vec3& p = root.position_m;
   const Quat& q = root.quaternion;
   out["root"] = {p[0], p[1], p[2], q[0], q[1], q[2], q[3]};
   for (std::int32_t m = table.segment_count - segments + 1; m <= table.segment_count; ++m) {
-    out["yaw_range_deg"].push_back(range_deg(solve::feasible_yaw(table, part, mouth, m)));
+    out["yaw_range_deg"].push_back(range_deg(inverse_kinematics::feasible_yaw(table, part, mouth, m)));
   }
   return out;
 }

@@ -10,12 +10,12 @@ namespace liana::cli {
 namespace {
 
 // What says how the simulated arm is to be means nothing to a system that runs.
-void require_no_wishes(const system::RunOptions& run, const std::string& api) {
-  const system::RunOptions none;
+void require_no_wishes(const launcher::RunOptions& run, const std::string& api) {
+  const launcher::RunOptions none;
   const auto refuse = [&](const char* option, bool given) {
     if (given)
-      throw system::BadInput(std::string(option) + ": a system runs already, at " + api +
-                             "; leave it out, or add --simulate for another, simulated arm");
+      throw launcher::BadInput(std::string(option) + ": a system runs already, at " + api +
+                               "; leave it out, or add --simulate for another, simulated arm");
   };
   refuse("--robot", run.robot != none.robot);
   refuse("--scene", run.scene != none.scene);
@@ -26,19 +26,19 @@ void require_no_wishes(const system::RunOptions& run, const std::string& api) {
   refuse("--seed", run.seed != none.seed);
 }
 
-std::string running_one(const char* command, const SystemWish& wish) {
-  if (!wish.api.empty()) return system::systems_to_ask(wish.api).front();
+std::string running_one(const char* command, const SystemSelection& wish) {
+  if (!wish.api.empty()) return launcher::systems_to_ask(wish.api).front();
   if (wish.simulate) return {};
   const std::vector<std::string> systems = api::running_systems();
   if (systems.size() > 1)
-    throw system::BadInput(std::string(command) + ": " + std::to_string(systems.size()) +
-                           " systems run; name one with --api (liana status lists them), or --simulate another arm");
+    throw launcher::BadInput(std::string(command) + ": " + std::to_string(systems.size()) +
+                             " systems run; name one with --api (liana status lists them), or --simulate another arm");
   return systems.empty() ? std::string() : systems.front();
 }
 
 }  // namespace
 
-std::string system_to_join(const char* command, const SystemWish& wish) {
+std::string system_to_join(const char* command, const SystemSelection& wish) {
   std::string api = running_one(command, wish);
   if (!api.empty()) require_no_wishes(wish.run, api);
   return api;

@@ -47,11 +47,11 @@ void send_all(api::ApiClient& client, const std::vector<Json>& requests) {
 }
 
 // Keys of the terminal and of the gamepad, and where its sticks lean.
-void feel(const std::string& typed, std::optional<teleop::Gamepad>& gamepad, teleop::Session& session,
+void feel(const std::string& typed, std::optional<terminal::Gamepad>& gamepad, terminal::Session& session,
           api::ApiClient& client) {
-  for (const teleop::Key& key : teleop::keys_in(typed)) send_all(client, session.press(key, now_s()));
+  for (const terminal::Key& key : terminal::keys_in(typed)) send_all(client, session.press(key, now_s()));
   if (!gamepad) return;
-  for (const teleop::Key& key : gamepad->read(now_s())) send_all(client, session.press(key, now_s()));
+  for (const terminal::Key& key : gamepad->read(now_s())) send_all(client, session.press(key, now_s()));
   session.lean(gamepad->is_held() ? std::optional(gamepad->direction()) : std::nullopt);
   if (gamepad->take_silence())
     session.say("the gamepad has said nothing for 2 s: the arm holds; press its shoulder button anew");
@@ -61,67 +61,67 @@ void feel(const std::string& typed, std::optional<teleop::Gamepad>& gamepad, tel
 }
 
 // Until the person or lianad ends it, or `goes_on` says false; whoever leaves gives motion back, and the arm holds.
-void drive(const std::string& api, std::optional<teleop::Gamepad>& gamepad, const std::function<bool()>& goes_on) {
+void drive(const std::string& api, std::optional<terminal::Gamepad>& gamepad, const std::function<bool()>& goes_on) {
   const std::string name = "teleop-" + std::to_string(getpid());
   api::ApiClient client = api::ApiClient::connect(api, kWelcome_s);
-  client.send(system::hello(name, system::Observer::kClient));
-  const auto welcome = system::wait_for(client, "welcome", kWelcome_s);
+  client.send(launcher::hello(name, launcher::Observer::kClient));
+  const auto welcome = launcher::wait_for(client, "welcome", kWelcome_s);
   if (!welcome) throw std::runtime_error("lianad at " + api + " did not answer within 30 s");
-  teleop::Session session(name, *welcome);
-  teleop::Terminal terminal;
-  Beat goal(teleop::Session::kPeriod_s), picture(kDraw_s);
+  terminal::Session session(name, *welcome);
+  terminal::Terminal terminal;
+  Beat goal(terminal::Session::kPeriod_s), picture(kDraw_s);
   while (goes_on() && !session.wants_end() && !session.is_over() && !terminal.is_gone()) {
-    feel(terminal.read(client.fd(), teleop::Session::kPeriod_s), gamepad, session, client);
+    feel(terminal.read(client.fd(), terminal::Session::kPeriod_s), gamepad, session, client);
     while (const auto message = client.receive(0.0)) session.hear(*message);
     if (goal.is_due(now_s())) send_all(client, session.pass(now_s()));
     if (picture.is_due(now_s())) terminal.draw(session.lines(terminal.columns()));
   }
 }
 
-int attach(const std::string& api, std::optional<teleop::Gamepad>& gamepad) {
-  const system::InterruptGuard interrupts;
+int attach(const std::string& api, std::optional<terminal::Gamepad>& gamepad) {
+  const launcher::InterruptGuard interrupts;
   drive(api, gamepad, [&] { return interrupts.count() == 0; });
-  return system::kExitOk;
+  return launcher::kExitOk;
 }
 
-void simulate_and_drive(const system::SystemLayout& plan, std::optional<teleop::Gamepad>& gamepad) {
-  system::ConsoleSession session(plan);
+void simulate_and_drive(const launcher::SystemLayout& plan, std::optional<terminal::Gamepad>& gamepad) {
+  launcher::ConsoleSession session(plan);
   session.start();
   drive(plan.api_socket(), gamepad, [&] { return session.go_on(0.0); });
 }
 
-int simulate(const SystemWish& wish, std::optional<teleop::Gamepad>& gamepad) {
-  system::RunOptions run = wish.run;
+int simulate(const SystemSelection& wish, std::optional<terminal::Gamepad>& gamepad) {
+  launcher::RunOptions run = wish.run;
   run.time = "paced";
   run.is_session = true;
-  const system::SystemLayout plan = system::make_layout(run);
+  const launcher::SystemLayout plan = launcher::make_layout(run);
   std::fprintf(stderr, "a simulated arm is starting\n");
   try {
     simulate_and_drive(plan, gamepad);
-  } catch (const system::BadInput&) {
-    system::discard(plan);
+  } catch (const launcher::BadInput&) {
+    launcher::discard(plan);
     throw;
   } catch (...) {
     std::fprintf(stderr, "liana: logs are kept in %s\n", plan.directory.c_str());
     throw;
   }
-  system::clean_up(plan, true);
+  launcher::clean_up(plan, true);
   std::fprintf(stderr, "recorded in %s; liana view makes a page of it\n", plan.directory.c_str());
-  return system::kExitOk;
+  return launcher::kExitOk;
 }
 
-void open_gamepad(const std::string& file, std::optional<teleop::Gamepad>& gamepad) try {
+void open_gamepad(const std::string& file, std::optional<terminal::Gamepad>& gamepad) try {
   if (!file.empty()) gamepad.emplace(file);
 } catch (const std::runtime_error& error) {
-  throw system::BadInput(error.what());
+  throw launcher::BadInput(error.what());
 }
 
 }  // namespace
 
 int teleop_command(const TeleopOptions& options) {
   if (isatty(STDIN_FILENO) == 0 || isatty(STDOUT_FILENO) == 0)
-    throw system::BadInput("teleop: standard input and output have to be a terminal: keys are read one by one");
-  std::optional<teleop::Gamepad> gamepad;
+    throw launcher::BadInput("teleop: standard input and output have to be a terminal: keys are read one by one");
+  std::optional<terminal::Gamepad> gamepad;
   open_gamepad(options.gamepad, gamepad);
   const std::string api = system_to_join("teleop", options.wish);
   return api.empty() ? simulate(options.wish, gamepad) : attach(api, gamepad);

@@ -20,7 +20,7 @@ namespace liana::cli {
 namespace {
 
 constexpr double kLongest_s = 600.0;
-constexpr double kMostAngle_deg = 720.0;
+constexpr double kMaxAngle_deg = 720.0;
 constexpr double kSerialInterval_s = 0.02;
 
 // A word is the name of a pose.
@@ -31,8 +31,8 @@ std::vector<double> angles_deg_of(const char* option, const std::string& text, c
   if (text.find(',') != std::string::npos) return parse_numbers(option, text, count);
   std::string names;
   for (const auto& [name, angles_deg] : robot.named_poses_deg) names += (names.empty() ? "" : ", ") + name;
-  throw system::BadInput(std::string(option) + ": '" + text + "': allowed " + std::to_string(count) +
-                         " angles, or a pose of robot " + robot.name + ": " + names);
+  throw launcher::BadInput(std::string(option) + ": '" + text + "': allowed " + std::to_string(count) +
+                           " angles, or a pose of robot " + robot.name + ": " + names);
 }
 
 // Whatever the angles are: those beyond their limits are what verification refuses.
@@ -41,8 +41,8 @@ Joints any_angles(const char* option, const std::string& text, const Robot& robo
   const std::vector<double> angles_deg = angles_deg_of(option, text, robot, count);
   Joints joint_rad{};
   for (std::size_t k = 0; k < angles_deg.size(); ++k) {
-    if (std::fabs(angles_deg[k]) > kMostAngle_deg)
-      throw system::BadInput(std::string(option) + ": '" + text + "': allowed: angles within +-720 deg");
+    if (std::fabs(angles_deg[k]) > kMaxAngle_deg)
+      throw launcher::BadInput(std::string(option) + ": '" + text + "': allowed: angles within +-720 deg");
     joint_rad[k] = angles_deg[k] * kDegree;
   }
   return joint_rad;
@@ -53,33 +53,34 @@ auto way_of(const VerifyOptions& options, const Robot& robot, std::size_t joints
   const double duration_s = parse_number_in("--duration", options.duration_s, interval_s, kLongest_s, "s");
   const Joints from_rad = any_angles<Joints>("--from-deg", options.from_deg, robot, joints);
   const Joints to_rad = any_angles<Joints>("--to-deg", options.to_deg, robot, joints);
-  return simulate::straight_way(robot.table, from_rad, to_rad, duration_s, interval_s);
+  return simulation::straight_way(robot.table, from_rad, to_rad, duration_s, interval_s);
 }
 
-verify::Verdict verdict_of(const VerifyOptions& options, const config::RobotConfig& robot,
-                           const config::SceneConfig& scene) {
+verification::Verdict verdict_of(const VerifyOptions& options, const config::RobotConfig& robot,
+                                 const config::SceneConfig& scene) {
   const double interval_s = robot.table.interval_ticks * robot.table.tick_s;
   const auto thetas = static_cast<std::size_t>(robot.table.theta_count());
-  const simulate::JointSequence way = way_of<cable::ThetaVector>(options, robot, thetas, interval_s);
-  simulate::StartState start;
+  const simulation::JointSequence way = way_of<cable::ThetaVector>(options, robot, thetas, interval_s);
+  simulation::StartState start;
   start.theta_rad = way.rows_rad.front();
-  simulate::Simulation simulation(simulate::arm_model(robot), scene);
-  const verify::MotionRules rules{
+  simulation::Simulation simulation(simulation::arm_model(robot), scene);
+  const verification::MotionRules rules{
       robot.table, scene, {scene.slit, robot.table.limits.tip_speed_slit_m_s}, robot.machine, robot.module_radius_m};
-  verify::TooNear too_near;
-  return verify::judge_simulated(rules, way, true, simulation.run(start, way), too_near);
+  verification::TooNear too_near;
+  return verification::judge_simulated(rules, way, true, simulation.run(start, way), too_near);
 }
 
 // No buses say how long a command interval is, and nothing but how finely the motion is looked at hangs on it.
-verify::Verdict verdict_of(const VerifyOptions& options, const config::SerialRobotConfig& robot,
-                           const config::SceneConfig& scene) {
+verification::Verdict verdict_of(const VerifyOptions& options, const config::SerialRobotConfig& robot,
+                                 const config::SceneConfig& scene) {
   const auto way = way_of<serial::JointVector>(options, robot, robot.table.joints(), kSerialInterval_s);
-  simulate::SerialSimulation simulation(system::checked([&] { return simulate::serial_model(robot, scene); }), scene);
-  verify::TooNear too_near;
-  verify::SimulationVerdict verdict;
-  verdict.margins = verify::margins_unknown();
-  verify::judge_serial(robot.table, simulation, way, simulation.run(way.rows_rad.front(), way, options.carrying),
-                       too_near, verdict);
+  simulation::SerialSimulation simulation(launcher::checked([&] { return simulation::serial_model(robot, scene); }),
+                                          scene);
+  verification::TooNear too_near;
+  verification::SimulationVerdict verdict;
+  verdict.margins = verification::margins_unknown();
+  verification::judge_serial(robot.table, simulation, way, simulation.run(way.rows_rad.front(), way, options.carrying),
+                             too_near, verdict);
   return verdict;
 }
 
@@ -87,11 +88,11 @@ verify::Verdict verdict_of(const VerifyOptions& options, const config::SerialRob
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 // How near a body was; null where the scene has none.
-Json clearance_of(const verify::Verdict& verdict) {
+Json clearance_of(const verification::Verdict& verdict) {
   return verdict.first.body.empty() ? Json() : number_or_null(verdict.margins.clearance_m);
 }
 
-Json json_of(const verify::Verdict& verdict) {
+Json json_of(const verification::Verdict& verdict) {
   const bool refused = !verdict.passed();
   Json out = {{"accepted", !refused},
               {"error", nullptr},
@@ -107,7 +108,7 @@ Json json_of(const verify::Verdict& verdict) {
               {"first", {{"body", verdict.first.body}, {"time_s", verdict.first.time_s}}},
               {"remedy", nullptr}};
   if (refused) {
-    const verify::RefusalRow& row = verify::row_of(verdict.code);
+    const verification::RefusalRow& row = verification::row_of(verdict.code);
     out["error"] = {{"code", static_cast<int>(verdict.code)}, {"name", row.name}, {"text", verdict.text}};
     out["remedy"] = row.remedy;
   }
@@ -122,14 +123,14 @@ struct Left {
   const char* unit;
 };
 
-void print_summary(const verify::Verdict& verdict) {
+void print_summary(const verification::Verdict& verdict) {
   if (verdict.passed()) {
     std::printf("accepted%s\n", verdict.slowly ? ", to be carried out slowly" : "");
   } else {
-    const verify::RefusalRow& row = verify::row_of(verdict.code);
+    const verification::RefusalRow& row = verification::row_of(verdict.code);
     std::printf("refused: %d %s: %s; %s\n", static_cast<int>(verdict.code), row.name, verdict.text.c_str(), row.remedy);
   }
-  const verify::Margins& left = verdict.margins;
+  const verification::Margins& left = verdict.margins;
   const double clearance_mm = verdict.first.body.empty() ? std::nan("") : 1000.0 * left.clearance_m;
   const Left shown[] = {{"clearance", clearance_mm, 1, "mm"},
                         {"angle", left.joint_deg, 3, "deg"},
@@ -155,16 +156,17 @@ void print_summary(const verify::Verdict& verdict) {
 }  // namespace
 
 int verify_command(const VerifyOptions& options) {
-  const std::optional<config::SerialRobotConfig> serial = system::serial_robot_for_kinematics(options.robot);
-  const config::SceneConfig scene = system::scene_of(!options.scene.empty() ? options.scene
-                                                     : serial               ? "none"
-                                                                            : "panel_slit");
+  const std::optional<config::SerialRobotConfig> serial = launcher::serial_robot_for_kinematics(options.robot);
+  const config::SceneConfig scene = launcher::scene_of(!options.scene.empty() ? options.scene
+                                                       : serial               ? "none"
+                                                                              : "panel_slit");
   if (options.carrying && !scene.payload)
-    throw system::BadInput("--carrying: scene " + scene.name + " has no payload; name one that has (--scene)");
+    throw launcher::BadInput("--carrying: scene " + scene.name + " has no payload; name one that has (--scene)");
   if (options.carrying && !serial)
-    throw system::BadInput("--carrying: robot " + options.robot + " has cables and carries no payload; leave it out");
-  const verify::Verdict verdict = serial ? verdict_of(options, *serial, scene)
-                                         : verdict_of(options, system::robot_for_kinematics(options.robot), scene);
+    throw launcher::BadInput("--carrying: robot " + options.robot + " has cables and carries no payload; leave it out");
+  const verification::Verdict verdict = serial
+                                            ? verdict_of(options, *serial, scene)
+                                            : verdict_of(options, launcher::robot_for_kinematics(options.robot), scene);
   if (options.json) {
     std::puts(json_of(verdict).dump().c_str());
   } else {

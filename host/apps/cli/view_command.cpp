@@ -26,21 +26,21 @@ int show_live(const ViewOptions& options) {
 
 int view_command(const ViewOptions& options) {
   if (options.live) return show_live(options);
-  if (!options.out_file.empty()) system::check_output("--out", options.out_file);
+  if (!options.out_file.empty()) launcher::check_output("--out", options.out_file);
   const std::string folder = options.run.empty() ? last_ended_run("view") : archive_folder("view", options.run);
-  if (!view::is_page_built())
-    throw system::BadInput("view: the page is not built (" + view::built_page() + " is missing): " +
-                           (places::is_installed()
-                                ? "it was not there when Liana was installed: build it, then install again"
-                                : "./dev view builds it, which takes npm"));
+  if (!run_page::is_page_built())
+    throw launcher::BadInput("view: the page is not built (" + run_page::built_page() + " is missing): " +
+                             (install_paths::is_installed()
+                                  ? "it was not there when Liana was installed: build it, then install again"
+                                  : "./dev view builds it, which takes npm"));
   const std::string file = options.out_file.empty() ? folder + "/page.html" : options.out_file;
-  const std::size_t bytes = view::write_page(folder, file);
+  const std::size_t bytes = run_page::write_page(folder, file);
   if (options.json) {
     std::puts(Json{{"run", folder}, {"page", fs::absolute(file).string()}, {"bytes", bytes}}.dump().c_str());
   } else {
     std::puts(fs::absolute(file).c_str());
   }
-  return system::kExitOk;
+  return launcher::kExitOk;
 }
 
 }  // namespace liana::cli

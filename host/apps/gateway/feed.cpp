@@ -80,7 +80,7 @@ void Feed::begin_life(const Json& state) {
 }
 
 void Feed::publish(double now_s, bool wanted) {
-  if (newest_state_.empty() || !wanted || now_s - published_s_ < kLeastBetween_s) return;
+  if (newest_state_.empty() || !wanted || now_s - published_s_ < kMinBetween_s) return;
   Json state = Json::parse(std::exchange(newest_state_, {}));
   if (welcome_.is_null()) begin_life(state);
   record_ = telemetry::encode(*layout_, state, ++sequence_, facts_number_);

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "host/api/telemetry/layout.hpp"
-#include "host/apps/gateway/api_link.hpp"
+#include "host/apps/gateway/api_connection.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::gateway {
@@ -16,7 +16,7 @@ namespace liana::gateway {
 class Feed {
  public:
   static constexpr std::size_t kKeptEvents = 1024;
-  static constexpr double kLeastBetween_s = 0.005;  // two records: in fast time there are more states than eyes
+  static constexpr double kMinBetween_s = 0.005;  // two records: in fast time there are more states than eyes
 
   // `changed` is told when there is something new. `poller` must outlive this.
   Feed(Poller& poller, const std::string& api, std::function<void()> changed);
@@ -51,7 +51,7 @@ class Feed {
   void keep_event(const std::string& packet);
   void lost();
 
-  ApiLink link_;
+  ApiConnection link_;
   std::function<void()> changed_;
   std::string away_;
   std::uint32_t life_ = 0;

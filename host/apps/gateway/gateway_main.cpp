@@ -56,7 +56,7 @@ int run(const Options& options) {
   ::setpriority(PRIO_PROCESS, 0, kNice);
   const std::string devices = options.devices.empty() ? liana::device::devices_path(options.api) : options.devices;
   Gateway gateway(options.api, devices, tokens ? &*tokens : nullptr, listen.is_loopback(), now_s);
-  const std::string page = options.page.empty() ? liana::places::page_file("console.html") : options.page;
+  const std::string page = options.page.empty() ? liana::install_paths::page_file("console.html") : options.page;
   WebServer server({listen, options.certificate, options.key, page, options.runs}, gateway);
   std::puts(server.address().c_str());
   std::fflush(stdout);
@@ -67,7 +67,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  liana::command_line::CommandLine line("liana-gateway: shows a running lianad to browsers");
+  liana::options::CommandLine line("liana-gateway: shows a running lianad to browsers");
   line.option("--api", options.api, "API socket of lianad; it need not be there yet").required();
   line.option("--devices", options.devices, "its socket for devices; .devices behind that of --api without");
   line.option("--listen", options.listen, "ADDR:PORT, port 0: a free one").with_default_shown();

@@ -50,7 +50,7 @@ std::string device_name(const std::string& client) {
 
 device::Capability capability(const std::string& name) {
   const liana_hand hand{LIANA_ALL_AXES, 0, 0, 0, {-kRoom_m, -kRoom_m, -kRoom_m}, {kRoom_m, kRoom_m, kRoom_m}, 0.0, 0.0};
-  return {name, device::Kind::kHandles, 2, kRate_hz, 0.1, {hand, hand}};
+  return {name, device::Kind::kVrControllers, 2, kRate_hz, 0.1, {hand, hand}};
 }
 
 device::Sample sample_of(const api::Arguments& fields, std::uint32_t hand, std::int64_t t_us) {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "host/apps/gateway/api_link.hpp"
+#include "host/apps/gateway/api_connection.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::gateway {
@@ -35,7 +35,7 @@ class Requester {
   void lost();
   void refuse(std::optional<std::int64_t> id, const char* code, const std::string& message);
 
-  ApiLink link_;
+  ApiConnection link_;
   std::string name_, role_;
   Answer answer_;
   bool is_welcome_ = false;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint16_t kPolicyViolated = 1008, kTooBig = 1009;  // RFC 6455, section 7.4.1
 constexpr std::size_t kLongestName = 32;
-constexpr double kLeastHz = 0.1, kMostHz = 100.0;
+constexpr double kMinHz = 0.1, kMaxHz = 100.0;
 constexpr double kEarly_s = 0.005;  // states do not come to the millisecond
 
 bool is_good_name(const std::string& name) {
@@ -162,15 +162,15 @@ void Session::stop(const Json& message, std::optional<std::int64_t> id, double n
 
 void Session::pace(const Json& message) {
   const double hz = message.at("hz");
-  if (!(hz >= kLeastHz && hz <= kMostHz)) throw JsonError("hz = " + message["hz"].dump() + ": allowed 0.1 to 100");
+  if (!(hz >= kMinHz && hz <= kMaxHz)) throw JsonError("hz = " + message["hz"].dump() + ": allowed 0.1 to 100");
   period_s_ = 1.0 / hz;
 }
 
 void Session::malformed(double now_s, std::optional<std::int64_t> id, const std::string& why) {
-  malformed_ = std::max(0.0, malformed_ - (now_s - malformed_s_) * kMostMalformed / 10.0) + 1.0;
+  malformed_ = std::max(0.0, malformed_ - (now_s - malformed_s_) * kMaxMalformed / 10.0) + 1.0;
   malformed_s_ = now_s;
   house_.refused("malformed", address_, why);
-  if (malformed_ > kMostMalformed) return close(kPolicyViolated, "malformed", "too many malformed messages");
+  if (malformed_ > kMaxMalformed) return close(kPolicyViolated, "malformed", "too many malformed messages");
   answer(refusal(id, "bad_request", why));
 }
 

@@ -40,10 +40,10 @@ class Session {
  public:
   static constexpr std::size_t kCredits = 4;               // records under way that the client has not answered
   static constexpr std::size_t kMaxAnswerBytes = 1 << 19;  // that the client does not read
-  static constexpr std::size_t kMostMessages = 50;         // between two ticks; the others wait
+  static constexpr std::size_t kMaxMessages = 50;          // between two ticks; the others wait
   static constexpr double kHelloPatience_s = 5.0;
-  static constexpr double kSilent_s = 10.0;     // with all credits under way
-  static constexpr double kMostMalformed = 20;  // in ten seconds
+  static constexpr double kSilent_s = 10.0;    // with all credits under way
+  static constexpr double kMaxMalformed = 20;  // in ten seconds
 
   // `something_to_send` is told when next() may have something, when the session has ended, and when a client that had
   // said much may go on.
@@ -60,7 +60,7 @@ class Session {
   void tick(double now_s);
 
   // Has said enough for now: nothing more is to be read before the next tick.
-  bool has_said_much() const { return messages_ >= kMostMessages; }
+  bool has_said_much() const { return messages_ >= kMaxMessages; }
   bool is_greeted() const { return greeted_; }
   const std::string& name() const { return name_; }
   // What lets the client load recorded runs while it is connected; empty where no tokens are asked for.

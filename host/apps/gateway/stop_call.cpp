@@ -14,7 +14,7 @@ StopCall::StopCall(Poller& poller, const std::string& api, std::string name, Ans
 
 void StopCall::press(double now_s, std::optional<std::int64_t> id, const std::string& reason) {
   const bool is_first = ids_.empty();
-  if (ids_.size() < kMostIds) ids_.push_back(id);
+  if (ids_.size() < kMaxIds) ids_.push_back(id);
   if (!is_first) return;
   since_s_ = now_s;
   reason_ = reason;

@@ -7,15 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "host/apps/gateway/api_link.hpp"
+#include "host/apps/gateway/api_connection.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::gateway {
 
 class StopCall {
  public:
-  static constexpr double kPatience_s = 0.9;   // until it is said that lianad did not confirm
-  static constexpr std::size_t kMostIds = 64;  // of stops that one confirmation answers
+  static constexpr double kPatience_s = 0.9;  // until it is said that lianad did not confirm
+  static constexpr std::size_t kMaxIds = 64;  // of stops that one confirmation answers
 
   using Answer = std::function<void(const Json& answer)>;
 
@@ -32,7 +32,7 @@ class StopCall {
   void take(const std::string& packet);
   void end(Json lianad_says);
 
-  ApiLink link_;
+  ApiConnection link_;
   std::string name_, reason_;
   Answer answer_;
   std::vector<std::optional<std::int64_t>> ids_;  // not empty: a stop is under way

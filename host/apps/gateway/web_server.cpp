@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/apps/gateway/web_door.hpp"
+#include "host/apps/gateway/http_handler.hpp"
 #include "host/base/net/socket.hpp"
 
 namespace liana::gateway {
@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t kChunk = 4096;  // of a message, as it is read
 constexpr std::size_t kLongestMessage = api::kMaxPacketBytes;
-constexpr unsigned int kMostSockets = 192;                     // clients, strangers, and those who only load the page
+constexpr unsigned int kMaxSockets = 192;                      // clients, strangers, and those who only load the page
 constexpr std::uint16_t kPingAfter_s = 10, kGoneAfter_s = 20;  // of silence
 constexpr int kLastWord_s = 1;
 constexpr long kTick_ns = 100'000'000;
@@ -56,7 +56,7 @@ struct WebServerInside {
 
   const WebOptions options;
   Gateway& gateway;
-  WebDoor door;
+  HttpHandler door;
   api::UniqueFd timer, signals;
   bool over = false;
   lws_context* context = nullptr;
@@ -210,7 +210,7 @@ constexpr lws_protocols protocol(const char* name, std::size_t bytes) {
 }
 
 constexpr std::array<lws_protocols, 3> kProtocols{
-    {protocol("http", 0), protocol(WebDoor::kProtocol, sizeof(Connection)), lws_protocols{}}};
+    {protocol("http", 0), protocol(HttpHandler::kProtocol, sizeof(Connection)), lws_protocols{}}};
 constexpr lws_retry_bo_t kIdle{nullptr, 0, 0, kPingAfter_s, kGoneAfter_s, 0};
 
 }  // namespace
@@ -224,7 +224,7 @@ void WebServerInside::listen() {
   info.protocols = kProtocols.data();
   info.user = this;
   info.pt_serv_buf_size = kChunk;
-  info.fd_limit_per_thread = kMostSockets;
+  info.fd_limit_per_thread = kMaxSockets;
   info.retry_and_idle_policy = &kIdle;
   info.alpn = "http/1.1";  // nothing here needs HTTP/2, and the library's ends the process for some frames
   info.options = LWS_SERVER_OPTION_SKIP_SERVER_CANONICAL_NAME | LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND;
@@ -232,7 +232,7 @@ void WebServerInside::listen() {
   if (options.is_tls()) {
     info.ssl_cert_filepath = options.certificate.c_str();
     info.ssl_private_key_filepath = options.key.c_str();
-    // Who asks in the clear gets a refusal that can be read, and is logged: WebDoor.
+    // Who asks in the clear gets a refusal that can be read, and is logged: HttpHandler.
     info.options |= LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT | LWS_SERVER_OPTION_ALLOW_NON_SSL_ON_SSL_PORT |
                     LWS_SERVER_OPTION_ALLOW_HTTP_ON_HTTPS_LISTENER;
   }

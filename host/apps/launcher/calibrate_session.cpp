@@ -2,7 +2,7 @@
 
 #include "host/base/json/json.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 constexpr double kBoot_s = 20.0;  // of arm time; it takes about 1.5 s
@@ -42,4 +42,4 @@ calibration::CalibrationReading CalibrateSession::read() {
   return sum;
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -4,7 +4,7 @@
 #include "host/apps/launcher/lockstep_session.hpp"
 #include "host/drives/calibration/calibrate.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 
 constexpr double kFrictionTurn_deg = 3.0;
 constexpr double kFrictionRate_deg_s = 1.0;
@@ -27,4 +27,4 @@ class CalibrateSession {
   LockstepSession session_;
 };
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -7,7 +7,7 @@
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/observer.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {}  // namespace
 
 ConsoleSession::~ConsoleSession() {
@@ -43,15 +43,15 @@ bool ConsoleSession::go_on(double look_s) {
 
 // Nobody has to stop working because the flight recorder died: a new one goes on where the old one left off.
 void ConsoleSession::revive_recorder() {
-  if (recorders_ >= kMostRecorders) return;
+  if (recorders_ >= kMaxRecorders) return;
   ++recorders_;
   std::fprintf(stderr, "liana: %s has ended; it is started again, what it missed is a gap in the archive\n", kRecorder);
   system_.start_again(kRecorder);
 }
 
 void ConsoleSession::require_alive() {
-  const auto worst = system_.worst_end([](const ChildProcess&, const ChildEnd&) { return true; }, kAftermath_s);
+  const auto worst = system_.worst_end([](const ChildProcess&, const ExitStatus&) { return true; }, kAftermath_s);
   if (worst) throw std::runtime_error(worst->text);
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

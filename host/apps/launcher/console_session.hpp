@@ -2,10 +2,10 @@
 #pragma once
 
 #include "host/apps/launcher/interrupt.hpp"
-#include "host/apps/launcher/state_watch.hpp"
+#include "host/apps/launcher/state_monitor.hpp"
 #include "host/apps/launcher/system.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 
 class ConsoleSession {
  public:
@@ -27,9 +27,9 @@ class ConsoleSession {
 
   InterruptGuard interrupts_;
   System system_;
-  StateWatch watch_;
+  StateMonitor watch_;
   bool has_begun_ = false;  // before the first state lianad waits for the recorder
   int recorders_ = 1;
 };
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-namespace liana::system {
+namespace liana::launcher {
 
 // Exit codes of `liana`; the same for every command.
 enum ExitCode : int {
@@ -33,4 +33,4 @@ struct Interrupted : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -8,11 +8,11 @@
 #include "host/apps/launcher/force_times.hpp"
 #include "host/base/json/json.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
-constexpr double kTurn_deg = 1.5;                // of every angle at most, about the configuration
-constexpr double kLeastBend = 0.7, kBend = 0.9;  // of a named pose: there is room to turn
+constexpr double kTurn_deg = 1.5;              // of every angle at most, about the configuration
+constexpr double kMinBend = 0.7, kBend = 0.9;  // of a named pose: there is room to turn
 constexpr double kBody_N = 3.0;
 constexpr double kStraight_deg = 4.0;  // of every angle at most, where that pose is straight
 constexpr const char* kPoses[] = {"prepare", "panel_edge", "fixture", "zero"};
@@ -38,7 +38,7 @@ Vec3 direction(Draw& draw) {
 // Something between the straight arm and the named pose.
 std::vector<double> bent(const std::vector<double>& pose_deg, Draw& draw) {
   const bool is_straight = std::all_of(pose_deg.begin(), pose_deg.end(), [](double angle) { return angle == 0.0; });
-  const double share = draw.within(kLeastBend, kBend);
+  const double share = draw.within(kMinBend, kBend);
   std::vector<double> out;
   for (const double angle_deg : pose_deg)
     out.push_back(is_straight ? draw.within(-kStraight_deg, kStraight_deg) : share * angle_deg);
@@ -54,13 +54,13 @@ std::string listed(const std::vector<double>& angles_deg) {
 std::vector<double> near(const std::vector<double>& pose_deg, const config::RobotConfig& robot, Draw& draw) {
   std::vector<double> goal = pose_deg;
   for (std::size_t i = 0; i < goal.size(); ++i) {
-    const double most_deg = robot.table.segment[i / 2].theta_limit_rad / kDegree - 0.5;
-    goal[i] = std::clamp(goal[i] + draw.within(-kTurn_deg, kTurn_deg), -most_deg, most_deg);
+    const double max_deg = robot.table.segment[i / 2].theta_limit_rad / kDegree - 0.5;
+    goal[i] = std::clamp(goal[i] + draw.within(-kTurn_deg, kTurn_deg), -max_deg, max_deg);
   }
   return goal;
 }
 
-std::int32_t link_in(const cable::RobotTable& table, std::int32_t segment, Draw& draw) {
+std::int32_t link_in(const cable::RobotParams& table, std::int32_t segment, Draw& draw) {
   std::int32_t before = 0;
   for (std::int32_t j = 0; j < segment; ++j) before += table.segment[static_cast<std::size_t>(j)].modules;
   return before + static_cast<std::int32_t>(
@@ -110,4 +110,4 @@ std::string push_list(const ForcePlan& plan, double tick_s) {
   return list.dump();
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

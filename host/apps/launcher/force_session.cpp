@@ -5,7 +5,7 @@
 
 #include "host/apps/launcher/force_times.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 using report::ForceMoment;
@@ -44,26 +44,26 @@ class Trial {
     next_ = 0;
     rest_ = {ForceMoment::kStill, norm(push.force_N), std::nullopt};
     move_ = {ForceMoment::kMoving, norm(push.force_N), std::nullopt};
-    bool is_sound = true;
+    bool tensions_valid = true;
     // A fault ends the trial, but not the push: the arm holds, feels on, and may find what pushes it.
-    while (now_s_ < begin_s_ + kBlock_s && (is_sound || (push.link == 0 && pushed_N() > 0.0))) {
+    while (now_s_ < begin_s_ + kBlock_s && (tensions_valid || (push.link == 0 && pushed_N() > 0.0))) {
       const Json state = session_.next_state(false);  // a dither may be refused where a push has loosened a cable
       now_s_ = state.at("time_s").get<double>();
-      is_sound ? look(state) : look_for_push(told(state.at("contact")), now_s_ - begin_s_);
-      if (is_sound && !state.at("faults").empty())
+      tensions_valid ? look(state) : look_for_push(told(state.at("contact")), now_s_ - begin_s_);
+      if (tensions_valid && !state.at("faults").empty())
         all_.faults.push_back({state.at("faults")[0].at("number").get<int>(), pushed_N()});
-      is_sound = is_sound && state.at("faults").empty() && state.at("state") == "ENABLED";
-      if (is_sound) act();
+      tensions_valid = tensions_valid && state.at("faults").empty() && state.at("state") == "ENABLED";
+      if (tensions_valid) act();
       session_.done(state);
     }
     if (push.link != 0) {
       all_.body.push_back({segment_of(push.link), is_felt_, named_});
-      return is_sound;
+      return tensions_valid;
     }
     const double passed_s = now_s_ - begin_s_;
     if (passed_s > kAtRest.begin_s + kRise_s) all_.found.push_back(rest_);
     if (passed_s > kOnTheMove.begin_s + kRise_s) all_.found.push_back(move_);
-    return is_sound;
+    return tensions_valid;
   }
 
   void act() {
@@ -158,4 +158,4 @@ void feel_forces(LockstepSession& session, const ForcePlan& plan, const config::
   Trial(session, plan, robot, all).run();
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -11,7 +11,7 @@
 #include "host/apps/report/force_readings.hpp"
 #include "host/model/config/config.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 
 // One push, at rest and then on a move.
 struct PlannedPush {
@@ -37,4 +37,4 @@ std::string push_list(const ForcePlan& plan, double tick_s);
 void feel_forces(LockstepSession& session, const ForcePlan& plan, const config::RobotConfig& robot,
                  report::ForceReadings& all);
 
-}  // namespace liana::system
+}  // namespace liana::launcher

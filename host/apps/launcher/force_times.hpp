@@ -1,7 +1,7 @@
 // When what happens in a self-test of the force estimate, in seconds of arm time.
 #pragma once
 
-namespace liana::system {
+namespace liana::launcher {
 
 constexpr double kFirstBlock_s = 8.0;  // the arm is enabled by then
 constexpr double kRise_s = 1.5;        // of a push, and of its fall
@@ -22,4 +22,4 @@ constexpr PushTimes kOnTheMove{37.5, 43.0};
 constexpr double kReadMoving_s = 42.5;
 constexpr double kBlock_s = 52.0;
 
-}  // namespace liana::system
+}  // namespace liana::launcher

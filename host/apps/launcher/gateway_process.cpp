@@ -13,7 +13,7 @@
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/runs.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 constexpr const char* kUsual = "127.0.0.1:8765";
@@ -23,7 +23,7 @@ constexpr double kPatience_s = 10.0;
 constexpr double kLookAfter_s = 0.05;
 constexpr double kFirstPause_s = 0.1, kLongestPause_s = 10.0;  // before it is started again
 constexpr double kStays_s = 60.0;                              // it is well again
-constexpr int kMostTold = 3;                                   // ends in a row that are said
+constexpr int kMaxTold = 3;                                    // ends in a row that are said
 
 using GatewayClock = std::chrono::steady_clock;
 
@@ -80,7 +80,7 @@ void GatewayProcess::start(const std::string& listen) {
 void GatewayProcess::wait_until_it_listens() {
   const auto deadline = GatewayClock::now() + wall_s(kPatience_s);
   while (GatewayClock::now() < deadline && !over_) {
-    const std::optional<ChildEnd> end = child_->poll();
+    const std::optional<ExitStatus> end = child_->poll();
     if (end && end->code == kExitBadInput) throw BadInput(without_name(child_->last_lines(1)));
     if (end) throw std::runtime_error("liana-gateway " + how(*end) + "\n" + child_->last_lines(kShownLines));
     if (address_.empty()) address_ = address_in(log_file_);
@@ -112,7 +112,7 @@ void GatewayProcess::look_after() {
   int ends = 0;
   auto since = GatewayClock::now();
   for (; !over_; pause(kLookAfter_s)) {
-    const std::optional<ChildEnd> end = child_->poll();
+    const std::optional<ExitStatus> end = child_->poll();
     if (!end) continue;
     if (GatewayClock::now() - since > wall_s(kStays_s)) pause_s = kFirstPause_s, ends = 0;
     pause(pause_s);
@@ -120,11 +120,11 @@ void GatewayProcess::look_after() {
     pause_s = std::min(2.0 * pause_s, kLongestPause_s);
     const std::string problem = started_again();
     since = GatewayClock::now();
-    if (++ends > kMostTold) continue;
+    if (++ends > kMaxTold) continue;
     std::fprintf(stderr, "liana: liana-gateway %s; %s%s\n", how(*end).c_str(),
                  problem.empty() ? "it was started again" : ("it is not there again yet: " + problem).c_str(),
-                 ends == kMostTold ? "; further ends of it are not said before it has stayed for a minute" : "");
+                 ends == kMaxTold ? "; further ends of it are not said before it has stayed for a minute" : "");
   }
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

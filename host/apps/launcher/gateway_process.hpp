@@ -8,7 +8,7 @@
 
 #include "host/apps/launcher/process.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 
 // What liana-gateway is told (docs/reference/console-protocol.md).
 struct GatewayOptions {
@@ -45,4 +45,4 @@ class GatewayProcess {
   std::thread thread_;  // last: it uses all of the above
 };
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -7,7 +7,7 @@
 #include "host/apps/launcher/errors.hpp"
 #include "host/base/file/out_file.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 std::atomic<int> interrupts = 0;
@@ -47,4 +47,4 @@ InterruptGuard::~InterruptGuard() {
 int InterruptGuard::count() const { return interrupts; }
 const std::atomic<bool>& InterruptGuard::any() const { return interrupted; }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

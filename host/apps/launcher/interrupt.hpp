@@ -4,7 +4,7 @@
 #include <atomic>
 #include <csignal>
 
-namespace liana::system {
+namespace liana::launcher {
 
 // From now on Ctrl-C ends the program with kExitInterrupted and one message, unless whoever started it wants Ctrl-C
 // ignored.
@@ -28,4 +28,4 @@ class InterruptGuard {
   void (*before_term_)(int);
 };
 
-}  // namespace liana::system
+}  // namespace liana::launcher

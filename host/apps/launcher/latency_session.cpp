@@ -11,7 +11,7 @@
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/observer.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -137,8 +137,8 @@ Json LatencySession::ask(Json request) {
 
 void LatencySession::require_alive(double settle_s) {
   if (interrupts_.count() > 0) throw Interrupted("interrupted: the arm is stopped, nothing was measured");
-  const auto worst = system_.worst_end([](const ChildProcess&, const ChildEnd&) { return true; }, settle_s);
+  const auto worst = system_.worst_end([](const ChildProcess&, const ExitStatus&) { return true; }, settle_s);
   if (worst) throw std::runtime_error(worst->text);
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

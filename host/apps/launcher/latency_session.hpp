@@ -4,12 +4,12 @@
 #include <string>
 
 #include "host/apps/launcher/interrupt.hpp"
-#include "host/apps/launcher/state_watch.hpp"
+#include "host/apps/launcher/state_monitor.hpp"
 #include "host/apps/launcher/system.hpp"
 #include "host/apps/report/latency_measurement.hpp"
 #include "host/base/json/json.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 
 // The layout for it: bus and bench stand for hardware, which is never late for want of a processor; they run in real
 // time, under lianad's real-time thread.
@@ -45,10 +45,10 @@ class LatencySession {
 
   InterruptGuard interrupts_;
   System system_;
-  StateWatch watch_;
+  StateMonitor watch_;
   Json state_ = Json::object(), answer_ = Json::object();  // the last ones
   int last_id_ = 0;
   Json ends_ = Json::array();  // tip poses, of which the tip goes to the first next
 };
 
-}  // namespace liana::system
+}  // namespace liana::launcher

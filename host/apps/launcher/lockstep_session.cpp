@@ -7,7 +7,7 @@
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/observer.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 constexpr int kSilence_s = 30;
@@ -32,7 +32,7 @@ void LockstepSession::start() {
 
 void LockstepSession::give_up(const std::string& why, double settle_s) {
   if (interrupts_.count() > 0) throw Interrupted("interrupted: " + undone_);
-  const auto worst = system_.worst_end([](const ChildProcess&, const ChildEnd&) { return true; }, settle_s);
+  const auto worst = system_.worst_end([](const ChildProcess&, const ExitStatus&) { return true; }, settle_s);
   if (worst && worst->end.code == kExitBadInput) throw BadInput(worst->text);
   throw std::runtime_error(worst ? worst->text : why);
 }
@@ -80,4 +80,4 @@ Json LockstepSession::enable() {
                       [](const Json& s) { return is_in(s, "ENABLED"); });
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

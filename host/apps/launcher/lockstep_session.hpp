@@ -5,11 +5,11 @@
 #include <string>
 
 #include "host/apps/launcher/interrupt.hpp"
-#include "host/apps/launcher/state_watch.hpp"
+#include "host/apps/launcher/state_monitor.hpp"
 #include "host/apps/launcher/system.hpp"
 #include "host/base/json/json.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 
 class LockstepSession {
  public:
@@ -41,7 +41,7 @@ class LockstepSession {
   const InterruptGuard& interrupts_;
   std::string name_, undone_;
   System system_;
-  StateWatch watch_;
+  StateMonitor watch_;
 };
 
-}  // namespace liana::system
+}  // namespace liana::launcher

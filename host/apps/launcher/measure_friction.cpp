@@ -7,7 +7,7 @@
 #include "host/base/json/json.hpp"
 #include "host/drives/calibration/friction_fit.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 using Degrees = std::vector<double>;
@@ -16,11 +16,11 @@ using Degrees = std::vector<double>;
 std::vector<Degrees> goals_about(const Degrees& start_deg, const config::RobotConfig& robot) {
   std::vector<Degrees> goals;
   for (std::size_t j = 0; j < start_deg.size() / 2; ++j) {
-    const double most_deg = robot.table.segment[j].theta_limit_rad / kDegree - 0.5;
+    const double max_deg = robot.table.segment[j].theta_limit_rad / kDegree - 0.5;
     for (const auto& [pitch, yaw] : {std::pair{1, 1}, {-1, -1}, {1, -1}, {-1, 1}, {0, 0}}) {
       Degrees goal = start_deg;
-      goal[2 * j] = std::clamp(start_deg[2 * j] + pitch * kFrictionTurn_deg, -most_deg, most_deg);
-      goal[2 * j + 1] = std::clamp(start_deg[2 * j + 1] + yaw * kFrictionTurn_deg, -most_deg, most_deg);
+      goal[2 * j] = std::clamp(start_deg[2 * j] + pitch * kFrictionTurn_deg, -max_deg, max_deg);
+      goal[2 * j + 1] = std::clamp(start_deg[2 * j + 1] + yaw * kFrictionTurn_deg, -max_deg, max_deg);
       goals.push_back(goal);
     }
   }
@@ -52,4 +52,4 @@ calibration::Friction CalibrateSession::measure_friction(const config::RobotConf
   return fit.solve();
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -7,7 +7,7 @@
 #include "host/apps/launcher/errors.hpp"
 #include "host/base/json/json.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 namespace fs = std::filesystem;
@@ -38,4 +38,4 @@ std::string fault_file(const Json& mission, const std::string& name) {
   throw BadInput("--fault: '" + name + "': no such fault of this mission; allowed: " + allowed);
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

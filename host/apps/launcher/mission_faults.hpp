@@ -6,10 +6,10 @@
 
 #include "host/base/json/json_fwd.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 
 // The file of one of them. `mission` is its description (lua/liana/check.lua), null for a run without one. Throws
 // BadInput with the names that there are.
 std::string fault_file(const Json& mission, const std::string& name);
 
-}  // namespace liana::system
+}  // namespace liana::launcher

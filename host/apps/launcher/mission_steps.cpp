@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "host/apps/launcher/errors.hpp"
-#include "host/apps/launcher/mission_goals.hpp"
 #include "host/apps/launcher/output.hpp"
 #include "host/apps/launcher/plan_file.hpp"
 #include "host/apps/launcher/tables.hpp"
+#include "host/apps/launcher/validate_goals.hpp"
 #include "host/model/config/field.hpp"
 #include "host/model/config/sha256.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 namespace fs = std::filesystem;
@@ -159,4 +159,4 @@ void keep_mission_files(const Json& mission, const std::string& directory) {
   }
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -7,7 +7,7 @@
 #include "host/base/json/json.hpp"
 #include "host/model/config/config.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 
 // `mission` is the description of one (lua/liana/check.lua). Throws BadInput naming line, step, body and link: where a
 // pose that a step goes to lies inside a body of the scene; where a plan was made for another scene or does not keep
@@ -30,4 +30,4 @@ void check_adapter_is_simulated(const Json& mission, const config::SceneConfig& 
 // changed since it was checked.
 void keep_mission_files(const Json& mission, const std::string& directory);
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -9,7 +9,7 @@
 #include "host/apps/launcher/errors.hpp"
 #include "host/base/json/json.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 
 std::vector<std::string> systems_to_ask(const std::string& given) {
   if (!given.empty()) {
@@ -62,4 +62,4 @@ Json hello_as_observer(api::ApiClient& client, const std::string& name) {
   return *welcome;
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -11,7 +11,7 @@ namespace liana::api {
 class ApiClient;
 }  // namespace liana::api
 
-namespace liana::system {
+namespace liana::launcher {
 
 // API sockets: `given` alone, or those of all running systems of this user; throws BadInput when there is none.
 std::vector<std::string> systems_to_ask(const std::string& given);
@@ -38,4 +38,4 @@ Json hello_as_observer(api::ApiClient& client, const std::string& name);
 // Waits for a message whose `op` is given, at most `timeout_s`; an error message of lianad throws std::runtime_error.
 std::optional<Json> wait_for(api::ApiClient& client, const std::string& op, double timeout_s);
 
-}  // namespace liana::system
+}  // namespace liana::launcher

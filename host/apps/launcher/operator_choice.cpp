@@ -5,7 +5,7 @@
 #include "host/apps/launcher/errors.hpp"
 #include "host/operator/haptics/link.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 
 std::vector<std::string> operator_words(const OperatorChoice& choice) {
   std::vector<std::string> words{"--operator", choice.who.empty() ? "recorded" : choice.who};
@@ -22,11 +22,11 @@ std::vector<std::string> operator_words(const OperatorChoice& choice) {
   if (choice.who == "human") add("--fixtures", choice.fixtures);
   if (!choice.temper.empty()) words.insert(words.end(), {"--temper", choice.temper});
   try {
-    if (!choice.delay.empty()) haptic::delays_of(choice.delay);
+    if (!choice.delay.empty()) haptics::delays_of(choice.delay);
   } catch (const std::invalid_argument& error) {
     throw BadInput(std::string("--delay: ") + error.what());
   }
   return words;
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

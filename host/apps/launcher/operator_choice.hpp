@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace liana::system {
+namespace liana::launcher {
 
 // Empty: nothing was said.
 struct OperatorChoice {
@@ -19,4 +19,4 @@ struct OperatorChoice {
 // Words for liana-operator's command line. Throws BadInput for a delay that is none, and for what only a human has.
 std::vector<std::string> operator_words(const OperatorChoice& choice);
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -11,7 +11,7 @@
 #include "host/apps/launcher/errors.hpp"
 #include "host/base/file/out_file.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 bool can_be_written(const std::string& path) {
@@ -51,4 +51,4 @@ int after_standard_output(int code) {
   return kExitFailure;
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

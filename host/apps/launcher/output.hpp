@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace liana::system {
+namespace liana::launcher {
 
 // Tries whether the file that `option` names can be written, and leaves it as it was; throws BadInput with the reason.
 // Only the permissions of what is no ordinary file (a device, a pipe) are looked at.
@@ -17,4 +17,4 @@ void write_output(const std::string& path, const std::string& text);
 // everything.
 int after_standard_output(int code);
 
-}  // namespace liana::system
+}  // namespace liana::launcher

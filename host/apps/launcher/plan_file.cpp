@@ -1,13 +1,13 @@
 #include "host/apps/launcher/plan_file.hpp"
 
 #include "host/apps/launcher/errors.hpp"
-#include "host/apps/launcher/plan_way.hpp"
+#include "host/apps/launcher/planned_path_check.hpp"
 #include "host/apps/launcher/tables.hpp"
 #include "host/model/config/field.hpp"
 #include "host/planning/planner/check/plan_check.hpp"
 #include "host/planning/planner/plan_refusal.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 Json read_plan(const std::string& file) {
@@ -25,17 +25,17 @@ std::string start_of_plan(const std::string& file) {
 }
 
 void check_plan_file(const std::string& file, const config::RobotConfig& robot, const config::SceneConfig& scene) {
-  const PlanWay way = checked([&] { return way_of_plan(read_plan(file), file, robot, scene); });
-  plan::PlanRequest limits;
+  const PlannedPathCheck way = checked([&] { return way_of_plan(read_plan(file), file, robot, scene); });
+  planner::PlanRequest limits;
   limits.robot = robot;
   limits.scene = scene;
   limits.margin_m = way.margin_m;
   limits.max_step_rad = way.max_step_rad;
-  const auto refused =
-      plan::refusal_of(limits, plan::check_plan(robot, scene, way.path, plan::plain_tip(robot.table, way.path.back())));
+  const auto refused = planner::refusal_of(
+      limits, planner::check_plan(robot, scene, way.path, planner::plain_tip(robot.table, way.path.back())));
   if (refused)
     throw BadInput(file + ": waypoints_deg: " + refused->reason +
                    ": the file is not what liana plan wrote: plan again");
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -6,7 +6,7 @@
 #include "host/base/json/json.hpp"
 #include "host/model/config/config.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 
 // The tables that a plan was made with: members robot and scene. Throws BadInput where the file is no plan.
 Json tables_of_plan(const std::string& file);
@@ -20,4 +20,4 @@ std::string start_of_plan(const std::string& file);
 // 20 waypoints past a slit.
 void check_plan_file(const std::string& file, const config::RobotConfig& robot, const config::SceneConfig& scene);
 
-}  // namespace liana::system
+}  // namespace liana::launcher

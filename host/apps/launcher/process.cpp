@@ -23,11 +23,11 @@
 #include "host/base/file/address_space.hpp"
 #include "host/base/install_paths/places.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 constexpr int kExecFailed = 127;
-constexpr rlim_t kMostAddressSpace = rlim_t{8} << 30;  // of a program that liana starts
+constexpr rlim_t kMaxAddressSpace = rlim_t{8} << 30;  // of a program that liana starts
 constexpr double kStartTimeout_s = 30.0;
 
 std::vector<char*> exec_arguments(const std::vector<std::string>& argv) {
@@ -41,7 +41,7 @@ std::vector<char*> exec_arguments(const std::vector<std::string>& argv) {
 [[noreturn]] void become(std::vector<char*>& argv, int out_fd, int error_fd, int realtime_priority) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  file::limit_address_space(kMostAddressSpace);
+  file::limit_address_space(kMaxAddressSpace);
   sched_param parameters{};
   parameters.sched_priority = realtime_priority;
   if (realtime_priority > 0) sched_setscheduler(0, SCHED_FIFO, &parameters);
@@ -62,7 +62,7 @@ pid_t start(const std::vector<std::string>& argv, int out_fd, int error_fd, int 
   return pid;
 }
 
-ChildEnd end_of(int status) {
+ExitStatus end_of(int status) {
   if (WIFSIGNALED(status)) return {128 + WTERMSIG(status), WTERMSIG(status)};
   return {WEXITSTATUS(status), 0};
 }
@@ -79,7 +79,7 @@ bool drain(int out_fd, int error_fd, Captured& captured) {
       const ssize_t size = read(fds[i].fd, buffer.data(), buffer.size());
       if (size > 0) {
         texts[i]->append(buffer.data(), static_cast<std::size_t>(size));
-        if (texts[i]->size() > kMostCapturedBytes) return false;
+        if (texts[i]->size() > kMaxCapturedBytes) return false;
       } else {
         fds[i].fd = -1;
         --open_count;
@@ -101,7 +101,7 @@ bool stands_still(pid_t process) {
 
 }  // namespace
 
-std::string how(const ChildEnd& end) {
+std::string how(const ExitStatus& end) {
   return end.signal != 0 ? "was killed by signal " + std::to_string(end.signal)
                          : "ended with code " + std::to_string(end.code);
 }
@@ -117,13 +117,13 @@ ChildProcess::ChildProcess(std::string name, const std::vector<std::string>& arg
 
 ChildProcess::~ChildProcess() { end(0.0); }
 
-std::optional<ChildEnd> ChildProcess::poll() {
+std::optional<ExitStatus> ChildProcess::poll() {
   int status = 0;
   if (!end_ && waitpid(pid_, &status, WNOHANG) == pid_) end_ = end_of(status);
   return end_;
 }
 
-std::optional<ChildEnd> ChildProcess::wait(double timeout_s) {
+std::optional<ExitStatus> ChildProcess::wait(double timeout_s) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
   while (!poll() && std::chrono::steady_clock::now() < deadline)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -195,8 +195,8 @@ std::string ChildProcess::last_words() const {
   return words;
 }
 
-std::optional<NamedEnd> worst_end(const std::vector<std::unique_ptr<ChildProcess>>& children,
-                                  const std::function<bool(const ChildProcess&, const ChildEnd&)>& counts) {
+std::optional<NamedResult> worst_end(const std::vector<std::unique_ptr<ChildProcess>>& children,
+                                     const std::function<bool(const ChildProcess&, const ExitStatus&)>& counts) {
   const ChildProcess* cause = nullptr;
   std::tuple<int, int, int> worst;
   for (const auto& child : children) {
@@ -208,8 +208,8 @@ std::optional<NamedEnd> worst_end(const std::vector<std::unique_ptr<ChildProcess
     worst = badness;
   }
   if (cause == nullptr) return std::nullopt;
-  const ChildEnd end{std::get<1>(worst), std::get<0>(worst)};
-  return NamedEnd{end, cause->name() + " " + how(end) + cause->last_words() + "\n" + cause->last_lines(kShownLines)};
+  const ExitStatus end{std::get<1>(worst), std::get<0>(worst)};
+  return NamedResult{end, cause->name() + " " + how(end) + cause->last_words() + "\n" + cause->last_lines(kShownLines)};
 }
 
 bool wait_for_socket(const std::string& path, ChildProcess& maker, const std::atomic<bool>& stop) {
@@ -239,17 +239,17 @@ Captured run_and_capture(const std::vector<std::string>& argv) {
   while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
   }
   if (!is_whole)
-    throw std::runtime_error(argv[0] + ": printed more than " + std::to_string(kMostCapturedBytes >> 20) +
+    throw std::runtime_error(argv[0] + ": printed more than " + std::to_string(kMaxCapturedBytes >> 20) +
                              " MiB and was killed");
   captured.code = end_of(status).code;
   return captured;
 }
 
 std::string sibling_program(const std::string& name) {
-  const std::string path = places::program_folder() + "/" + name;
+  const std::string path = install_paths::program_folder() + "/" + name;
   if (access(path.c_str(), X_OK) != 0)
     throw std::runtime_error(path + ": this program is missing; build it with ./dev build, or install it again");
   return path;
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -10,16 +10,16 @@
 #include <string>
 #include <vector>
 
-namespace liana::system {
+namespace liana::launcher {
 
 // How a child ended: its exit code, or 128 + the signal that killed it.
-struct ChildEnd {
+struct ExitStatus {
   int code = 0;
   int signal = 0;  // 0 = it exited by itself
 };
 
 // "ended with code 1", "was killed by signal 9".
-std::string how(const ChildEnd& end);
+std::string how(const ExitStatus& end);
 
 // Of a program's log, in what is said about its end.
 constexpr int kShownLines = 5;
@@ -36,9 +36,9 @@ class ChildProcess {
 
   const std::string& name() const { return name_; }
   // How it ended, or nothing while it runs.
-  std::optional<ChildEnd> poll();
+  std::optional<ExitStatus> poll();
   // Waits at most `timeout_s` for its end.
-  std::optional<ChildEnd> wait(double timeout_s);
+  std::optional<ExitStatus> wait(double timeout_s);
   // Which of its processes (its own, those it made) stands still because somebody stopped it (SIGSTOP, a debugger).
   std::optional<pid_t> stopped() const;
   // SIGTERM, unless it has ended.
@@ -56,7 +56,7 @@ class ChildProcess {
   std::string name_;
   std::string log_path_;
   pid_t pid_ = -1;
-  std::optional<ChildEnd> end_;
+  std::optional<ExitStatus> end_;
 };
 
 // Waits until `path` is there; false when `maker` has ended without it, `stop` became true, or after 30 s.
@@ -64,18 +64,18 @@ bool wait_for_socket(const std::string& path, ChildProcess& maker, const std::at
 
 // How one of several programs ended, and in words: its name, its end and what it said last; below it the last lines of
 // its log.
-struct NamedEnd {
-  ChildEnd end;
+struct NamedResult {
+  ExitStatus end;
   std::string text;
 };
 
 // Of the programs that have ended and whose end `counts`, the one that ended worst: killed, failed, then in order;
 // of equals bench and bus, whose end brings that of the others. Nothing without any.
-std::optional<NamedEnd> worst_end(const std::vector<std::unique_ptr<ChildProcess>>& children,
-                                  const std::function<bool(const ChildProcess&, const ChildEnd&)>& counts);
+std::optional<NamedResult> worst_end(const std::vector<std::unique_ptr<ChildProcess>>& children,
+                                     const std::function<bool(const ChildProcess&, const ExitStatus&)>& counts);
 
 // Of what run_and_capture takes from each pipe.
-constexpr std::size_t kMostCapturedBytes = 64u << 20;
+constexpr std::size_t kMaxCapturedBytes = 64u << 20;
 
 // What a short helper program printed.
 struct Captured {
@@ -85,10 +85,10 @@ struct Captured {
 };
 
 // Runs argv to its end and captures what it prints; throws std::runtime_error when it cannot be started, or prints more
-// than kMostCapturedBytes, and is killed for it.
+// than kMaxCapturedBytes, and is killed for it.
 Captured run_and_capture(const std::vector<std::string>& argv);
 
 // Path of a program that lies beside the running one; throws std::runtime_error when it is not there.
 std::string sibling_program(const std::string& name);
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -6,7 +6,7 @@
 
 #include "host/base/json/json.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 constexpr double kLivePeriod_s = 0.5;  // of arm time
 }  // namespace
@@ -53,4 +53,4 @@ void Progress::clear_live() {
   live_ = false;
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -6,7 +6,7 @@
 
 #include "host/base/json/json_fwd.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 
 class Progress {
  public:
@@ -28,4 +28,4 @@ class Progress {
   double next_live_s_ = 0.0;
 };
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -6,7 +6,7 @@
 
 #include "host/apps/launcher/operator_choice.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 
 struct RunOptions {
   std::string mission;        // empty: none (liana latency, liana console)
@@ -38,4 +38,4 @@ struct RunOptions {
   std::uint64_t seed = 1;
 };
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -10,7 +10,7 @@
 
 #include "host/apps/launcher/observer.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 namespace fs = std::filesystem;
@@ -23,7 +23,7 @@ constexpr double kLook_s = 0.02;
 constexpr double kSilentStop_s = 2.0;  // without a state after a stop: nothing more will come
 constexpr double kSilent_s = 10.0;     // without a state: lianad does not go on
 constexpr double kRested_s = 5.0;      // at rest after a failure: it is over
-constexpr double kMostAfter_s = 60.0;  // after a failure, at rest or not
+constexpr double kMaxAfter_s = 60.0;   // after a failure, at rest or not
 
 Clock::duration seconds(double count) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(count));
@@ -46,13 +46,13 @@ RunSession::RunSession(const SystemLayout& plan)
 
 RunSession::~RunSession() = default;
 
-RunEnd RunSession::run() {
+RunResult RunSession::run() {
   std::signal(SIGPIPE, SIG_IGN);
-  RunEnd end;
+  RunResult end;
   Json greeting = hello(kName, Observer::kOwning);
   greeting["lockstep"] = waits_for_us_;
   if (const std::string problem = system_.start(greeting, interrupts_.any()); !problem.empty()) {
-    end = dead_child(false).value_or(RunEnd{"failed", problem, false});
+    end = dead_child(false).value_or(RunResult{"failed", problem, false});
   } else {
     end = watch();
   }
@@ -64,10 +64,10 @@ RunEnd RunSession::run() {
 
 // A new recorder goes on in the archive of the one before; what happened in between is a gap there.
 void RunSession::revive_recorder() {
-  const auto ended = system_.worst_end([this](const ChildProcess& child, const ChildEnd& end) {
+  const auto ended = system_.worst_end([this](const ChildProcess& child, const ExitStatus& end) {
     return child.name() == kRecorder && end.code != 0 && !matters(child);
   });
-  if (!ended || recorders_ >= kMostRecorders) return;
+  if (!ended || recorders_ >= kMaxRecorders) return;
   ++recorders_;
   progress_.say(ended->text + "\nit is started again; what it missed is a gap in the archive");
   system_.start_again(kRecorder);
@@ -75,18 +75,18 @@ void RunSession::revive_recorder() {
 
 void RunSession::say_how_the_recorder_ended() {
   const auto failed = system_.worst_end(
-      [](const ChildProcess& child, const ChildEnd& end) { return child.name() == kRecorder && end.code != 0; });
+      [](const ChildProcess& child, const ExitStatus& end) { return child.name() == kRecorder && end.code != 0; });
   if (failed) progress_.say("the archive of this run is not whole: " + failed->text);
 }
 
-RunEnd RunSession::watch() {
+RunResult RunSession::watch() {
   while (!system_.any_has_ended([this](const ChildProcess& child) { return matters(child); })) {
     look(kLook_s);
     if (interrupts_.count() > 0) return interrupted();
     say_silence();
     revive_recorder();
   }
-  const RunEnd end = conclusion();
+  const RunResult end = conclusion();
   if (!system_.last().poll())  // without the others it has no purpose; the arm holds when it ends
     system_.send({{"op", "mission_control"}, {"command", "abort"}});
   if (!end.bad_input && (waits_for_us_ || has_failed(end))) follow();
@@ -100,7 +100,7 @@ bool RunSession::matters(const ChildProcess& child) const {
 }
 
 // The run is no success as far as processes and mission tell.
-bool RunSession::has_failed(const RunEnd& end) const {
+bool RunSession::has_failed(const RunResult& end) const {
   std::ifstream file(plan_.file("mission.json"));
   const Json mission = Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}});
   return !end.outcome.empty() || mission.value("outcome", "") != "success";
@@ -110,7 +110,7 @@ bool RunSession::has_failed(const RunEnd& end) const {
 // itself; in real time it holds the arm for as long as nobody says otherwise.
 void RunSession::follow() {
   auto deadline = after(kSilent_s), rested = after(kRested_s);
-  const auto enough = after(kMostAfter_s);
+  const auto enough = after(kMaxAfter_s);
   const auto is_enough = [&] { return !waits_for_us_ && Clock::now() > std::min(rested, enough); };
   while (!is_ending() && system_.is_connected() && system_.is_running("lianad") && interrupts_.count() == 0 &&
          Clock::now() < deadline && !is_enough()) {
@@ -124,7 +124,7 @@ void RunSession::follow() {
 
 // Somebody has ended. The others follow within moments, in any order: who failed by itself is seen only after that.
 // Once the mission has ended, the others end in order.
-RunEnd RunSession::conclusion() {
+RunResult RunSession::conclusion() {
   look_until(kFinishGrace_s, [this] { return system_.last().poll().has_value(); });
   const auto end = system_.last().poll();  // the mission runner's
   if (!end || end->code != 0) {
@@ -138,7 +138,7 @@ RunEnd RunSession::conclusion() {
 }
 
 // A mission runner that ended by itself has written its report; one that was killed has not.
-RunEnd RunSession::end_of_mission(const ChildEnd& end) {
+RunResult RunSession::end_of_mission(const ExitStatus& end) {
   if (end.signal == 0 && fs::exists(plan_.file("mission.json"))) return {};
   return {"failed",
           "the mission runner " + how(end) + "; lianad holds the arm when the owner of motion dies\n" +
@@ -148,16 +148,16 @@ RunEnd RunSession::end_of_mission(const ChildEnd& end) {
 
 // Of the programs beside the mission runner that have ended the one that ended worst: killed, failed or, unless
 // `failed_only`, in order. Exit code 2 means that it refused its input.
-std::optional<RunEnd> RunSession::dead_child(bool failed_only) {
-  const auto counts = [&](const ChildProcess& child, const ChildEnd& end) {
+std::optional<RunResult> RunSession::dead_child(bool failed_only) {
+  const auto counts = [&](const ChildProcess& child, const ExitStatus& end) {
     return child.name() != "liana-mission" && matters(child) && !(failed_only && end.code == 0);
   };
   const auto worst = system_.worst_end(counts);
   if (!worst) return std::nullopt;
-  return RunEnd{"failed", worst->text, worst->end.code == 2 && states_.empty()};
+  return RunResult{"failed", worst->text, worst->end.code == 2 && states_.empty()};
 }
 
-RunEnd RunSession::interrupted() {
+RunResult RunSession::interrupted() {
   progress_.say("stopping (again Ctrl-C ends at once)");
   system_.send({{"op", "stop"}, {"reason", "interrupted"}});
   const auto deadline = after(kStopTimeout_s);
@@ -239,4 +239,4 @@ void RunSession::keep(const Json& state) {
   announced_.back().last_tick = tick;
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

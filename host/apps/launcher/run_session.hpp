@@ -8,16 +8,16 @@
 
 #include "host/apps/launcher/interrupt.hpp"
 #include "host/apps/launcher/progress.hpp"
-#include "host/apps/launcher/sample_watch.hpp"
-#include "host/apps/launcher/state_watch.hpp"
+#include "host/apps/launcher/sample_monitor.hpp"
+#include "host/apps/launcher/state_monitor.hpp"
 #include "host/apps/launcher/system.hpp"
 #include "host/apps/report/run_report.hpp"
 #include "host/base/json/json.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 
 // How a run ended, as far as the processes tell.
-struct RunEnd {
+struct RunResult {
   std::string outcome;     // empty: the mission's own report says it
   std::string message;     // why, when something went wrong outside the mission
   bool bad_input = false;  // a program refused what it was given before anything moved
@@ -31,28 +31,28 @@ class RunSession {
   RunSession& operator=(const RunSession&) = delete;
 
   // Starts everything, waits until the mission has ended, ends everything. Ctrl-C is a stop; a second one ends at once.
-  RunEnd run();
+  RunResult run();
 
   const std::vector<report::StateSample>& states() const { return states_; }
   const std::vector<report::Stage>& stages() const { return stages_; }
-  const std::vector<report::ClearanceClaim>& claims() const { return claims_; }
+  const std::vector<report::ClearanceBounds>& claims() const { return claims_; }
   // Of the operators' devices.
-  const SampleWatch& samples() const { return samples_; }
+  const SampleMonitor& samples() const { return samples_; }
   const std::vector<report::ReportedStep>& announced() const { return announced_; }
   const Json& welcome() const { return welcome_; }
   const Json& last_state() const { return last_state_; }
 
  private:
-  RunEnd watch();
+  RunResult watch();
   bool matters(const ChildProcess& child) const;
   void revive_recorder();
   void say_how_the_recorder_ended();
-  bool has_failed(const RunEnd& end) const;
+  bool has_failed(const RunResult& end) const;
   void follow();
-  RunEnd conclusion();
-  std::optional<RunEnd> dead_child(bool failed_only);
-  RunEnd end_of_mission(const ChildEnd& end);
-  RunEnd interrupted();
+  RunResult conclusion();
+  std::optional<RunResult> dead_child(bool failed_only);
+  RunResult end_of_mission(const ExitStatus& end);
+  RunResult interrupted();
   void look(double timeout_s);
   void say_silence();
   void look_until(double timeout_s, const std::function<bool()>& is_over);
@@ -68,15 +68,15 @@ class RunSession {
   InterruptGuard interrupts_;
   Progress progress_;
   System system_;
-  StateWatch watch_;
+  StateMonitor watch_;
   int recorders_ = 1;  // that were started
   Json welcome_;
   Json last_state_;
   std::vector<report::StateSample> states_;
   std::vector<report::Stage> stages_;
-  std::vector<report::ClearanceClaim> claims_;
+  std::vector<report::ClearanceBounds> claims_;
   std::vector<report::ReportedStep> announced_;
-  SampleWatch samples_;
+  SampleMonitor samples_;
 };
 
-}  // namespace liana::system
+}  // namespace liana::launcher

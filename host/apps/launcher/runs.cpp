@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,4 +86,4 @@ void remove_oldest_runs(const std::string& folder) {
   for (std::size_t i = kKeptRuns; i < runs.size(); ++i) fs::remove_all(runs[i], gone);
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace liana::system {
+namespace liana::launcher {
 
 constexpr std::size_t kKeptRuns = 20;
 
@@ -24,4 +24,4 @@ void keep_what_lasts(const std::string& run);
 // Removes the oldest beyond kKeptRuns.
 void remove_oldest_runs(const std::string& folder);
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace liana::system {
+namespace liana::launcher {
 
 using Clock = std::chrono::steady_clock;
 
@@ -34,4 +34,4 @@ void Silence::watch(double after_s) {
   }
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <thread>
 
-namespace liana::system {
+namespace liana::launcher {
 
 class Silence {
  public:
@@ -32,4 +32,4 @@ class Silence {
   std::thread thread_;
 };
 
-}  // namespace liana::system
+}  // namespace liana::launcher

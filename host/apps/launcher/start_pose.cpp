@@ -14,7 +14,7 @@
 #include "host/model/simulation/serial_simulation.hpp"
 #include "host/planning/planner/check/plan_check.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 using Poses = std::map<std::string, std::vector<double>>;
@@ -83,11 +83,11 @@ StartPose chosen(const Choice& choice, const std::string& given) {
 }
 
 // The independent check of one pose.
-plan::PlanCheck check_of(const config::RobotConfig& robot, const config::SceneConfig& scene,
-                         const std::vector<double>& angles_deg) {
+planner::PlanCheck check_of(const config::RobotConfig& robot, const config::SceneConfig& scene,
+                            const std::vector<double>& angles_deg) {
   cable::ThetaVector theta_rad{};
   for (std::size_t k = 0; k < angles_deg.size(); ++k) theta_rad[k] = kDegree * angles_deg[k];
-  return plan::check_plan(robot, scene, {theta_rad}, plan::plain_tip(robot.table, theta_rad));
+  return planner::check_plan(robot, scene, {theta_rad}, planner::plain_tip(robot.table, theta_rad));
 }
 
 std::string stands_inside(const std::string& link, double distance_m, const std::string& other) {
@@ -97,7 +97,7 @@ std::string stands_inside(const std::string& link, double distance_m, const std:
 }
 
 // The distances of a serial arm at these angles [deg].
-simulate::Distances standing(simulate::SerialSimulation& simulation, const std::vector<double>& angles_deg) {
+simulation::Distances standing(simulation::SerialSimulation& simulation, const std::vector<double>& angles_deg) {
   serial::JointVector joint_rad{};
   for (std::size_t i = 0; i < angles_deg.size(); ++i) joint_rad[i] = kDegree * angles_deg[i];
   const std::optional<config::ScenePayload>& payload = simulation.scene().payload;
@@ -142,13 +142,13 @@ std::string bent_pose(const std::string& robot) {
 
 Json nearest_body(const config::RobotConfig& robot, const config::SceneConfig& scene,
                   const std::vector<double>& angles_deg) {
-  const plan::PlanCheck check = check_of(robot, scene, angles_deg);
+  const planner::PlanCheck check = check_of(robot, scene, angles_deg);
   return {{"body", check.nearest}, {"link", check.nearest_link}};
 }
 
 std::string inside_body(const config::RobotConfig& robot, const config::SceneConfig& scene,
                         const std::vector<double>& angles_deg) {
-  const plan::PlanCheck check = check_of(robot, scene, angles_deg);
+  const planner::PlanCheck check = check_of(robot, scene, angles_deg);
   if (check.min_clearance_m > 0.0) return "";
   char text[64];
   std::snprintf(text, sizeof text, "link %d stands %.1f mm inside body ", check.nearest_link,
@@ -158,16 +158,16 @@ std::string inside_body(const config::RobotConfig& robot, const config::SceneCon
 
 std::string inside_body(const config::SerialRobotConfig& robot, const config::SceneConfig& scene,
                         const std::vector<double>& angles_deg) {
-  simulate::SerialSimulation simulation(checked([&] { return simulate::serial_model(robot, scene); }), scene);
-  const simulate::Nearest near = standing(simulation, angles_deg).scene;
+  simulation::SerialSimulation simulation(checked([&] { return simulation::serial_model(robot, scene); }), scene);
+  const simulation::Nearest near = standing(simulation, angles_deg).scene;
   if (near.link < 0 || near.distance_m > 0.0) return "";
   return stands_inside(simulation.contact().link_name(near.link), near.distance_m,
                        "body " + clearance::obstacle_name(scene, near.other));
 }
 
 std::string inside_itself(const config::SerialRobotConfig& robot, const std::vector<double>& angles_deg) {
-  simulate::SerialSimulation simulation(simulate::serial_model(robot), {});
-  const simulate::Nearest near = standing(simulation, angles_deg).self;
+  simulation::SerialSimulation simulation(simulation::serial_model(robot), {});
+  const simulation::Nearest near = standing(simulation, angles_deg).self;
   if (near.distance_m > 0.0) return "";
   return stands_inside(simulation.contact().link_name(near.link), near.distance_m,
                        simulation.contact().link_name(near.other));
@@ -184,4 +184,4 @@ void check_start_is_free(const config::SerialRobotConfig& robot, const config::S
   refuse_inside(inside_body(robot, scene, start.angles_deg), scene, start);
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -10,7 +10,7 @@
 #include "host/model/config/config.hpp"
 #include "host/model/config/serial_robot.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 
 // A pose as the bench takes it, and its angles.
 struct StartPose {
@@ -47,4 +47,4 @@ void check_start_is_free(const config::RobotConfig& robot, const config::SceneCo
 void check_start_is_free(const config::SerialRobotConfig& robot, const config::SceneConfig& scene,
                          const StartPose& start);
 
-}  // namespace liana::system
+}  // namespace liana::launcher

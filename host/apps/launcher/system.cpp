@@ -8,7 +8,7 @@
 
 #include "host/api/server/registry.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 
 namespace {
 
@@ -74,10 +74,10 @@ void System::send(const Json& message) {
   }
 }
 
-std::optional<NamedEnd> System::worst_end(const Counts& counts, double settle_s) {
+std::optional<NamedResult> System::worst_end(const Counts& counts, double settle_s) {
   const auto deadline = after(settle_s);
   while (Clock::now() < deadline && !all_have_ended()) sleep(kProcessLook_s);
-  return liana::system::worst_end(children_, counts);
+  return liana::launcher::worst_end(children_, counts);
 }
 
 bool System::any_has_ended() const {
@@ -108,7 +108,7 @@ bool System::all_have_ended() const {
 }
 
 void System::dismiss() {
-  if (!std::exchange(dismissed_, true)) send({{"op", "shutdown"}});
+  if (!std::exchange(shutdown_requested_, true)) send({{"op", "shutdown"}});
 }
 
 void System::end(double grace_s, const Sink& sink) {
@@ -144,4 +144,4 @@ void System::remove_stale_entry() const {
   }
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

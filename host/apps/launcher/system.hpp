@@ -13,11 +13,11 @@
 #include "host/apps/launcher/system_layout.hpp"
 #include "host/base/json/json.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 
 // What the sessions share.
 constexpr const char* kRecorder = "liana-archive";
-constexpr int kMostRecorders = 5;     // of one run: one that has ended is started again
+constexpr int kMaxRecorders = 5;      // of one run: one that has ended is started again
 constexpr double kEndGrace_s = 10.0;  // for lianad to stop the arm, then for the others to end
 constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
 
@@ -52,8 +52,8 @@ class System {
   ChildProcess& last() { return *children_.back(); }
   // How the worst of those whose end counts has ended (process.hpp); waits up to `settle_s` before, because whoever
   // ends first pulls the others along.
-  using Counts = std::function<bool(const ChildProcess&, const ChildEnd&)>;
-  std::optional<NamedEnd> worst_end(const Counts& counts, double settle_s = 0.0);
+  using Counts = std::function<bool(const ChildProcess&, const ExitStatus&)>;
+  std::optional<NamedResult> worst_end(const Counts& counts, double settle_s = 0.0);
   bool any_has_ended() const;
   // The same, of those that matter.
   bool any_has_ended(const std::function<bool(const ChildProcess&)>& matters) const;
@@ -77,7 +77,7 @@ class System {
   const SystemLayout& layout_;
   std::vector<std::unique_ptr<ChildProcess>> children_;
   std::optional<api::ApiClient> api_;
-  bool dismissed_ = false;
+  bool shutdown_requested_ = false;
 };
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -18,7 +18,6 @@
 #include "host/api/server/welcome_size.hpp"
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/mission_faults.hpp"
-#include "host/apps/launcher/mission_goals.hpp"
 #include "host/apps/launcher/mission_steps.hpp"
 #include "host/apps/launcher/output.hpp"
 #include "host/apps/launcher/plan_file.hpp"
@@ -26,13 +25,14 @@
 #include "host/apps/launcher/runs.hpp"
 #include "host/apps/launcher/start_pose.hpp"
 #include "host/apps/launcher/tables.hpp"
+#include "host/apps/launcher/validate_goals.hpp"
 #include "host/base/install_paths/places.hpp"
 #include "host/drives/calibration/calibration.hpp"
 #include "host/drives/calibration/fixture.hpp"
 #include "host/model/config/field.hpp"
 #include "host/model/config/serial_robot.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 namespace fs = std::filesystem;
@@ -255,8 +255,9 @@ void look_at_mission(const Json& mission, const config::SceneConfig& scene, bool
 }
 
 // The bench has a payload for an arm whose drives follow torques only.
-void check_payload_is_simulated(const RunOptions& options, const config::SceneConfig& scene, bool gives_torque) {
-  if (!options.simulated_arm || !scene.payload || gives_torque) return;
+void check_payload_is_simulated(const RunOptions& options, const config::SceneConfig& scene,
+                                bool is_torque_controlled) {
+  if (!options.simulated_arm || !scene.payload || is_torque_controlled) return;
   throw BadInput(
       "--scene: " + scene.name + ": has a payload, and robot " + options.robot +
       " has no drives that follow torques: allowed is a robot with drives.mode = \"torque\", as macro_micro, or a "
@@ -301,7 +302,7 @@ std::string check_options_of_serial_robot(const RunOptions& options, const std::
   refuse("--true-physics", is_unknown(options.true_physics), "its bench knows nominal only; leave it out");
   refuse("--operator", options.people.who == "human", "no hand steers it yet; leave it out");
   refuse("mission", is_plan(options), "plans are for cable arms; give a mission");
-  check_payload_is_simulated(options, plan.scene, config::gives_torque(robot));
+  check_payload_is_simulated(options, plan.scene, config::is_torque_controlled(robot));
   const StartPose start = start_pose_of(robot, options.start_pose);
   if (options.simulated_arm) check_start_is_free(robot, plan.scene, start);
   return start.text;
@@ -462,4 +463,4 @@ void discard(const SystemLayout& plan) {
   if (!plan.keep_directory) fs::remove_all(plan.directory, error);
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -8,7 +8,7 @@
 #include "host/base/json/json.hpp"
 #include "host/model/config/config.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 
 // One program to start.
 struct ProgramCall {
@@ -59,4 +59,4 @@ void clean_up(const SystemLayout& plan, bool success);
 // Removes everything that the run has written, but for a folder of the user.
 void discard(const SystemLayout& plan);
 
-}  // namespace liana::system
+}  // namespace liana::launcher

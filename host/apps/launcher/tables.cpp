@@ -8,7 +8,7 @@
 #include "host/model/config/bench_buses.hpp"
 #include "host/model/config/field.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 namespace fs = std::filesystem;
@@ -37,7 +37,7 @@ std::string read_file(const std::string& path) {
 
 // Whether a Lua folder has a table of this name.
 bool is_shipped_or_own(const std::string& kind, const std::string& name) {
-  const std::vector<std::string> folders = checked(places::lua_folders);
+  const std::vector<std::string> folders = checked(install_paths::lua_folders);
   return std::any_of(folders.begin(), folders.end(),
                      [&](const std::string& folder) { return fs::exists(folder + "/" + kind + "/" + name + ".lua"); });
 }
@@ -103,4 +103,4 @@ std::optional<config::SerialRobotConfig> serial_robot_for_kinematics(const std::
   });
 }
 
-}  // namespace liana::system
+}  // namespace liana::launcher

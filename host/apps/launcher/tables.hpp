@@ -10,7 +10,7 @@
 #include "host/model/config/config.hpp"
 #include "host/model/config/serial_robot.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 
 // Canonical JSON of a table; kind is robot, scene or buses, `name` a name under lua/ or a file (.lua, or .json as
 // exported). Throws BadInput with the evaluator's one message.
@@ -57,4 +57,4 @@ config::RobotConfig robot_for_kinematics(const std::string& name);
 // The same for a serial arm, without buses; empty when the robot is of another kind.
 std::optional<config::SerialRobotConfig> serial_robot_for_kinematics(const std::string& name);
 
-}  // namespace liana::system
+}  // namespace liana::launcher

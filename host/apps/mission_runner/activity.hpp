@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace liana::script {
+namespace liana::mission_runner {
 
 // Shared between the watchdog and the script's process; the watchdog also reads it after the process is dead.
 struct Activity {
@@ -30,4 +30,4 @@ void put_text(std::array<char, N>& to, std::string_view text) {
   to[length] = '\0';
 }
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

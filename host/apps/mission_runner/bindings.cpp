@@ -12,7 +12,7 @@
 #include "host/base/json/json.hpp"
 #include "host/control/force_control/requests.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 namespace {
 
 constexpr std::size_t kFirst = 1;  // Lua counts from 1
@@ -131,4 +131,4 @@ void push_native(lua_State* state, RequestSink& sink) {
   lua_setfield(state, -2, "attempt");
 }
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

@@ -9,7 +9,7 @@
 #include "host/base/json/json_fwd.hpp"
 #include "host/model/config/serial_robot.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 
 // All commands, in the order of docs/reference/api.md. Each is a function of one table that sends {"op": name, ...} and
 // returns the request id.
@@ -41,4 +41,4 @@ struct RobotAtHand {
 // outlive the state.
 void push_refusal(lua_State* state, const RobotAtHand& robot);
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

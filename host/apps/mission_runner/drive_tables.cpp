@@ -7,7 +7,7 @@
 #include "host/model/config/config.hpp"
 #include "host/model/config/field.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 namespace {
 
 ScriptFile file_of(const LuaFolders& lua_folders, const config::Field& name) {
@@ -48,4 +48,4 @@ void add_drive_types(Script& script, const LuaFolders& lua_folders, Json& buses,
   buses["drive_types"] = types;
 }
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

@@ -7,7 +7,7 @@
 #include "host/apps/mission_runner/script_files.hpp"
 #include "host/base/json/json_fwd.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 
 // Puts every table of lua/drives that `drives[].type` and `drives[].bench` name into `drive_types` of the bus table, so
 // that its JSON says all that a boot needs; fields are left to host/model/config. Throws std::runtime_error "file:
@@ -15,4 +15,4 @@ namespace liana::script {
 // ..." for a name that there is not.
 void add_drive_types(Script& script, const LuaFolders& lua_folders, Json& buses, const std::string& display);
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

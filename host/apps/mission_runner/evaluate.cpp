@@ -18,7 +18,7 @@
 #include "host/model/config/serial_robot.hpp"
 #include "host/model/config/sha256.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 namespace {
 
 constexpr const char* kPlanAdvice = "give a file that liana plan --out has written";
@@ -218,4 +218,4 @@ std::string evaluate_mission(Script& script, const LuaFolders& lua_folders, cons
   return config::canonical_json(result);
 }
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

@@ -7,7 +7,7 @@
 #include "host/apps/mission_runner/script.hpp"
 #include "host/base/json/json.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 
 // Canonical JSON of a robot, scene or buses table. Throws std::runtime_error with one message.
 std::string evaluate(Script& script, const LuaFolders& lua_folders, const std::string& kind, const std::string& name);
@@ -36,4 +36,4 @@ enum class Looks : std::uint8_t { kAtValues, kIntoFunctions };
 // Refuses the checked mission on the stack, which stays there, when the robot cannot do it. Throws as evaluate does.
 void check_against_robot(Script& script, const Against& against, Looks looks);
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

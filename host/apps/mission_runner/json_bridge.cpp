@@ -7,7 +7,7 @@
 #include "host/apps/mission_runner/script.hpp"
 #include "host/base/json/json.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 namespace {
 
 constexpr int kDeepest = 24;
@@ -163,4 +163,4 @@ void push_in_protection(Script& script, const Json& value) {
   script.call(1, 1);
 }
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

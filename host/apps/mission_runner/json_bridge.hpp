@@ -6,7 +6,7 @@
 
 #include "host/base/json/json_fwd.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 
 // The value at `index` as JSON: tables with keys 1..n are arrays (an empty table is one), tables with text keys
 // objects. Raises no Lua error apart from lack of memory; throws std::runtime_error naming `file` and field for what
@@ -20,4 +20,4 @@ class Script;
 // The same from outside a protected call; throws std::runtime_error as Script::call does.
 void push_in_protection(Script& script, const Json& value);
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

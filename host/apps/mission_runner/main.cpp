@@ -13,7 +13,7 @@
 #include "host/base/options/command_line.hpp"
 #include "host/model/config/field.hpp"
 
-using namespace liana::script;
+using namespace liana::mission_runner;
 
 namespace {
 
@@ -128,11 +128,11 @@ int bindings_command() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  liana::command_line::CommandLine line("Evaluates Liana's Lua tables and runs missions");
+  liana::options::CommandLine line("Evaluates Liana's Lua tables and runs missions");
   MissionOptions options;
   std::string lua_dir;
   EvalOptions evaluated;
-  liana::command_line::Command eval = line.command("eval", "check a table and print it as canonical JSON");
+  liana::options::Command eval = line.command("eval", "check a table and print it as canonical JSON");
   eval.option("kind", evaluated.kind, "robot, scene, buses, drive, budget, mission or mission_tables").required();
   eval.option("name", evaluated.name, "a name in the Lua folder or a file").required();
   eval.option("--robot", evaluated.robot,
@@ -140,7 +140,7 @@ int main(int argc, char** argv) {
   eval.option("--bus", evaluated.bus,
               "buses a mission is checked against: as --robot; where not given those that it names with its robot");
   eval.option("--lua-dir", lua_dir, kLuaDirAbout);
-  liana::command_line::Command run = line.command(
+  liana::options::Command run = line.command(
       "run", "run a mission; exit 0 on success, 1 when not or when its process was killed, 2 for bad input");
   run.option("--api", options.api, "socket of lianad").required();
   run.option("--mission", options.mission, "a name in lua/missions or a file").required();
@@ -149,11 +149,11 @@ int main(int argc, char** argv) {
   run.flag("--lockstep", options.lockstep, "let virtual time wait for this mission");
   run.flag("--progress", options.progress, "print a line when a step begins and ends");
   run.flag("--json", options.json, "print progress and report as JSON lines");
-  liana::command_line::Command list = line.command("bindings", "print the commands a mission can give, as JSON");
+  liana::options::Command list = line.command("bindings", "print the commands a mission can give, as JSON");
   if (const auto code = line.parse(argc, argv)) return *code == 0 ? 0 : kExitBadInput;
   return with_message([&] {
-    if (!lua_dir.empty()) liana::places::search_first("--lua-dir", lua_dir);
-    evaluated.lua_folders = options.lua_folders = liana::places::lua_folders();
+    if (!lua_dir.empty()) liana::install_paths::search_first("--lua-dir", lua_dir);
+    evaluated.lua_folders = options.lua_folders = liana::install_paths::lua_folders();
     if (eval.chosen()) return eval_command(evaluated);
     return list.chosen() ? bindings_command() : run_command(options);
   });

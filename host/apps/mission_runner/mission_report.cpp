@@ -7,7 +7,7 @@
 
 #include "host/apps/mission_runner/mission_run.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 
 namespace {
 
@@ -46,4 +46,4 @@ std::string failed_report(const Activity& activity, const std::string& mission, 
   return report.dump();
 }
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

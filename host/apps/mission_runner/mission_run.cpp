@@ -8,7 +8,7 @@
 #include "host/apps/mission_runner/session.hpp"
 #include "host/base/json/json.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 namespace {
 
 constexpr const char* kClientName = "mission";  // as said in hello; lianad's state names the owner so
@@ -107,4 +107,4 @@ int run_mission(const MissionOptions& options, Activity& activity) {
   return run_connected(options, activity, script);
 }
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

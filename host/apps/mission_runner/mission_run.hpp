@@ -5,7 +5,7 @@
 
 #include "host/apps/mission_runner/script.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 
 // What `liana-mission run` was asked to do.
 struct MissionOptions {
@@ -33,4 +33,4 @@ void write_report(const std::string& path, const std::string& report_json);
 // The last report in `activity`, or a new one, ended as failed for `reason`.
 std::string failed_report(const Activity& activity, const std::string& mission, const std::string& reason);
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

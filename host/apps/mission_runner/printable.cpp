@@ -1,6 +1,6 @@
 #include "host/apps/mission_runner/printable.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 
 namespace {
 
@@ -26,4 +26,4 @@ std::string printable(std::string_view text) {
   return out;
 }
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

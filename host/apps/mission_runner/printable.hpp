@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-namespace liana::script {
+namespace liana::mission_runner {
 
 // The text with a ? for every control character but tab and the end of a line: terminals act on them.
 std::string printable(std::string_view text);
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

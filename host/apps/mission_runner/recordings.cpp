@@ -6,7 +6,7 @@
 
 #include "host/base/json/json.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 namespace {
 
 namespace fs = std::filesystem;
@@ -54,4 +54,4 @@ void check_recordings(const Json& description, const std::vector<std::string>& f
   }
 }
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

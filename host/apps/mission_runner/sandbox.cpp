@@ -6,7 +6,7 @@
 
 #include "host/apps/mission_runner/script.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 namespace {
 
 constexpr const char* kGlobals = "liana.globals";  // registry: what every environment falls back to
@@ -233,4 +233,4 @@ int require_module(lua_State* state) {
   return 1;
 }
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

@@ -5,7 +5,7 @@
 
 #include "host/apps/mission_runner/script_files.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 
 // Builds the sandbox in a new state (a lua_CFunction).
 int open_sandbox(lua_State* state);
@@ -28,4 +28,4 @@ int plain_tostring(lua_State* state);
 // `print` to standard error, where it cannot disturb what programs read (a lua_CFunction).
 int print_to_stderr(lua_State* state);
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

@@ -8,7 +8,7 @@
 #include "host/apps/mission_runner/sandbox.hpp"
 #include "host/apps/mission_runner/script.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 namespace {
 
 constexpr lua_Integer kLongestSubject = 4096;  // of a pattern match [bytes]
@@ -162,4 +162,4 @@ int print_to_stderr(lua_State* state) {
   return 0;
 }
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

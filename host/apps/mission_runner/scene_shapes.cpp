@@ -8,7 +8,7 @@
 #include "host/model/clearance/stl_hull.hpp"
 #include "host/model/config/field.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 namespace {
 
 // What makes base coordinates of the file's.
@@ -65,4 +65,4 @@ void read_shape_files(Json& scene, const std::string& folder, const std::string&
   scene["convex"] = after;
 }
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

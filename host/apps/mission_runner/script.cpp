@@ -7,7 +7,7 @@
 #include "host/apps/mission_runner/printable.hpp"
 #include "host/apps/mission_runner/sandbox.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 namespace {
 
 constexpr int kHookInstructions = 1000;
@@ -134,4 +134,4 @@ void Script::call(int arguments, int results) {
 
 Script::Budget& script_budget(lua_State* state) { return **static_cast<Script::Budget**>(lua_getextraspace(state)); }
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

@@ -12,7 +12,7 @@
 #include "host/apps/mission_runner/activity.hpp"
 #include "host/apps/mission_runner/script_files.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 
 // What a script may use up.
 struct ScriptLimits {
@@ -65,4 +65,4 @@ int attempt(lua_State* state);
 // The accounting of the script that runs in this state (or in a coroutine of it).
 Script::Budget& script_budget(lua_State* state);
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

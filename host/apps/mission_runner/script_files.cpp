@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace liana::script {
+namespace liana::mission_runner {
 namespace {
 
 namespace fs = std::filesystem;
@@ -125,4 +125,4 @@ ScriptFile find_module(const LuaFolders& lua_folders, const std::string& beside,
   }
 }
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace liana::script {
+namespace liana::mission_runner {
 
 // A script's text and its name in messages.
 struct ScriptFile {
@@ -37,4 +37,4 @@ ScriptFile find_module(const LuaFolders& lua_folders, const std::string& beside,
 // std::runtime_error when it is not there, or lies elsewhere: by an absolute path, by .. or by a link.
 ScriptFile find_beside(const std::string& folder, const std::string& name, const std::string& what);
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

@@ -5,13 +5,13 @@
 
 #include "host/api/server/request_error.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 namespace {
 
 constexpr double kWelcome_s = 30.0;
 constexpr double kWait_s = 0.5;
-constexpr int kMostAtOnce = 400;  // of the 512 that lianad takes of a client in an interval
-constexpr int kReserve = 32;      // for what a step does when it has failed by that
+constexpr int kMaxAtOnce = 400;  // of the 512 that lianad takes of a client in an interval
+constexpr int kReserve = 32;     // for what a step does when it has failed by that
 
 std::string progress_line(const Json& event) {
   char line[300];
@@ -57,7 +57,7 @@ MissionSession::MissionSession(const MissionOptions& options, Activity& activity
 
 Json MissionSession::next() {
   made_at_once_ = 0;
-  most_at_once_ = kMostAtOnce;
+  max_at_once_ = kMaxAtOnce;
   activity_.beat();
   auto message = client_.receive(kWait_s);
   activity_.beat();
@@ -80,10 +80,9 @@ void MissionSession::hold_quietly() {
 }
 
 std::int64_t MissionSession::request(const api::RequestRow& row, Json fields) {
-  if (made_at_once_ >= most_at_once_) {
-    most_at_once_ = kMostAtOnce + kReserve;
-    throw api::RequestError("busy", std::to_string(kMostAtOnce) +
-                                        " requests at once: allowed no more before the next " +
+  if (made_at_once_ >= max_at_once_) {
+    max_at_once_ = kMaxAtOnce + kReserve;
+    throw api::RequestError("busy", std::to_string(kMaxAtOnce) + " requests at once: allowed no more before the next " +
                                         "state: make them one after the other, as the arm carries them out");
   }
   ++made_at_once_;
@@ -105,4 +104,4 @@ void MissionSession::report(const Json& report) {
   if (text.size() < activity_.report.size()) put_text(activity_.report, text);
 }
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

@@ -8,7 +8,7 @@
 #include "host/apps/mission_runner/mission_run.hpp"
 #include "host/base/json/json.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 
 // Speaks to lianad for one mission; commands of the script go out through it.
 class MissionSession : public RequestSink {
@@ -38,7 +38,7 @@ class MissionSession : public RequestSink {
   Json welcome_;
   Json report_;
   std::int64_t last_id_ = 0;
-  int made_at_once_ = 0, most_at_once_ = 0;  // requests since the last message
+  int made_at_once_ = 0, max_at_once_ = 0;  // requests since the last message
 };
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

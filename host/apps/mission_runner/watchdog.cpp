@@ -16,7 +16,7 @@
 
 #include "host/base/file/address_space.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 namespace {
 
 constexpr long kPoll_ns = 20'000'000;
@@ -119,4 +119,4 @@ std::string last_seen(const Activity& activity) {
   return std::string(activity.file.data()) + ":" + std::to_string(activity.line.load(std::memory_order_relaxed));
 }
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

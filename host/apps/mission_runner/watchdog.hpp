@@ -7,7 +7,7 @@
 
 #include "host/apps/mission_runner/activity.hpp"
 
-namespace liana::script {
+namespace liana::mission_runner {
 
 // How long a script may compute between two beats.
 struct ScriptTimeLimits {
@@ -33,4 +33,4 @@ WatchedEnd run_watched(Activity& activity, const ScriptTimeLimits& limits, const
 // "file:line" where the script was last seen.
 std::string last_seen(const Activity& activity);
 
-}  // namespace liana::script
+}  // namespace liana::mission_runner

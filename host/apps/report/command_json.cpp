@@ -28,10 +28,10 @@ Json verdict_json(const std::optional<Dispatch>& verdict) {
           {"text", verdict->text}};
 }
 
-Json refusal_json(const CommandLife& life) {
+Json refusal_json(const CommandRecord& life) {
   if (!life.refusal) return nullptr;
   if (!life.is_command()) return {{"text", life.refusal->text}};
-  const verify::RefusalRow& row = verify::row_of(static_cast<verify::Refusal>(life.refusal->number));
+  const verification::RefusalRow& row = verification::row_of(static_cast<verification::Refusal>(life.refusal->number));
   return {{"code", life.refusal->number},
           {"name", row.name},
           {"action", life.refusal->subject},
@@ -43,7 +43,7 @@ Json tick_json(const std::optional<Dispatch>& stage) { return stage ? Json(stage
 
 }  // namespace
 
-const char* command_kind_name(const CommandLife& life) {
+const char* command_kind_name(const CommandRecord& life) {
   if (!life.is_command()) return "request";
   switch (static_cast<CommandKind>(life.kind)) {
     case CommandKind::kTip:
@@ -61,7 +61,7 @@ const char* command_kind_name(const CommandLife& life) {
   }
 }
 
-Json command_json(const CommandLife& life) {
+Json command_json(const CommandRecord& life) {
   return {{"command", life.command},
           {"tick", life.tick},
           {"owner", life.owner},

@@ -7,9 +7,9 @@
 namespace liana::report {
 
 // tip, joints, retreat, request (none came of it), other.
-const char* command_kind_name(const CommandLife& life);
+const char* command_kind_name(const CommandRecord& life);
 
 // Stages that have not come are null; margins where nothing was looked at, too.
-Json command_json(const CommandLife& life);
+Json command_json(const CommandRecord& life);
 
 }  // namespace liana::report

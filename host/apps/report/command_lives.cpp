@@ -7,7 +7,7 @@ namespace {
 
 using event::Dispatch;
 
-std::optional<Dispatch>* place_of(event::Stage stage, CommandLife& life) {
+std::optional<Dispatch>* place_of(event::Stage stage, CommandRecord& life) {
   switch (stage) {
     case event::Stage::kExecution:
       return &life.execution;
@@ -29,25 +29,25 @@ std::optional<Dispatch>* place_of(event::Stage stage, CommandLife& life) {
 }
 
 // Stages of a command come soon after it: it is among the newest.
-CommandLife* find(std::vector<CommandLife>& lives, std::uint64_t command) {
+CommandRecord* find(std::vector<CommandRecord>& lives, std::uint64_t command) {
   for (auto life = lives.rbegin(); life != lives.rend(); ++life) {
     if (life->command == command) return &*life;
   }
   return nullptr;
 }
 
-void take(const Dispatch& d, std::vector<CommandLife>& lives) {
+void take(const Dispatch& d, std::vector<CommandRecord>& lives) {
   const bool begins = d.stage == event::Stage::kSetpoint || d.stage == event::Stage::kRequest;
   if (begins) lives.push_back({d.command, d.tick, d.subject, d.number, {}, {}, {}, {}, {}, {}});
-  CommandLife* life = begins ? &lives.back() : find(lives, d.command);
+  CommandRecord* life = begins ? &lives.back() : find(lives, d.command);
   if (life == nullptr) return;
   if (std::optional<Dispatch>* place = place_of(d.stage, *life)) *place = d;
 }
 
 }  // namespace
 
-std::vector<CommandLife> command_lives(std::istream& lines, std::size_t& unread) {
-  std::vector<CommandLife> lives;
+std::vector<CommandRecord> command_lives(std::istream& lines, std::size_t& unread) {
+  std::vector<CommandRecord> lives;
   unread = 0;
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("#")) continue;

@@ -12,7 +12,7 @@
 namespace liana::report {
 
 // A command, or a request of which none came (command 0).
-struct CommandLife {
+struct CommandRecord {
   std::uint64_t command = 0;
   std::uint64_t tick = 0;  // when it was asked for
   std::string owner;       // or client
@@ -24,6 +24,6 @@ struct CommandLife {
 };
 
 // In the order in which they were asked for. `unread`: lines that are no stages.
-std::vector<CommandLife> command_lives(std::istream& lines, std::size_t& unread);
+std::vector<CommandRecord> command_lives(std::istream& lines, std::size_t& unread);
 
 }  // namespace liana::report

@@ -2,13 +2,13 @@
 
 #include <cmath>
 
-#include "firmware_like/cable/arm/cable_watch.hpp"
-#include "firmware_like/cable/arm/contact_watch.hpp"
-#include "firmware_like/cable/arm/friction_watch.hpp"
-#include "firmware_like/cable/arm/tension_watch.hpp"
-#include "firmware_like/safety/link_watch.hpp"
+#include "firmware_like/cable/arm/cable_monitor.hpp"
+#include "firmware_like/cable/arm/contact_detector.hpp"
+#include "firmware_like/cable/arm/friction_estimator.hpp"
+#include "firmware_like/cable/arm/tension_monitor.hpp"
+#include "firmware_like/safety/drive_link_monitor.hpp"
 #include "firmware_like/safety/supervisor.hpp"
-#include "firmware_like/serial/joint_watch.hpp"
+#include "firmware_like/serial/joint_monitor.hpp"
 #include "firmware_like/serial/push.hpp"
 
 namespace liana::report {

@@ -74,14 +74,14 @@ std::optional<Pose> true_rod(const ReportSources& sources) {
   return pose;
 }
 
-void add_claims(Json& report, const TruthLog& truth, const Rows& rows, const std::vector<ClearanceClaim>& claims,
+void add_claims(Json& report, const TruthLog& truth, const Rows& rows, const std::vector<ClearanceBounds>& claims,
                 double period_s) {
   const auto claimed = verified_clearance(truth, rows.first, rows.last, claims, period_s);
   if (!claimed) return;
   report["verified_clearance_m"] = {{"min", claimed->min_m},
                                     {"truth_min", claimed->truth_min_m},
                                     {"ticks_above_truth", claimed->ticks_above_truth},
-                                    {"most_above_truth_m", claimed->most_above_m}};
+                                    {"most_above_truth_m", claimed->max_above_m}};
 }
 
 // The fault that was asked for, and when it began, as the bench says; null where it did not.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "firmware_like/math/pose.hpp"
-#include "host/apps/report/claimed_clearance.hpp"
+#include "host/apps/report/guaranteed_clearance.hpp"
 #include "host/apps/report/stages.hpp"
 #include "host/apps/report/truth_figures.hpp"
 #include "host/base/json/json.hpp"
@@ -46,12 +46,12 @@ struct ReportSources {
   std::string operator_file;        // of liana-operator
   std::vector<StateSample> states;
   std::vector<Stage> stages;               // of servo, push and adapter, as states told them
-  std::vector<ClearanceClaim> claims;      // of lianad, as its states told them
+  std::vector<ClearanceBounds> claims;     // of lianad, as its states told them
   std::vector<ReportedStep> announced;     // stands in for the steps of a mission runner that left no report
   std::optional<double> operator_rate_hz;  // samples of the operator's device in the slowest second
-  Json operator_samples;                 // how far apart, and how old in commands (host/apps/launcher/sample_watch.hpp)
-  const Json* welcome = nullptr;         // of lianad
-  const Json* last_state = nullptr;      // of lianad
+  Json operator_samples;             // how far apart, and how old in commands (host/apps/launcher/sample_monitor.hpp)
+  const Json* welcome = nullptr;     // of lianad
+  const Json* last_state = nullptr;  // of lianad
   std::optional<config::ScenePose> rod;  // as the scene has it; none: it has none
   bool has_slit = false;                 // the scene has one; else its boxes are called boxes
   BodyAt body_at;                        // empty: no body is named

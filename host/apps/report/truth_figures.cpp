@@ -82,9 +82,9 @@ Criteria criteria_of(const Json& robot, const std::string& physics) {
     criteria.least_clearance_m = 0.0;
     return criteria;
   }
-  if (physics != "worn") criteria.least_motor_tension_N = robot["tension"]["floor_motor_N"].get<double>();
+  if (physics != "worn") criteria.min_motor_tension_N = robot["tension"]["floor_motor_N"].get<double>();
   criteria.least_tension_N = robot["tension"]["floor_anywhere_N"].get<double>();
-  criteria.most_slit_speed_m_s = kSlitSwing * robot["limits"]["tip_speed_slit_m_s"].get<double>();
+  criteria.max_slit_speed_m_s = kSlitSwing * robot["limits"]["tip_speed_slit_m_s"].get<double>();
   return criteria;
 }
 
@@ -154,15 +154,15 @@ std::string judge(Json& report, const Criteria& criteria) {
   if (report.contains("truly_captured"))
     hold("truly_captured", "the pins were told to be captured and truly captured", "(0: no, 1: yes)",
          report["truly_captured"].get<bool>() ? 1.0 : 0.0, 1.0, true);
-  if (criteria.least_motor_tension_N && report.contains("cable_tension_N"))
+  if (criteria.min_motor_tension_N && report.contains("cable_tension_N"))
     hold("tension_at_motor", "the least tension at a motor", "N", report["cable_tension_N"]["min_motor"],
-         *criteria.least_motor_tension_N, true);
+         *criteria.min_motor_tension_N, true);
   if (criteria.least_tension_N && report.contains("cable_tension_N"))
     hold("tension_anywhere", "the least tension of a cable", "N", report["cable_tension_N"]["min"],
          *criteria.least_tension_N, true);
-  if (criteria.most_slit_speed_m_s && report.contains("max_tip_speed_slit_m_s"))
+  if (criteria.max_slit_speed_m_s && report.contains("max_tip_speed_slit_m_s"))
     hold("tip_speed_in_slit", "the true tip's speed in the slit", "m/s", report["max_tip_speed_slit_m_s"],
-         *criteria.most_slit_speed_m_s, false);
+         *criteria.max_slit_speed_m_s, false);
   if (criteria.least_clearance_m && report.contains("min_clearance_m"))
     hold("touches_nothing", "the least true distance to a body of the scene", "m", report["min_clearance_m"],
          *criteria.least_clearance_m, true);

@@ -9,10 +9,10 @@
 #include "host/apps/run_page/deflate.hpp"
 #include "host/base/json/json.hpp"
 
-namespace liana::view {
+namespace liana::run_page {
 namespace {
 
-constexpr double kMostCell = 32767.0;
+constexpr double kMaxCell = 32767.0;
 
 double finest(std::string_view unit) {
   static constexpr std::array<std::pair<std::string_view, double>, 7> kFinest{
@@ -29,7 +29,7 @@ double scale_for(std::string_view unit, const std::vector<double>& values) {
     if (std::isfinite(value)) most = std::max(most, std::fabs(value));
   }
   double scale = finest(unit);
-  while (most > kMostCell * scale) scale *= 10.0;
+  while (most > kMaxCell * scale) scale *= 10.0;
   return scale;
 }
 
@@ -67,4 +67,4 @@ std::string packed(const std::vector<Column>& columns) {
   return base64(deflated(bytes));
 }
 
-}  // namespace liana::view
+}  // namespace liana::run_page

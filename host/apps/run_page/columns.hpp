@@ -7,7 +7,7 @@
 
 #include "host/base/json/json_fwd.hpp"
 
-namespace liana::view {
+namespace liana::run_page {
 
 constexpr std::int16_t kNotThere = -32768;  // of a cell
 
@@ -32,4 +32,4 @@ Json to_json(const Column& column);
 // bytes of all rows before the high ones; compressed (RFC 1951) and as base64. All columns have as many rows.
 std::string packed(const std::vector<Column>& columns);
 
-}  // namespace liana::view
+}  // namespace liana::run_page

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace liana::view {
+namespace liana::run_page {
 
 // Raw deflate (RFC 1951), zlib's best. Throws std::runtime_error when there is no memory.
 std::string deflated(std::string_view bytes);
@@ -12,4 +12,4 @@ std::string deflated(std::string_view bytes);
 // RFC 4648, with padding.
 std::string base64(std::string_view bytes);
 
-}  // namespace liana::view
+}  // namespace liana::run_page

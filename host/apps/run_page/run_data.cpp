@@ -12,7 +12,7 @@
 #include "host/apps/run_page/columns.hpp"
 #include "host/apps/run_page/time_grid.hpp"
 
-namespace liana::view {
+namespace liana::run_page {
 namespace {
 
 constexpr std::string_view kMark = "<!-- liana-run -->";
@@ -130,7 +130,7 @@ Json commands_json(const RunData& run) {
   Json list = Json::array();
   const std::uint64_t second = ticks_in_a_second(run);
   std::uint64_t next = 0;
-  for (const report::CommandLife& life : run.commands) {
+  for (const report::CommandRecord& life : run.commands) {
     if (!life.is_refused() && life.tick < next) continue;
     if (!life.is_refused()) next = life.tick + 2 * second;
     list.push_back(report::command_json(life));
@@ -189,4 +189,4 @@ std::string page_of(const RunData& run, const std::string& page) {
          page.substr(mark + kMark.size());
 }
 
-}  // namespace liana::view
+}  // namespace liana::run_page

@@ -12,7 +12,7 @@
 #include "host/apps/report/truth.hpp"
 #include "host/base/json/json.hpp"
 
-namespace liana::view {
+namespace liana::run_page {
 
 struct RunData {
   std::string title;
@@ -23,7 +23,7 @@ struct RunData {
   std::vector<std::string> records;                   // in the order of their ticks
   std::vector<std::pair<std::uint64_t, Json>> facts;  // from which tick on, in order
   std::vector<Json> events;                           // as the API tells them, in order
-  std::vector<report::CommandLife> commands;
+  std::vector<report::CommandRecord> commands;
   std::optional<report::TruthLog> truth;  // of the bench
 };
 
@@ -32,4 +32,4 @@ struct RunData {
 // the page has no such line.
 std::string page_of(const RunData& run, const std::string& page);
 
-}  // namespace liana::view
+}  // namespace liana::run_page

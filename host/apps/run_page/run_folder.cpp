@@ -10,7 +10,7 @@
 #include "host/base/install_paths/places.hpp"
 #include "host/storage/archive/reader.hpp"
 
-namespace liana::view {
+namespace liana::run_page {
 namespace {
 
 namespace fs = std::filesystem;
@@ -59,7 +59,7 @@ RunData run_in(const std::string& folder) {
   return run;
 }
 
-std::string built_page() { return places::page_file("view.html"); }
+std::string built_page() { return install_paths::page_file("view.html"); }
 
 bool is_page_built() { return fs::exists(built_page()); }
 
@@ -71,4 +71,4 @@ std::size_t write_page(const std::string& folder, const std::string& path) {
   return page.size();
 }
 
-}  // namespace liana::view
+}  // namespace liana::run_page

@@ -5,7 +5,7 @@
 
 #include "host/apps/run_page/run_data.hpp"
 
-namespace liana::view {
+namespace liana::run_page {
 
 // What the folder holds: archive, commands, report, truth; of these only the archive has to be there. Throws
 // std::runtime_error with path and reason.
@@ -18,4 +18,4 @@ bool is_page_built();
 // Writes the page of a run to `file`; its size in bytes. Throws std::runtime_error with path and reason.
 std::size_t write_page(const std::string& folder, const std::string& file);
 
-}  // namespace liana::view
+}  // namespace liana::run_page

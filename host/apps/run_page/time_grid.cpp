@@ -5,11 +5,11 @@
 
 #include "host/api/telemetry/record.hpp"
 
-namespace liana::view {
+namespace liana::run_page {
 namespace {
 
 constexpr double kRow_s = 0.04;
-constexpr std::uint64_t kMostRows = 30000;
+constexpr std::uint64_t kMaxRows = 30000;
 
 std::uint64_t tick_of(const std::string& record) {
   return static_cast<std::uint64_t>(telemetry::header_of(record).tick);
@@ -22,7 +22,7 @@ TimeGrid grid_of(const std::vector<std::string>& records, double period_s) {
   TimeGrid grid{tick_of(records.front()), 1, 0};
   const std::uint64_t span = tick_of(records.back()) - grid.first;
   grid.every =
-      std::max({std::uint64_t{1}, static_cast<std::uint64_t>(std::lround(kRow_s / period_s)), span / kMostRows + 1});
+      std::max({std::uint64_t{1}, static_cast<std::uint64_t>(std::lround(kRow_s / period_s)), span / kMaxRows + 1});
   grid.rows = static_cast<std::size_t>(span / grid.every) + 1;
   return grid;
 }
@@ -39,4 +39,4 @@ std::vector<const std::string*> records_at(const TimeGrid& grid, const std::vect
   return found;
 }
 
-}  // namespace liana::view
+}  // namespace liana::run_page

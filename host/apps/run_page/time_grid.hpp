@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace liana::view {
+namespace liana::run_page {
 
 struct TimeGrid {
   std::uint64_t first = 0;  // tick
@@ -21,4 +21,4 @@ TimeGrid grid_of(const std::vector<std::string>& records, double period_s);
 // For each row the newest record that is no older than two rows, or nullptr.
 std::vector<const std::string*> records_at(const TimeGrid& grid, const std::vector<std::string>& records);
 
-}  // namespace liana::view
+}  // namespace liana::run_page

@@ -6,10 +6,10 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_params.hpp"
 #include "firmware_like/math/pose.hpp"
 
-namespace liana::algebra {
+namespace liana::eigen {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -18,7 +18,7 @@ using ThetaColumn = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kM
 using ThetaMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxTheta, kMaxTheta>;
 using SpaceColumns = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxTheta>;
 
-inline Eigen::Index theta_count(const RobotTable& table) { return table.theta_count(); }
+inline Eigen::Index theta_count(const RobotParams& table) { return table.theta_count(); }
 
 // Views, not copies: of the first `count` thetas, of a vector, of the first `count` columns.
 inline Eigen::Map<const Eigen::VectorXd> view(const ThetaVector& theta, Eigen::Index count) {
@@ -39,4 +39,4 @@ inline void fix_theta(Eigen::Index k, double value, ThetaMatrix& A, ThetaColumn&
   b[k] = value;
 }
 
-}  // namespace liana::algebra
+}  // namespace liana::eigen

@@ -28,7 +28,7 @@ enum class EventKind : std::uint8_t {
   kRefusal,      // a request was answered with an error; number: RefusalEvent; subject the client's name
   kVerdict,      // verification refused a command: number M_e; subject which of the two ends; `command`, `share`
   kPath,         // number: PathEvent; subject the path's hash; `share` of its time, `duration_s`
-  kWayBack,      // number: WayEvent; `points` of the path, `distance_m` of the arm from it
+  kWayBack,      // number: RetractEvent; `points` of the path, `distance_m` of the arm from it
   kFriction,     // number: 5009 where it is not as declared, 0: as declared again; `mu`, `sd`, `declared_mu`
   kStop,         // number: stop category (docs/explanation/fault-priorities.md); subject who asked for it
   kShutdown,     // subject who asked for it, or nothing
@@ -60,7 +60,7 @@ enum class DeviceEvent : std::uint8_t {
   kRefused = 5,    // its driver sent what is not allowed, and was let go
 };
 enum class PathEvent : std::uint8_t { kRefused = 0, kBegins = 1, kArrives = 2, kStops = 3 };
-enum class WayEvent : std::uint8_t {
+enum class RetractEvent : std::uint8_t {
   kBegins = 1,   // a retract begins
   kArrives = 2,  // it has gone all the way
   kEnds = 3,     // it is over before its end

@@ -99,15 +99,15 @@ void EventLog::tell_due(std::uint64_t tick, std::optional<std::string_view> ende
 bool EventLog::add(std::uint64_t tick, Event event) {
   if (event.kind == EventKind::kShutdown) tell_due(tick, "");
   if (event.kind == EventKind::kClear && event.number == 0) tell_due(tick, key_of(EventKind::kFault));
-  if (++in_interval_[static_cast<std::size_t>(event.kind)] > kMostPerInterval) return false;
+  if (++in_interval_[static_cast<std::size_t>(event.kind)] > kMaxPerInterval) return false;
   return tell_or_count(tick, std::move(event));
 }
 
 void EventLog::begin_interval(std::uint64_t tick) {
   tell_due(tick);
   for (std::size_t k = 0; k < kEventKinds; ++k) {
-    if (in_interval_[k] > kMostPerInterval) {
-      const std::uint32_t count = in_interval_[k] - kMostPerInterval;
+    if (in_interval_[k] > kMaxPerInterval) {
+      const std::uint32_t count = in_interval_[k] - kMaxPerInterval;
       const char* name = event_kind_name(static_cast<EventKind>(k));
       tell_or_count(tick, {.kind = EventKind::kLeftOut,
                            .number = count,

@@ -17,7 +17,7 @@ class EventLog {
   using Sink = std::function<void(const Event&)>;
   static constexpr std::size_t kShown = 10;
   // Of one kind in one interval: more than any robot has drives. Who floods fills neither disk nor readers.
-  static constexpr std::uint32_t kMostPerInterval = 40;
+  static constexpr std::uint32_t kMaxPerInterval = 40;
 
   static constexpr double kOver_s = 2.0;    // what did not come for so long is over
   static constexpr double kAgain_s = 60.0;  // what stands is told so often
@@ -30,7 +30,7 @@ class EventLog {
   // Gives the event its sequence and this tick. One that stands (of the same kind, number and subject as one before,
   // and within kOver_s of it) is counted: when it is over, and every kAgain_s, one event tells the newest of them with
   // what was counted (`times`, `last_tick`, `over` 1 or 0; `count` is their sum). Faults are over with a clear,
-  // everything is with a shutdown. Beyond kMostPerInterval of its kind it is only counted as left out. False: it was
+  // everything is with a shutdown. Beyond kMaxPerInterval of its kind it is only counted as left out. False: it was
   // not told.
   bool add(std::uint64_t tick, Event event);
   // A command interval begins: tells what is due, and one event for each kind of which some were left out in the one

@@ -18,7 +18,7 @@ template <class What>
 class Standing {
  public:
   // Whoever makes up ever new keys fills no memory: from here on new ones are counted under a key that they share.
-  static constexpr std::size_t kMostKeys = 128;
+  static constexpr std::size_t kMaxKeys = 128;
 
   struct Rule {
     std::uint64_t over_after = 0;   // without another case it is over
@@ -74,7 +74,7 @@ class Standing {
       return std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.key == name; });
     };
     auto found = named(key);
-    const bool shares = found == entries_.end() && entries_.size() >= kMostKeys;
+    const bool shares = found == entries_.end() && entries_.size() >= kMaxKeys;
     if (shares) found = named(shared_key);
     if (found != entries_.end()) return *found;
     entries_.push_back({.key = shares ? shared_key : key});

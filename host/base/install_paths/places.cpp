@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace liana::places {
+namespace liana::install_paths {
 namespace {
 
 namespace fs = std::filesystem;
@@ -65,4 +65,4 @@ void search_first(const std::string& option, const std::string& folder) {
 
 std::string page_file(const std::string& name) { return (file_of("page", LIANA_SOURCE_PAGE_DIR) / name).string(); }
 
-}  // namespace liana::places
+}  // namespace liana::install_paths

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace liana::places {
+namespace liana::install_paths {
 
 // Of the environment: folders of one's own tables and missions, separated by ':', searched before Liana's.
 inline constexpr const char* kLuaPath = "LIANA_LUA_PATH";
@@ -32,4 +32,4 @@ void search_first(const std::string& option, const std::string& folder);
 // A built page, such as "console.html"; it need not be there: npm builds it (./dev view).
 std::string page_file(const std::string& name);
 
-}  // namespace liana::places
+}  // namespace liana::install_paths

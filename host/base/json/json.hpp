@@ -72,7 +72,7 @@ class Json {
   using Object = std::map<std::string, Json, std::less<>>;
 
   // Deepest nesting that parse() accepts: one more is an error, so that no text can exhaust the stack.
-  static constexpr int kMostLevels = 200;
+  static constexpr int kMaxLevels = 200;
   enum class Twice { kLastCounts, kRefuse };  // a member that is given twice
   enum class BadUtf8 { kRefuse, kReplace };   // by U+FFFD
 
@@ -115,7 +115,7 @@ class Json {
   // Throws JsonError when an entry is no pair that begins with a text.
   static Json object(std::initializer_list<JsonItem> list);
 
-  // Reads one value (RFC 8259, strict UTF-8). Throws JsonParseError, also beyond kMostLevels, and JsonTwiceError. Time
+  // Reads one value (RFC 8259, strict UTF-8). Throws JsonParseError, also beyond kMaxLevels, and JsonTwiceError. Time
   // and memory grow with the text: the caller bounds its size.
   static Json parse(std::string_view text, Twice twice = Twice::kLastCounts);
   // The same; null for a text that is no JSON.

@@ -49,7 +49,7 @@ class Builder : public nlohmann::json_sax<Library> {
     throw JsonParseError(plain(error.what()), at);
   }
 
-  bool too_deep() const { return open_.size() >= Json::kMostLevels; }
+  bool too_deep() const { return open_.size() >= Json::kMaxLevels; }
   Json& result() { return result_; }
 
  private:
@@ -209,7 +209,7 @@ Json Json::parse(std::string_view text, Twice twice) {
   }
   Builder builder(twice);
   if (Library::sax_parse(text, &builder)) return std::move(builder.result());
-  throw JsonParseError("nested deeper than " + std::to_string(kMostLevels) + " levels", 0);
+  throw JsonParseError("nested deeper than " + std::to_string(kMaxLevels) + " levels", 0);
 }
 
 Json Json::parse_or_null(std::string_view text) {

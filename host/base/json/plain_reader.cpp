@@ -48,7 +48,7 @@ class Reader {
   template <class Item>
   bool items(char close, const Item& item) {
     ++at_;
-    if (++level_ > Json::kMostLevels) return false;
+    if (++level_ > Json::kMaxLevels) return false;
     if (!next(close)) {
       do {
         skip_blanks();

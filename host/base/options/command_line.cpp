@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-namespace liana::command_line {
+namespace liana::options {
 namespace {
 
 constexpr int kBadInput = 2;  // of every program
@@ -101,4 +101,4 @@ std::optional<int> CommandLine::parse(int argc, const char* const* argv) {
   return std::nullopt;
 }
 
-}  // namespace liana::command_line
+}  // namespace liana::options

@@ -12,7 +12,7 @@ class App;
 class Option;
 }  // namespace CLI
 
-namespace liana::command_line {
+namespace liana::options {
 
 // One option, for what is to be said about it besides its name. Cheap to copy; good while its CommandLine lives.
 class Option {
@@ -66,4 +66,4 @@ class CommandLine : public Command {
   std::optional<int> parse(int argc, const char* const* argv);
 };
 
-}  // namespace liana::command_line
+}  // namespace liana::options

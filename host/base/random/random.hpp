@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <numbers>
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 // SplitMix64 stream; one per purpose, so that adding a draw in one place moves nothing elsewhere.
 class RandomStream {
@@ -37,4 +37,4 @@ class RandomStream {
   std::uint64_t state_;
 };
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

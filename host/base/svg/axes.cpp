@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::draw {
+namespace liana::svg {
 namespace {
 
 constexpr Look kGrid{.stroke = "#dddddd", .width = 0.7};
@@ -78,4 +78,4 @@ void draw_axes(Svg& svg, const Axes& axes, std::string_view x_title, std::string
            {.size = 12.0, .anchor = "middle", .upwards = true});
 }
 
-}  // namespace liana::draw
+}  // namespace liana::svg

@@ -6,7 +6,7 @@
 
 #include "host/base/svg/svg.hpp"
 
-namespace liana::draw {
+namespace liana::svg {
 
 // A range of values, low < high.
 struct AxisRange {
@@ -36,4 +36,4 @@ std::vector<double> log_ticks(const AxisRange& range);
 // Grid lines, tick labels and titles at the left and lower edges.
 void draw_axes(Svg& svg, const Axes& axes, std::string_view x_title, std::string_view y_title);
 
-}  // namespace liana::draw
+}  // namespace liana::svg

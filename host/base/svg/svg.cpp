@@ -3,7 +3,7 @@
 #include <charconv>
 #include <utility>
 
-namespace liana::draw {
+namespace liana::svg {
 namespace {
 
 std::string px(double value) { return short_number(value, 1); }
@@ -123,4 +123,4 @@ void Svg::text(Pixel at, std::string_view words, const Lettering& lettering) {
 
 std::string Svg::document() const { return head_ + body_ + "</svg>\n"; }
 
-}  // namespace liana::draw
+}  // namespace liana::svg

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace liana::draw {
+namespace liana::svg {
 
 // A place in the picture [px].
 struct Pixel {
@@ -69,4 +69,4 @@ std::string escaped(std::string_view text);
 // A number with at most `decimals` decimals and no trailing zeros; "0" for what rounds to zero.
 std::string short_number(double value, int decimals);
 
-}  // namespace liana::draw
+}  // namespace liana::svg

@@ -11,7 +11,7 @@ class AnotherTry {
  public:
   // Refused: whether it is tried again; then the arm comes to rest first.
   bool refused() {
-    if (tries_ == kMostTries) return false;
+    if (tries_ == kMaxTries) return false;
     ++tries_;
     rests_ = waited_ = 0;
     waits_ = begins_ = true;
@@ -20,7 +20,7 @@ class AnotherTry {
   // Once per command interval: whether nothing is asked for yet. Bounded: an arm that swings on is asked all the same.
   bool waits(bool at_rest) {
     rests_ = at_rest ? rests_ + 1 : 0;
-    waits_ = waits_ && rests_ < kRestIntervals && ++waited_ < kMostWaitIntervals;
+    waits_ = waits_ && rests_ < kRestIntervals && ++waited_ < kMaxWaitIntervals;
     return waits_;
   }
   // After a wait: whether the motion is to be planned anew, which is said once.
@@ -29,9 +29,9 @@ class AnotherTry {
   double speed_share() const { return 1.0 / static_cast<double>(1 << tries_); }
 
  private:
-  static constexpr int kMostTries = 4;
+  static constexpr int kMaxTries = 4;
   static constexpr std::int32_t kRestIntervals = 15;  // what is at rest by its command still swings
-  static constexpr std::int32_t kMostWaitIntervals = 1000;
+  static constexpr std::int32_t kMaxWaitIntervals = 1000;
 
   int tries_ = 0;
   std::int32_t rests_ = 0, waited_ = 0;

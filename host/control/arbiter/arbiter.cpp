@@ -6,8 +6,8 @@
 
 #include "firmware_like/safety/faults.hpp"
 #include "host/api/server/request_error.hpp"
-#include "host/control/arbiter/cable_kind.hpp"
-#include "host/control/arbiter/serial_kind.hpp"
+#include "host/control/arbiter/cable_traits.hpp"
+#include "host/control/arbiter/serial_traits.hpp"
 
 namespace liana::arbiter {
 
@@ -78,11 +78,11 @@ void Arbiter<Arm>::move_path(const Now& now, const PathRequest<Arm>& request) {
 }
 
 template <class Arm>
-void Arbiter<Arm>::servo_target(const Now& now, const servo::ServoRequest& request) {
+void Arbiter<Arm>::servo_target(const Now& now, const visual_servo::ServoRequest& request) {
   require_free(now);
   const TipBounds bounds = Kind::tip_bounds(table_);
-  servo::ServoRequest admitted = request;
-  servo::ApproachLimits& limits = admitted.limits;
+  visual_servo::ServoRequest admitted = request;
+  visual_servo::ApproachLimits& limits = admitted.limits;
   limits.speed_m_s = std::min(limits.speed_m_s, bounds.linear.speed);
   limits.lateral_speed_m_s = std::min(limits.lateral_speed_m_s, bounds.linear.speed);
   limits.rate_rad_s = std::min(limits.rate_rad_s, bounds.angular.speed);
@@ -105,7 +105,7 @@ void Arbiter<Arm>::tell(event::PathEvent what, const PathMove<Arm>& move, const 
 // A path that is cut short says how far it has come, and so does a way back.
 template <class Arm>
 void Arbiter<Arm>::hold(const std::string& why) {
-  if (std::holds_alternative<WayBack<Arm>>(way_)) way_out_.end(why, command_rad_);
+  if (std::holds_alternative<RetractMove<Arm>>(way_)) way_out_.end(why, command_rad_);
   servo_.end(why);
   const auto* move = std::get_if<PathMove<Arm>>(&way_);
   if (move != nullptr && !move->is_over()) {
@@ -141,12 +141,12 @@ void Arbiter<Arm>::retract(const Now& now, std::uint64_t until_tick) {
   hold("another retract was asked for");
   wishes_ = {};
   way_out_.begin(until_tick);
-  way_.template emplace<WayBack<Arm>>(table_, way_out_.path(), until_tick);
+  way_.template emplace<RetractMove<Arm>>(table_, way_out_.path(), until_tick);
 }
 
 template <class Arm>
 RetractState Arbiter<Arm>::retract_state() const {
-  const auto* back = std::get_if<WayBack<Arm>>(&way_);
+  const auto* back = std::get_if<RetractMove<Arm>>(&way_);
   return back != nullptr ? RetractState{back->phase(), back->points_left(), ""} : way_out_.last_retract();
 }
 
@@ -162,7 +162,7 @@ void Arbiter<Arm>::ask_anew() {
 
 template <class Arm>
 bool Arbiter<Arm>::refused(const std::string& why, bool may_swing_less) {
-  const auto* back = std::get_if<WayBack<Arm>>(&way_);
+  const auto* back = std::get_if<RetractMove<Arm>>(&way_);
   if ((back != nullptr || may_swing_less) && std::visit([](auto& way) { return way.refused(); }, way_)) return true;
   const std::string detail = why.empty() ? "" : ": " + why;
   hold((back != nullptr ? back->why_ended() : "refused") + detail);
@@ -189,7 +189,7 @@ bool Arbiter<Arm>::begin_interval(std::uint64_t tick, const Now& now) {
   start_ramp_.note(now.tip_command.position_m, interval_s(table_));
   goal_ramp_.note(now.tip_command.position_m, interval_s(table_));
   speed_rise_.pass(interval_s(table_));
-  const auto* back = std::get_if<WayBack<Arm>>(&way_);
+  const auto* back = std::get_if<RetractMove<Arm>>(&way_);
   const bool stops = now.at_rest == 0 && (back != nullptr || std::holds_alternative<Idle>(way_));
   way_out_.stand(tick, command_rad_, back != nullptr && back->has_begun(), stops);
   return true;
@@ -201,19 +201,19 @@ std::optional<typename Arm::Setpoint> Arbiter<Arm>::ask(const Now& now) {
   const bool awaits = path != nullptr && !path->outlook();
   const Goal<Arm> goal = std::visit([&](auto& way) { return way.next(now); }, way_);
   if (awaits && path->outlook()) tell_of_outlook(*path);
-  if (std::visit([](const auto& way) { return way.is_over(); }, way_)) end_way();
+  if (std::visit([](const auto& way) { return way.is_over(); }, way_)) end_motion();
   return setpoint_for(now, goal);
 }
 
 // Where a line has ended the tip stays, until nothing more needs to be asked for.
 template <class Arm>
-void Arbiter<Arm>::end_way() {
+void Arbiter<Arm>::end_motion() {
   if (const auto* line = std::get_if<LineMove<Arm>>(&way_)) {
     const Pose end = line->end();
     way_.template emplace<TipTarget<Arm>>(end, wishes_);
     return;
   }
-  if (const auto* back = std::get_if<WayBack<Arm>>(&way_)) return hold(back->why_ended());
+  if (const auto* back = std::get_if<RetractMove<Arm>>(&way_)) return hold(back->why_ended());
   const auto* path = std::get_if<PathMove<Arm>>(&way_);
   if (path != nullptr && path->outlook()->refusal.empty()) tell(event::PathEvent::kArrives, *path, " has arrived");
   hold();
@@ -230,7 +230,7 @@ std::optional<typename Arm::Setpoint> Arbiter<Arm>::setpoint_for(const Now& now,
   if (const auto* tip_in_base = std::get_if<Pose>(&goal)) return tip_setpoint(now, *tip_in_base);
   const auto* joint_rad = std::get_if<Joints<Arm>>(&goal);
   if (joint_rad == nullptr) return std::nullopt;
-  const bool retreats = std::holds_alternative<WayBack<Arm>>(way_) && now.faults.count > 0;
+  const bool retreats = std::holds_alternative<RetractMove<Arm>>(way_) && now.faults.count > 0;
   return joint_setpoint(*joint_rad, retreats ? CommandKind::kRetreat : CommandKind::kJoint);
 }
 
@@ -241,9 +241,9 @@ typename Arm::Setpoint Arbiter<Arm>::tip_setpoint(const Now& now, const Pose& go
   setpoint.tip_in_base = goal;
   Kind::add_wishes(wishes_, setpoint);
   const auto* target = std::get_if<TipTarget<Arm>>(&way_);
-  const double most_m_s = tip_speed_m_s_ * (target != nullptr ? target->speed_share() : 1.0);
+  const double max_m_s = tip_speed_m_s_ * (target != nullptr ? target->speed_share() : 1.0);
   setpoint.tip_speed_m_s =
-      speed_rise_.limited(zone_.advice_at(now.tip_command.position_m, zone_.advice_at(goal.position_m, most_m_s)));
+      speed_rise_.limited(zone_.advice_at(now.tip_command.position_m, zone_.advice_at(goal.position_m, max_m_s)));
   if (target != nullptr && !target->is_steered())
     setpoint.tip_speed_m_s = std::min(setpoint.tip_speed_m_s, goal_ramp_.speed_m_s());
   if (zone_.slows_at(now.tip_command.position_m))
@@ -262,8 +262,8 @@ typename Arm::Setpoint Arbiter<Arm>::joint_setpoint(const Joints<Arm>& joint_rad
 
 template class Arbiter<cable::CableArm>;
 template class Arbiter<serial::SerialArm>;
-static_assert(WayOfMoving<TipTarget<cable::CableArm>, cable::CableArm>);
-static_assert(WayOfMoving<LineMove<cable::CableArm>, cable::CableArm>);
-static_assert(WayOfMoving<WayBack<cable::CableArm>, cable::CableArm>);
+static_assert(MotionGenerator<TipTarget<cable::CableArm>, cable::CableArm>);
+static_assert(MotionGenerator<LineMove<cable::CableArm>, cable::CableArm>);
+static_assert(MotionGenerator<RetractMove<cable::CableArm>, cable::CableArm>);
 
 }  // namespace liana::arbiter

@@ -10,23 +10,23 @@
 #include <variant>
 #include <vector>
 
-#include "host/control/arbiter/arm_kind.hpp"
+#include "host/control/arbiter/arm_traits.hpp"
 #include "host/control/arbiter/joint_move.hpp"
 #include "host/control/arbiter/path_move.hpp"
+#include "host/control/arbiter/retract_request.hpp"
 #include "host/control/arbiter/servo_move.hpp"
 #include "host/control/arbiter/speed_rise.hpp"
 #include "host/control/arbiter/speed_zone.hpp"
 #include "host/control/arbiter/start_ramp.hpp"
 #include "host/control/arbiter/tip_line.hpp"
 #include "host/control/arbiter/tip_target.hpp"
-#include "host/control/arbiter/way_out.hpp"
 
 namespace liana::arbiter {
 
 template <class Arm>
 class Arbiter {
  public:
-  using Kind = ArmKind<Arm>;
+  using Kind = ArmTraits<Arm>;
   using Table = typename Arm::Table;
   using Setpoint = typename Arm::Setpoint;
   using Now = liana::Outputs<Arm>;  // the newest tick of the arm
@@ -46,13 +46,13 @@ class Arbiter {
   void move_path(const Now& now, const PathRequest<Arm>& request);
   // The tip goes to where it should be beside a target that the camera sees, and ends by itself
   // (host/control/visual_servo); no faster than the arm's own limits.
-  void servo_target(const Now& now, const servo::ServoRequest& request);
+  void servo_target(const Now& now, const visual_servo::ServoRequest& request);
   // An image of `target`, in the tip's frame at its exposure [s of arm time].
   void see_target(const std::string& target, double capture_s, const Pose& target_in_tip) {
     servo_.see(target, capture_s, target_in_tip);
   }
   // The servo under way, or how the last one went.
-  const servo::ServoReport& servo_report() const { return servo_.report(); }
+  const visual_servo::ServoStatus& servo_report() const { return servo_.report(); }
   // Back along the verified path, not beyond `until_tick`: stops, then goes back, whatever is under way. Also while
   // faults are latched that hold the arm.
   void retract(const Now& now, std::uint64_t until_tick);
@@ -69,17 +69,17 @@ class Arbiter {
   bool is_busy() const;
   // What is asked for besides the tip, or the tip goal itself, has not come to be yet.
   bool is_asking() const { return std::holds_alternative<TipTarget<Arm>>(way_); }
-  bool is_going_back() const { return std::holds_alternative<WayBack<Arm>>(way_); }
+  bool is_going_back() const { return std::holds_alternative<RetractMove<Arm>>(way_); }
   // The retract under way, or how the last one went.
   RetractState retract_state() const;
   bool has_retracted() const { return retract_state().phase == RetractPhase::kDone; }
   // The verified way back, for a copy that survives lianad.
-  PathMemory<Joints<Arm>>& path_memory() { return way_out_.path(); }
-  std::vector<WayNews> take_way_news() { return way_out_.take_news(); }
+  PathHistory<Joints<Arm>>& path_history() { return way_out_.path(); }
+  std::vector<RetractEvents> take_way_news() { return way_out_.take_news(); }
   // The path under way; none.
   std::optional<PathProgress> path() const;
   // What has become of paths since the last call.
-  std::vector<PathNews> take_path_news() { return std::exchange(path_news_, {}); }
+  std::vector<PathEvents> take_path_news() { return std::exchange(path_news_, {}); }
 
   // For what stands on top of it: the two halves of next_setpoint (false: the arm is not enabled, and all is
   // forgotten), and a tip goal for one interval that no request has set.
@@ -108,7 +108,7 @@ class Arbiter {
 
   void tell(event::PathEvent what, const PathMove<Arm>& move, const std::string& rest);
   void tell_of_outlook(const PathMove<Arm>& move);
-  void end_way();
+  void end_motion();
   void require_enabled(const Now& now) const;
   void require_way_back(const Now& now, std::uint64_t until_tick) const;
   std::optional<Setpoint> setpoint_for(const Now& now, const Goal<Arm>& goal);
@@ -118,18 +118,19 @@ class Arbiter {
   Table table_;
   SpeedZone zone_;
   double tip_speed_m_s_;
-  servo::TargetServo servo_{interval_s(table_)};
+  visual_servo::TargetServo servo_{interval_s(table_)};
   StartRamp start_ramp_;
   GoalRamp goal_ramp_{Kind::goal_ramp(table_)};
   SpeedRise speed_rise_;
   typename Kind::Wishes wishes_{};
-  WayOut<Arm> way_out_{table_};
+  RetractRequest<Arm> way_out_{table_};
   Joints<Arm> command_rad_{};  // where the command stood last
   SearchResult taken_;
   PathCheck<Arm> path_check_;
   typename PathMove<Arm>::Work path_work_;
-  std::vector<PathNews> path_news_;
-  std::variant<Idle, TipTarget<Arm>, LineMove<Arm>, JointMove<Arm>, PathMove<Arm>, ServoMove<Arm>, WayBack<Arm>> way_;
+  std::vector<PathEvents> path_news_;
+  std::variant<Idle, TipTarget<Arm>, LineMove<Arm>, JointMove<Arm>, PathMove<Arm>, ServoMove<Arm>, RetractMove<Arm>>
+      way_;
 };
 
 }  // namespace liana::arbiter

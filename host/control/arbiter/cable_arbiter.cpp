@@ -15,8 +15,8 @@ constexpr double kHandSpeed = 0.9;
 
 }  // namespace
 
-CableArbiter::CableArbiter(const cable::RobotTable& table, const SpeedZone& zone, SearchResult taken,
-                           PathCheck<cable::CableArm> check, const fixture::Guidance& guidance)
+CableArbiter::CableArbiter(const cable::RobotParams& table, const SpeedZone& zone, SearchResult taken,
+                           PathCheck<cable::CableArm> check, const virtual_fixtures::Guidance& guidance)
     : table_(table),
       asked_speed_m_s_(table.limits.tip_speed_m_s),
       robot_speed_m_s_(table.limits.tip_speed_m_s),
@@ -59,7 +59,7 @@ void CableArbiter::servo_tip(const cable::Outputs& now, const Pose& goal) {
   moves_.servo_tip(now, goal);
 }
 
-void CableArbiter::servo_target(const cable::Outputs& now, const servo::ServoRequest& request) {
+void CableArbiter::servo_target(const cable::Outputs& now, const visual_servo::ServoRequest& request) {
   require_free(now);
   moves_.servo_target(now, request);
 }
@@ -87,7 +87,7 @@ void CableArbiter::shape(const cable::Outputs& now, const cable::NodeTargets& no
   if (search && now.at_rest == 0)
     throw api::RequestError("busy", "search looks for a shape of the arm at rest: wait for it or send hold");
   lead_.forget();
-  const CableWishes& held = moves_.wishes();
+  const CableObjectives& held = moves_.wishes();
   if (search) lead_.look_for({now.tip_command, now.theta_command_rad, held.held_mask, held.held_rad, nodes, clear});
   nodes_ = nodes;
   moves_.wishes().clear = clear;
@@ -95,7 +95,7 @@ void CableArbiter::shape(const cable::Outputs& now, const cable::NodeTargets& no
 }
 
 bool CableArbiter::is_vr_in_slit(const cable::Outputs& now, const DeviceUse& use) const {
-  return use.kind == device::Kind::kHandles && !use.anywhere && zone_.holds(now.tip_command.position_m);
+  return use.kind == device::Kind::kVrControllers && !use.anywhere && zone_.holds(now.tip_command.position_m);
 }
 
 // A hand that leads the tip would find it going another way under it.
@@ -148,11 +148,11 @@ void CableArbiter::cap_tip_speed(double speed_m_s) {
 }
 
 void CableArbiter::ask_speed() {
-  const double most_m_s = kHandSpeed * robot_speed_m_s_;
-  moves_.limit_tip_speed(ease_.share * std::min({asked_speed_m_s_, cap_m_s_, most_m_s}));
+  const double max_m_s = kHandSpeed * robot_speed_m_s_;
+  moves_.limit_tip_speed(ease_.share * std::min({asked_speed_m_s_, cap_m_s_, max_m_s}));
 }
 
-void CableArbiter::lead_nobody() {
+void CableArbiter::end_shape_transition() {
   guidance_.stop();
   refusal_wait_.forget();
   ease_ = {};
@@ -190,12 +190,12 @@ bool CableArbiter::refused(const std::string& why, bool may_swing_less) {
 }
 
 std::optional<cable::Setpoint> CableArbiter::next_setpoint(std::uint64_t tick, const cable::Outputs& now) {
-  std::optional<SteerGoal> steer = device_.finish_interval(now, interval_s_);
+  std::optional<TeleopGoal> steer = device_.finish_interval(now, interval_s_);
   if (steer && is_vr_in_slit(now, device_.in_use())) {
     device_.leave_slit();
     steer.reset();
   }
-  if (!steer || is_busy()) lead_nobody();
+  if (!steer || is_busy()) end_shape_transition();
   if (!moves_.begin_interval(tick, now)) {
     hold();
     nodes_ = {};
@@ -204,18 +204,18 @@ std::optional<cable::Setpoint> CableArbiter::next_setpoint(std::uint64_t tick, c
   if (is_busy()) {
     device_.drop_anchor();  // a hand that closes the deadman now starts from where the move ends
     if (dither_.is_under_way()) return dithering_setpoint();
-    wish_nodes();
+    set_node_objectives();
     return moves_.ask(now);
   }
-  const ShapeLead::Found found = lead_.look();
-  if (found == ShapeLead::Found::kNow) moves_.ask_anew();
+  const ShapeTransition::Found found = lead_.look();
+  if (found == ShapeTransition::Found::kNow) moves_.ask_anew();
   if (steer) return steered_setpoint(now, *steer);
   if (was_engaged_) moves_.hold();  // the operator let go: stop along the path
   was_engaged_ = false;
   ask_speed();
-  if (found == ShapeLead::Found::kNotYet) return std::nullopt;
+  if (found == ShapeTransition::Found::kNotYet) return std::nullopt;
   if (lead_.ends(now)) moves_.ask_anew();
-  wish_nodes();
+  set_node_objectives();
   return moves_.ask(now);
 }
 
@@ -228,27 +228,28 @@ cable::Setpoint CableArbiter::dithering_setpoint() {
   return setpoint;
 }
 
-std::optional<cable::Setpoint> CableArbiter::steered_setpoint(const cable::Outputs& now, const SteerGoal& goal) {
+std::optional<cable::Setpoint> CableArbiter::steered_setpoint(const cable::Outputs& now, const TeleopGoal& goal) {
   was_engaged_ = true;
   lead_.ask_anew();
   device_node_ = goal.node;
-  wish_nodes();
+  set_node_objectives();
   const std::uint32_t held = moves_.wishes().held_mask;
   const Pose led = guidance_.guide(goal.tip_in_base, {now.tip_command, now.theta_command_rad, held}, interval_s_);
   if (refusal_wait_.holds(now.tip_command, led, interval_s_)) {
-    ease_ = {0.0, fixture::EaseCause::kRefused};
+    ease_ = {0.0, virtual_fixtures::SlowdownCause::kRefused};
     return std::nullopt;
   }
   led_from_ = now.tip_command;
   led_to_ = led;
-  ease_ = fixture::ease(table_, now.theta_command_rad, held, led);
-  if (refusal_wait_.speed_share() < ease_.share) ease_ = {refusal_wait_.speed_share(), fixture::EaseCause::kRefused};
+  ease_ = virtual_fixtures::ease(table_, now.theta_command_rad, held, led);
+  if (refusal_wait_.speed_share() < ease_.share)
+    ease_ = {refusal_wait_.speed_share(), virtual_fixtures::SlowdownCause::kRefused};
   ask_speed();
   return moves_.steer(now, led);
 }
 
 // The operator's node takes the place of its own target, or one that is free.
-void CableArbiter::wish_nodes() {
+void CableArbiter::set_node_objectives() {
   cable::NodeTargets& wished = moves_.wishes().nodes;
   wished = is_searching() ? lead_.nodes() : nodes_;
   if (device_node_.node == 0) return;

@@ -7,12 +7,12 @@
 #include <string>
 
 #include "host/control/arbiter/arbiter.hpp"
-#include "host/control/arbiter/cable_kind.hpp"
-#include "host/control/arbiter/device_steer.hpp"
+#include "host/control/arbiter/cable_traits.hpp"
 #include "host/control/arbiter/dither_order.hpp"
 #include "host/control/arbiter/refusal_wait.hpp"
-#include "host/control/arbiter/shape_lead.hpp"
+#include "host/control/arbiter/shape_transition.hpp"
 #include "host/control/arbiter/speed_zone.hpp"
+#include "host/control/arbiter/teleop_input.hpp"
 #include "host/control/virtual_fixtures/ease.hpp"
 #include "host/control/virtual_fixtures/guidance.hpp"
 
@@ -24,9 +24,9 @@ class CableArbiter {
  public:
   // In `zone` the tip is asked to go no faster than the zone says. `check` looks at the straight pieces of a path,
   // `guidance` has the fixtures that guide a hand.
-  explicit CableArbiter(const cable::RobotTable& table, const SpeedZone& zone = {},
+  explicit CableArbiter(const cable::RobotParams& table, const SpeedZone& zone = {},
                         SearchResult taken = SearchResult::kInItsInterval, PathCheck<cable::CableArm> check = {},
-                        const fixture::Guidance& guidance = {});
+                        const virtual_fixtures::Guidance& guidance = {});
 
   // Requests of the owner; they throw RequestError (not_enabled, fault, busy, refused). `now` is the newest tick of the
   // arm.
@@ -35,12 +35,12 @@ class CableArbiter {
   void move_line(const cable::Outputs& now, const Pose& goal, const motion::Swings& swings = {});
   void servo_tip(const cable::Outputs& now, const Pose& goal);
   void move_path(const cable::Outputs& now, const PathRequest<cable::CableArm>& request);
-  void servo_target(const cable::Outputs& now, const servo::ServoRequest& request);
+  void servo_target(const cable::Outputs& now, const visual_servo::ServoRequest& request);
   void see_target(const std::string& target, double capture_s, const Pose& target_in_tip) {
     moves_.see_target(target, capture_s, target_in_tip);
   }
   // The servo under way, or how the last one went.
-  const servo::ServoReport& servo_report() const { return moves_.servo_report(); }
+  const visual_servo::ServoStatus& servo_report() const { return moves_.servo_report(); }
   // Held variables: bit i of mask holds theta i at held_rad[i]; mask 0 releases all.
   void hold_theta(const cable::Outputs& now, std::uint32_t mask, const cable::ThetaVector& held_rad);
   // Null-space targets; unused entries have node = 0. The core goes downhill from where it stands; with `search` (arm
@@ -59,9 +59,9 @@ class CableArbiter {
   // lines from the next one on.
   void cap_tip_speed(double speed_m_s);
   // Which fixtures act on the hand from the next interval on.
-  void choose_fixtures(const fixture::Choice& names) { guidance_.choose(names); }
+  void choose_fixtures(const virtual_fixtures::Choice& names) { guidance_.choose(names); }
   // Once per interval, before next_setpoint: what is known of scene and tip beside drawing and command.
-  void see(const fixture::Sight& sight) { guidance_.see(sight, interval_s_); }
+  void see(const virtual_fixtures::Sight& sight) { guidance_.see(sight, interval_s_); }
   // Back along the verified path, not beyond `until_tick`: stops, then goes back. Nobody steers any more until
   // use_device is asked for.
   void retract(const cable::Outputs& now, std::uint64_t until_tick);
@@ -84,11 +84,11 @@ class CableArbiter {
   RetractState retract_state() const { return moves_.retract_state(); }
   bool has_retracted() const { return moves_.has_retracted(); }
   // The verified way back, for a copy that survives lianad.
-  PathMemory<cable::ThetaVector>& path_memory() { return moves_.path_memory(); }
-  std::vector<WayNews> take_way_news() { return moves_.take_way_news(); }
+  PathHistory<cable::ThetaVector>& path_history() { return moves_.path_history(); }
+  std::vector<RetractEvents> take_way_news() { return moves_.take_way_news(); }
   // The path under way, and what has become of paths since the last call.
   std::optional<PathProgress> path() const { return moves_.path(); }
-  std::vector<PathNews> take_path_news() { return moves_.take_path_news(); }
+  std::vector<PathEvents> take_path_news() { return moves_.take_path_news(); }
   // A shape is looked for (the arm holds meanwhile), or the nodes are on their way to the one that was found; their own
   // targets come after it.
   bool is_searching() const { return lead_.is_under_way(); }
@@ -96,11 +96,11 @@ class CableArbiter {
   const cable::NodeTargets& nodes() const { return nodes_; }
   const cable::KeepClearTargets& keep_clear() const { return moves_.wishes().clear; }
   std::uint32_t held_mask() const { return moves_.wishes().held_mask; }
-  const fixture::Guidance& guidance() const { return guidance_; }
+  const virtual_fixtures::Guidance& guidance() const { return guidance_; }
   // Why the hand is followed more slowly than it asks, and how much; nothing while nobody steers.
-  const fixture::Ease& ease() const { return ease_; }
-  DeviceSteer& device() { return device_; }
-  const DeviceSteer& device() const { return device_; }
+  const virtual_fixtures::Ease& ease() const { return ease_; }
+  TeleopInput& device() { return device_; }
+  const TeleopInput& device() const { return device_; }
 
  private:
   void require_free(const cable::Outputs& now) const;
@@ -108,30 +108,30 @@ class CableArbiter {
   void take_device_away();
   void require_open_clutch(const DeviceUse& use) const;
   bool is_vr_in_slit(const cable::Outputs& now, const DeviceUse& use) const;
-  void wish_nodes();
+  void set_node_objectives();
   cable::Setpoint dithering_setpoint();
-  std::optional<cable::Setpoint> steered_setpoint(const cable::Outputs& now, const SteerGoal& goal);
-  void lead_nobody();
+  std::optional<cable::Setpoint> steered_setpoint(const cable::Outputs& now, const TeleopGoal& goal);
+  void end_shape_transition();
   void ask_speed();
 
-  cable::RobotTable table_;
+  cable::RobotParams table_;
   double asked_speed_m_s_;  // limit of the device in use, or of the robot's tip
   double robot_speed_m_s_;
   double cap_m_s_;
   SpeedZone zone_;
   double interval_s_;
   Arbiter<cable::CableArm> moves_;
-  ShapeLead lead_;
+  ShapeTransition lead_;
   cable::NodeTargets nodes_{};
   DitherOrder dither_;
   cable::ThetaVector dithered_at_rad_{};
-  DeviceSteer device_;
+  TeleopInput device_;
   cable::NodeTarget device_node_{};
   bool was_engaged_ = false;
   RefusalWait refusal_wait_;
   Pose led_from_{}, led_to_{};  // last setpoint of the hand: where the tip was commanded to be, and its goal
-  fixture::Guidance guidance_;
-  fixture::Ease ease_;
+  virtual_fixtures::Guidance guidance_;
+  virtual_fixtures::Ease ease_;
 };
 
 }  // namespace liana::arbiter

@@ -11,17 +11,17 @@ namespace liana::arbiter {
 
 // Whose axes the hand's axes are: the base's; the tip's as it stood when the operator engaged; those of the tip camera,
 // which turn with the tip as it is led.
-enum class SteerFrame : std::uint8_t { kBase = 0, kTip = 1, kCamera = 2 };
+enum class TeleopFrame : std::uint8_t { kBase = 0, kTip = 1, kCamera = 2 };
 constexpr std::array<const char*, 3> kFrameNames{"base", "tip", "camera"};
-constexpr const char* name_of(SteerFrame frame) { return kFrameNames[static_cast<std::size_t>(frame)]; }
+constexpr const char* name_of(TeleopFrame frame) { return kFrameNames[static_cast<std::size_t>(frame)]; }
 // The frame of a name, which has to be one of kFrameNames.
-SteerFrame frame_of(std::string_view name);
+TeleopFrame frame_of(std::string_view name);
 
 // How hand motion maps to tip motion.
 struct ClutchMapping {
   double scale = 1.0;           // tip metres per hand metre, > 0
   double rotation_scale = 1.0;  // tip angle per hand angle, >= 0
-  SteerFrame frame = SteerFrame::kBase;
+  TeleopFrame frame = TeleopFrame::kBase;
 
   bool operator==(const ClutchMapping&) const = default;
 };
@@ -34,9 +34,9 @@ struct ClutchAnchor {
 
 // The goal's attitude is at most so far from the commanded one: the arm takes the shorter way between the two, and
 // beyond half a turn that would be the wrong one.
-constexpr double kMostLead_rad = 1.57;
+constexpr double kMaxLead_rad = 1.57;
 // What the hand has turned ahead of that is kept up to a turn, and made up for as the tip comes; more is lost.
-constexpr double kMostOwed_rad = 6.28;
+constexpr double kMaxOwed_rad = 6.28;
 
 // The hand that leads the tip. The way counts from the anchor; turns are counted on from pose to pose, so that a hand
 // may turn as often as it likes in one grip.

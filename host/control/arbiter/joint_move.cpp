@@ -4,27 +4,27 @@
 #include <cmath>
 #include <utility>
 
-#include "host/control/arbiter/cable_kind.hpp"
-#include "host/control/arbiter/serial_kind.hpp"
+#include "host/control/arbiter/cable_traits.hpp"
+#include "host/control/arbiter/serial_traits.hpp"
 
 namespace liana::arbiter {
 
 namespace {
 
 // The tip's way on the joint line.
-struct TipWay {
+struct TipTravel {
   double travel_m = 0.0;
   double turn_rad = 0.0;
 };
 
 // Greatest travel and turn of the tip per unit of s, sampled densely enough for the smooth curve it is.
 template <class Arm>
-TipWay steepest_tip_way(const typename Arm::Table& table, const Joints<Arm>& from, const Joints<Arm>& to) {
+TipTravel steepest_tip_way(const typename Arm::Table& table, const Joints<Arm>& from, const Joints<Arm>& to) {
   constexpr int kSteps = 100;
-  TipWay steepest;
-  Pose last = ArmKind<Arm>::tip_at(table, from);
+  TipTravel steepest;
+  Pose last = ArmTraits<Arm>::tip_at(table, from);
   for (int i = 1; i <= kSteps; ++i) {
-    const Pose tip = ArmKind<Arm>::tip_at(table, between(from, to, static_cast<double>(i) / kSteps));
+    const Pose tip = ArmTraits<Arm>::tip_at(table, between(from, to, static_cast<double>(i) / kSteps));
     const Vec3 turn = rotation_vector(multiply(tip.quaternion, conjugate(last.quaternion)));
     steepest.travel_m = std::max(steepest.travel_m, norm(subtract(tip.position_m, last.position_m)) * kSteps);
     steepest.turn_rad = std::max(steepest.turn_rad, norm(turn) * kSteps);
@@ -44,7 +44,7 @@ JointMove<Arm>::JointMove(const Table& table, const Joints<Arm>& from_rad, const
 
 template <class Arm>
 void JointMove<Arm>::plan(const Joints<Arm>& from_rad) {
-  using Kind = ArmKind<Arm>;
+  using Kind = ArmTraits<Arm>;
   const double share = again_.speed_share();
   from_rad_ = from_rad;
   time_s_ = 0.0;
@@ -55,13 +55,13 @@ void JointMove<Arm>::plan(const Joints<Arm>& from_rad) {
         needs.speed_s, way_rad / (motion::kMoveShare * std::min(share * rate_rad_s_, Kind::rate_rad_s(table_, i))));
     needs.accel_s2 = std::max(needs.accel_s2, way_rad / Kind::move_accel_rad_s2(table_, i));
   }
-  const TipWay tip = steepest_tip_way<Arm>(table_, from_rad, to_rad_);
+  const TipTravel tip = steepest_tip_way<Arm>(table_, from_rad, to_rad_);
   TipBounds bounds = Kind::tip_bounds(table_);
   bounds.linear.speed *= share;
   bounds.angular.speed *= share;
   needs.add(tip.travel_m, motion::share_of(bounds.linear));
   needs.add(tip.turn_rad, motion::share_of(bounds.angular));
-  law_ = motion::TimeLaw(needs, swings_);
+  law_ = motion::TrajectoryTiming(needs, swings_);
 }
 
 template <class Arm>
@@ -73,7 +73,7 @@ template <class Arm>
 Goal<Arm> JointMove<Arm>::next(const liana::Outputs<Arm>& now) {
   if (again_.waits(now.at_rest != 0)) return {};
   if (!has_begun_ && now.at_rest == 0) return {};
-  const Joints<Arm>& stands_rad = ArmKind<Arm>::command_rad(now);
+  const Joints<Arm>& stands_rad = ArmTraits<Arm>::command_rad(now);
   if (!std::exchange(has_begun_, true) && (again_.begins_again() || stands_rad != from_rad_)) plan(stands_rad);
   time_s_ += interval_s_;
   is_over_ = time_s_ >= law_.duration_s() && now.at_rest != 0;
@@ -82,7 +82,7 @@ Goal<Arm> JointMove<Arm>::next(const liana::Outputs<Arm>& now) {
 
 template class JointMove<cable::CableArm>;
 template class JointMove<serial::SerialArm>;
-static_assert(WayOfMoving<JointMove<cable::CableArm>, cable::CableArm>);
-static_assert(WayOfMoving<JointMove<serial::SerialArm>, serial::SerialArm>);
+static_assert(MotionGenerator<JointMove<cable::CableArm>, cable::CableArm>);
+static_assert(MotionGenerator<JointMove<serial::SerialArm>, serial::SerialArm>);
 
 }  // namespace liana::arbiter

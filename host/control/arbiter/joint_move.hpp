@@ -3,8 +3,8 @@
 #pragma once
 
 #include "host/control/arbiter/another_try.hpp"
-#include "host/control/arbiter/arm_kind.hpp"
-#include "host/control/timing/time_law.hpp"
+#include "host/control/arbiter/arm_traits.hpp"
+#include "host/control/timing/trajectory_timing.hpp"
 
 namespace liana::arbiter {
 
@@ -39,7 +39,7 @@ class JointMove {
   motion::Swings swings_;
   Joints<Arm> from_rad_, to_rad_;
   double interval_s_;
-  motion::TimeLaw law_;
+  motion::TrajectoryTiming law_;
   double time_s_ = 0.0;
   bool is_over_ = false, has_begun_ = false;
   AnotherTry again_;

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "host/control/arbiter/long_work.hpp"
-#include "host/control/arbiter/path_law.hpp"
-#include "host/control/arbiter/path_news.hpp"
+#include "host/control/arbiter/background_job.hpp"
+#include "host/control/arbiter/path_events.hpp"
+#include "host/control/arbiter/path_timing.hpp"
 
 namespace liana::arbiter {
 
@@ -37,21 +37,21 @@ using PathCheck = std::function<std::string(const std::vector<Joints<Arm>>& poin
 
 // What the whole of a path has come to.
 template <class Arm>
-struct PathOutlook {
+struct PathPrecheck {
   std::string refusal;  // why it does not start; empty: it does
-  std::optional<RoundedPath<Arm>> path;
-  std::vector<double> along_rad;  // at the end of each command interval (path_law.hpp)
+  std::optional<BlendedPath<Arm>> path;
+  std::vector<double> along_rad;  // at the end of each command interval (path_timing.hpp)
 };
 
 template <class Arm>
-PathOutlook<Arm> look_at_path(const typename Arm::Table& table, const SpeedZone& zone, const PathCheck<Arm>& check,
-                              const Joints<Arm>& from_rad, const PathRequest<Arm>& request);
+PathPrecheck<Arm> look_at_path(const typename Arm::Table& table, const SpeedZone& zone, const PathCheck<Arm>& check,
+                               const Joints<Arm>& from_rad, const PathRequest<Arm>& request);
 
 template <class Arm>
 class PathMove {
  public:
   static constexpr bool kIsPlanned = true;
-  using Work = LongWork<PathOutlook<Arm>>;
+  using Work = BackgroundJob<PathPrecheck<Arm>>;
 
   // `work` has begun to look at the path, and has to outlive this.
   PathMove(Work& work, SearchResult taken, const std::string& hash) : work_(work), taken_(taken), hash_(hash) {}
@@ -68,7 +68,7 @@ class PathMove {
     return outlook_ ? static_cast<double>(outlook_->along_rad.size()) * interval_s(table) : 0.0;
   }
   // What looking at it has come to; nothing yet.
-  const std::optional<PathOutlook<Arm>>& outlook() const { return outlook_; }
+  const std::optional<PathPrecheck<Arm>>& outlook() const { return outlook_; }
 
   Goal<Arm> next(const liana::Outputs<Arm>& now) {
     if (!outlook_) outlook_ = work_.take(taken_ == SearchResult::kInItsInterval);
@@ -86,7 +86,7 @@ class PathMove {
   Work& work_;
   SearchResult taken_;
   std::string hash_;
-  std::optional<PathOutlook<Arm>> outlook_;
+  std::optional<PathPrecheck<Arm>> outlook_;
   std::size_t next_ = 0;  // of the intervals
   bool is_over_ = false;
 };

@@ -41,7 +41,7 @@ void SerialArbiter::servo_tip(const Now& now, const Pose& goal) {
   asked_.reset();
 }
 
-void SerialArbiter::servo_target(const Now& now, const servo::ServoRequest& request) {
+void SerialArbiter::servo_target(const Now& now, const visual_servo::ServoRequest& request) {
   Base::servo_target(now, request);
   asked_.reset();
 }

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "host/control/arbiter/arbiter.hpp"
-#include "host/control/arbiter/serial_kind.hpp"
+#include "host/control/arbiter/serial_traits.hpp"
 
 namespace liana::arbiter {
 
@@ -30,7 +30,7 @@ class SerialArbiter : public Arbiter<serial::SerialArm> {
                    const motion::Swings& swings = {});
   void move_line(const Now& now, const Pose& goal, const motion::Swings& swings = {});
   void servo_tip(const Now& now, const Pose& goal);
-  void servo_target(const Now& now, const servo::ServoRequest& request);
+  void servo_target(const Now& now, const visual_servo::ServoRequest& request);
   void move_path(const Now& now, const PathRequest<serial::SerialArm>& request);
   void retract(const Now& now, std::uint64_t until_tick);
   void hold(const std::string& why = "held");

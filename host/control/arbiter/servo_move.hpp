@@ -1,7 +1,7 @@
 // A way of moving: as a visual servo leads the tip, until the servo ends.
 #pragma once
 
-#include "host/control/arbiter/arm_kind.hpp"
+#include "host/control/arbiter/arm_traits.hpp"
 #include "host/control/visual_servo/target_servo.hpp"
 
 namespace liana::arbiter {
@@ -12,7 +12,7 @@ class ServoMove {
   static constexpr bool kIsPlanned = true;
 
   // `servo` is under way, and has to outlive this.
-  explicit ServoMove(servo::TargetServo& servo) : servo_(servo) {}
+  explicit ServoMove(visual_servo::TargetServo& servo) : servo_(servo) {}
 
   Goal<Arm> next(const liana::Outputs<Arm>& now) {
     const std::optional<Pose> goal = servo_.next(now.tip_command);
@@ -22,7 +22,7 @@ class ServoMove {
   bool refused() { return false; }
 
  private:
-  servo::TargetServo& servo_;
+  visual_servo::TargetServo& servo_;
 };
 
 }  // namespace liana::arbiter

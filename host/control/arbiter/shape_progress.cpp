@@ -11,7 +11,7 @@ namespace liana::arbiter {
 using namespace cable;
 namespace {
 
-double missing_now_m(const RobotTable& table, const ThetaVector& theta_rad, const NodeTargets& nodes,
+double missing_now_m(const RobotParams& table, const ThetaVector& theta_rad, const NodeTargets& nodes,
                      const KeepClearTargets& clear) {
   const double largest = std::max(largest_weight(table, nodes), largest_weight(clear));
   if (!(largest > 0.0)) return 0.0;
@@ -21,7 +21,7 @@ double missing_now_m(const RobotTable& table, const ThetaVector& theta_rad, cons
 
 }  // namespace
 
-ShapeProgress::ShapeProgress(const RobotTable& table)
+ShapeProgress::ShapeProgress(const RobotParams& table)
     : table_(table),
       window_(static_cast<std::size_t>(std::ceil(kShapeSettled_s / (table.tick_s * table.interval_ticks)))) {}
 

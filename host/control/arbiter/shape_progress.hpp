@@ -15,7 +15,7 @@ constexpr double kShapeSettled_s = 4.0;
 
 class ShapeProgress {
  public:
-  explicit ShapeProgress(const cable::RobotTable& table);
+  explicit ShapeProgress(const cable::RobotParams& table);
 
   // One command interval of the arm and what its shape is asked for. Cost: one forward kinematics where something is
   // asked for.
@@ -30,7 +30,7 @@ class ShapeProgress {
   bool is_settled() const;
 
  private:
-  cable::RobotTable table_;
+  cable::RobotParams table_;
   std::size_t window_;            // intervals in kShapeSettled_s
   std::size_t oldest_ = 0;        // place in recent_m_ that the next interval takes
   std::vector<double> recent_m_;  // missing_m of the last intervals, at most window_

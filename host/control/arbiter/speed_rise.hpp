@@ -11,15 +11,15 @@ namespace liana::arbiter {
 class SpeedRise {
  public:
   // Once per command interval of `dt_s`.
-  void pass(double dt_s) { most_m_s_ = std::min(most_m_s_ + kRise_m_s2 * dt_s, kMost_m_s); }
+  void pass(double dt_s) { max_m_s_ = std::min(max_m_s_ + kRise_m_s2 * dt_s, kMost_m_s); }
   // What to ask for now of what is wanted [m/s].
-  double limited(double wanted_m_s) { return most_m_s_ = std::min(most_m_s_, wanted_m_s); }
+  double limited(double wanted_m_s) { return max_m_s_ = std::min(max_m_s_, wanted_m_s); }
 
  private:
   static constexpr double kRise_m_s2 = 0.006;
   static constexpr double kMost_m_s = 1.0;  // faster than any tip
 
-  double most_m_s_ = kMost_m_s;
+  double max_m_s_ = kMost_m_s;
 };
 
 }  // namespace liana::arbiter

@@ -39,7 +39,7 @@ class StartRamp {
 // half as far, and comes to full speed in about one swing. What corners swing takes a fifth of the limit.
 class GoalRamp {
  public:
-  GoalRamp(double accel_m_s2, double most_m_s) : accel_m_s2_(accel_m_s2), most_m_s_(most_m_s) {}
+  GoalRamp(double accel_m_s2, double max_m_s) : accel_m_s2_(accel_m_s2), max_m_s_(max_m_s) {}
   // Once per command interval of `dt_s`, with the command at `tip_m`.
   void note(const Vec3& tip_m, double dt_s) {
     const double speed_m_s = norm(subtract(tip_m, before_m_)) / dt_s;
@@ -47,12 +47,12 @@ class GoalRamp {
     speed_m_s_ = std::clamp(speed_m_s_ + accel_m_s2_ * dt_s, speed_m_s, speed_m_s + accel_m_s2_ * kAhead_s);
   }
   // Highest speed to ask for now [m/s].
-  double speed_m_s() const { return std::min(speed_m_s_, most_m_s_); }
+  double speed_m_s() const { return std::min(speed_m_s_, max_m_s_); }
 
  private:
   static constexpr double kAhead_s = 0.2;
 
-  double accel_m_s2_, most_m_s_;
+  double accel_m_s2_, max_m_s_;
   Vec3 before_m_{};
   double speed_m_s_ = 0.0;
 };

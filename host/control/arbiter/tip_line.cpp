@@ -11,7 +11,7 @@ TipLine::TipLine(const TipBounds& bounds, const Pose& from, const Pose& to, doub
   motion::MoveNeeds needs;
   needs.add(norm(subtract(to.position_m, from.position_m)), motion::share_of(linear));
   needs.add(norm(turn_rad_), motion::share_of(bounds.angular));
-  law_ = motion::TimeLaw(needs, swings);
+  law_ = motion::TrajectoryTiming(needs, swings);
 }
 
 Pose TipLine::at(double time_s) const {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "host/control/arbiter/another_try.hpp"
-#include "host/control/arbiter/arm_kind.hpp"
-#include "host/control/timing/time_law.hpp"
+#include "host/control/arbiter/arm_traits.hpp"
+#include "host/control/timing/trajectory_timing.hpp"
 
 namespace liana::arbiter {
 
@@ -19,7 +19,7 @@ class TipLine {
  private:
   Pose from_, to_;
   Vec3 turn_rad_{};
-  motion::TimeLaw law_;
+  motion::TrajectoryTiming law_;
 };
 
 // Over when the time is up; what then stays the goal is the line's end. What was refused goes on from rest, straight to
@@ -31,7 +31,7 @@ class LineMove {
 
   LineMove(const typename Arm::Table& table, const Pose& from, const Pose& to, double speed_m_s,
            const motion::Swings& swings)
-      : bounds_(ArmKind<Arm>::tip_bounds(table)),
+      : bounds_(ArmTraits<Arm>::tip_bounds(table)),
         speed_m_s_(speed_m_s),
         swings_(swings),
         line_(bounds_, from, to, speed_m_s, swings),

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "host/control/arbiter/another_try.hpp"
-#include "host/control/arbiter/arm_kind.hpp"
+#include "host/control/arbiter/arm_traits.hpp"
 
 namespace liana::arbiter {
 
@@ -20,7 +20,7 @@ template <class Arm>
 class TipTarget {
  public:
   static constexpr bool kIsPlanned = false;
-  using Wishes = typename ArmKind<Arm>::Wishes;
+  using Wishes = typename ArmTraits<Arm>::Wishes;
 
   // `wishes` has to outlive this. `is_steered`: a hand leads the goal, and is led gently by others.
   TipTarget(const Pose& goal, const Wishes& wishes, bool is_steered = false)
@@ -32,7 +32,7 @@ class TipTarget {
 
   Goal<Arm> next(const liana::Outputs<Arm>& now) {
     if (again_.waits(now.at_rest != 0)) return {};
-    is_over_ = intervals_ >= kSettledIntervals && ArmKind<Arm>::has_arrived(wishes_, now, is_near(now.tip_command));
+    is_over_ = intervals_ >= kSettledIntervals && ArmTraits<Arm>::has_arrived(wishes_, now, is_near(now.tip_command));
     ++intervals_;
     return is_over_ ? Goal<Arm>{} : goal_;
   }

@@ -1,8 +1,8 @@
 #include "host/control/clearance_bound/length_errors.hpp"
 
-namespace liana::live_clearance {
+namespace liana::clearance_bound {
 
-AnglesOfLengths angles_of_lengths(const RobotTable& table, const CableLayout& layout, const ThetaVector& theta_rad) {
+AnglesOfLengths angles_of_lengths(const RobotParams& table, const CableLayout& layout, const ThetaVector& theta_rad) {
   const CableGeometry geometry = cable_geometry(table, layout, arm_trig(table, theta_rad));
   CableSolver solver;
   update_cable_solver(table, geometry, solver);
@@ -17,7 +17,7 @@ AnglesOfLengths angles_of_lengths(const RobotTable& table, const CableLayout& la
 }
 
 // Tension falls by mu times the bend passed, to first order: by half of its own segment's in the middle of that.
-CableVector lengths_of_friction(const RobotTable& table, const CableLayout& layout, const ThetaVector& theta_rad,
+CableVector lengths_of_friction(const RobotParams& table, const CableLayout& layout, const ThetaVector& theta_rad,
                                 double mu, double tension_N) {
   const ArmTrig trig = arm_trig(table, theta_rad);
   const CableGeometry geometry = cable_geometry(table, layout, trig);
@@ -42,4 +42,4 @@ ThetaVector changed(const AnglesOfLengths& angles, const ThetaVector& theta_rad,
   return out;
 }
 
-}  // namespace liana::live_clearance
+}  // namespace liana::clearance_bound

@@ -5,7 +5,7 @@
 
 #include "firmware_like/cable/arm/cables.hpp"
 
-namespace liana::live_clearance {
+namespace liana::clearance_bound {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -13,15 +13,15 @@ using namespace cable;  // this room serves the cable arm only
 using AnglesOfLengths = std::array<ThetaVector, kMaxCables>;
 
 // By the core's own way from lengths to angles (cables.hpp), at the measured pose. 15 cables: about 2 us.
-AnglesOfLengths angles_of_lengths(const RobotTable& table, const CableLayout& layout, const ThetaVector& theta_rad);
+AnglesOfLengths angles_of_lengths(const RobotParams& table, const CableLayout& layout, const ThetaVector& theta_rad);
 
 // How much longer each cable gets than measured when friction is `mu` more than was told: pulled with `tension_N` at
 // the drum, with the bends that it passes at one pose. Its sign turns with the motion.
-CableVector lengths_of_friction(const RobotTable& table, const CableLayout& layout, const ThetaVector& theta_rad,
+CableVector lengths_of_friction(const RobotParams& table, const CableLayout& layout, const ThetaVector& theta_rad,
                                 double mu, double tension_N);
 
 // `theta_rad` changed by `length_m` of every cable.
 ThetaVector changed(const AnglesOfLengths& angles, const ThetaVector& theta_rad, const CableVector& length_m,
                     std::int32_t cables);
 
-}  // namespace liana::live_clearance
+}  // namespace liana::clearance_bound

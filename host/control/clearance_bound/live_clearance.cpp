@@ -5,7 +5,7 @@
 
 #include "firmware_like/math/trig.hpp"
 
-namespace liana::live_clearance {
+namespace liana::clearance_bound {
 namespace {
 
 constexpr double kLongAgo_s = 1e4;     // before the first look nothing is known of friction
@@ -24,7 +24,7 @@ const char* level_name(Level level) {
   return kNames[static_cast<std::size_t>(level)];
 }
 
-const char* sureness_name(Sureness sureness) {
+const char* sureness_name(Confidence sureness) {
   static constexpr std::array<const char*, 3> kNames{"measured", "camera", "camera lost"};
   return kNames[static_cast<std::size_t>(sureness)];
 }
@@ -72,12 +72,12 @@ void LiveClearance::see(const Picture& picture, std::uint64_t tick) {
   if (!scene_.slit || !scene_.camera) return;
   arrived_tick_ = tick;
   trouble_ = watch_.judge_time(picture, tick);
-  if (trouble_ != CameraTrouble::kNone) return;
+  if (trouble_ != CameraStatus::kNone) return;
   const std::optional<MeasuredArm> measured = history_.at(picture.tick);
   const bool shows_something = picture.slit_in_tip || picture.rod_in_tip;
   if (!measured || !shows_something) return;
   trouble_ = watch_.judge_view(picture, *measured, registration_);
-  if (trouble_ != CameraTrouble::kNone) return;
+  if (trouble_ != CameraStatus::kNone) return;
   registration_.take(picture, *measured);
   believed_tick_ = picture.tick;
   stand_.note(picture.tick, drawing_in_base());
@@ -98,16 +98,16 @@ const Claim& LiveClearance::look(std::uint64_t tick, const ThetaVector& measured
   has_looked_ = true;
   const double gone_s = camera_of(scene_).latency_s + kCameraGone_s;
   claim_ = {};
-  claim_.sureness = believed_tick_ ? Sureness::kCamera : Sureness::kMeasured;
+  claim_.sureness = believed_tick_ ? Confidence::kCamera : Confidence::kMeasured;
   if (believed_tick_) {
     claim_.picture_age_s = since_s(*believed_tick_);
-    if (*claim_.picture_age_s > gone_s) claim_.sureness = Sureness::kCameraLost;
+    if (*claim_.picture_age_s > gone_s) claim_.sureness = Confidence::kCameraLost;
   }
-  claim_.trouble = arrived_tick_ && since_s(*arrived_tick_) <= kCameraGone_s ? trouble_ : CameraTrouble::kNoPicture;
+  claim_.trouble = arrived_tick_ && since_s(*arrived_tick_) <= kCameraGone_s ? trouble_ : CameraStatus::kNoPicture;
   claim_.clearance = finder_.find(*history_.at(tick), {registration_, believed_tick_.has_value(),
                                                        scene_.margins.shift_m, scene_.margins.turn_deg * kDegree});
   claim_.level = level_of(claim_.clearance.distance_m);
   return claim_;
 }
 
-}  // namespace liana::live_clearance
+}  // namespace liana::clearance_bound

@@ -5,30 +5,30 @@
 #include <cstdint>
 #include <optional>
 
-#include "host/control/clearance_bound/camera_watch.hpp"
-#include "host/control/clearance_bound/scene_stand.hpp"
+#include "host/control/clearance_bound/camera_monitor.hpp"
+#include "host/control/clearance_bound/scene_registration_check.hpp"
 #include "host/control/clearance_bound/verified_clearance.hpp"
 
-namespace liana::live_clearance {
+namespace liana::clearance_bound {
 
 enum class Level : std::uint8_t { kFree, kSlow, kRefuse };
 // "free", "slow", "refuse".
 const char* level_name(Level level);
 
 // How sure the claim is.
-enum class Sureness : std::uint8_t {
+enum class Confidence : std::uint8_t {
   kMeasured,    // no picture was ever believed: measured angles, and the scene as drawn with the scene's own allowance
   kCamera,      // measured angles, and a picture believed within the last kCameraGone_s
   kCameraLost,  // the registration is that of the last picture that was believed; the bound grows
 };
 // "measured", "camera", "camera lost".
-const char* sureness_name(Sureness sureness);
+const char* sureness_name(Confidence sureness);
 
 struct Claim {
   VerifiedClearance clearance;
-  Sureness sureness = Sureness::kMeasured;
+  Confidence sureness = Confidence::kMeasured;
   std::optional<double> picture_age_s;  // of the last picture that was believed, since its capture
-  CameraTrouble trouble = CameraTrouble::kNone;
+  CameraStatus trouble = CameraStatus::kNone;
   Level level = Level::kFree;
 };
 
@@ -62,19 +62,19 @@ class LiveClearance {
   Level level_of(double distance_m) const;
   Pose drawing_in_base() const;
 
-  RobotTable table_;
+  RobotParams table_;
   config::SceneConfig scene_;
   Registration registration_;
-  CameraWatch watch_;
-  SceneStand stand_;
+  CameraMonitor watch_;
+  SceneRegistrationCheck stand_;
   ClearanceFinder finder_;
   ArmHistory history_;
   ThetaVector measured_rad_{};
   std::uint64_t tick_ = 0;
   bool has_looked_ = false;
   std::optional<std::uint64_t> believed_tick_, arrived_tick_;
-  CameraTrouble trouble_ = CameraTrouble::kNone;  // of the newest picture
+  CameraStatus trouble_ = CameraStatus::kNone;  // of the newest picture
   Claim claim_;
 };
 
-}  // namespace liana::live_clearance
+}  // namespace liana::clearance_bound

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace liana::live_clearance {
+namespace liana::clearance_bound {
 
 void ArmHistory::note(std::uint64_t tick, const ThetaVector& theta_rad) {
   newest_ = (newest_ + 1) % kEntries;
@@ -36,4 +36,4 @@ std::optional<MeasuredArm> ArmHistory::at(std::uint64_t tick) const {
   return std::nullopt;
 }
 
-}  // namespace liana::live_clearance
+}  // namespace liana::clearance_bound

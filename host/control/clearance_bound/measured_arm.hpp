@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_params.hpp"
 
-namespace liana::live_clearance {
+namespace liana::clearance_bound {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -43,4 +43,4 @@ class ArmHistory {
   std::size_t newest_ = 0, count_ = 0;
 };
 
-}  // namespace liana::live_clearance
+}  // namespace liana::clearance_bound

@@ -5,11 +5,11 @@
 #include "firmware_like/math/trig.hpp"
 #include "host/base/eigen/thetas.hpp"
 
-namespace liana::live_clearance {
+namespace liana::clearance_bound {
 namespace {
 
 using Index = Eigen::Index;
-using algebra::view;
+using eigen::view;
 
 // Beside the camera's own noise: what the arm moves between the measurement and the picture, and bends between nodes.
 constexpr double kModel_m = 0.5e-3;
@@ -41,7 +41,7 @@ Eigen::Matrix3d cross_matrix(const Vec3& v) {
 
 }  // namespace
 
-Registration::Registration(const RobotTable& table, const config::SceneConfig& scene, const RegistrationPriors& priors)
+Registration::Registration(const RobotParams& table, const config::SceneConfig& scene, const RegistrationPriors& priors)
     : table_(table),
       layout_(cable_layout(table)),
       priors_(priors),
@@ -182,4 +182,4 @@ void Registration::take(const Picture& picture, const MeasuredArm& measured) {
   covariance_ = 0.5 * (covariance + covariance.transpose());  // rounding must not make it lopsided
 }
 
-}  // namespace liana::live_clearance
+}  // namespace liana::clearance_bound

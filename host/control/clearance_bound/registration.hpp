@@ -16,7 +16,7 @@
 #include "host/control/clearance_bound/measured_arm.hpp"
 #include "host/model/config/config.hpp"
 
-namespace liana::live_clearance {
+namespace liana::clearance_bound {
 
 // One picture of the tip camera: frames as seen from the tip; nothing where out of sight.
 struct Picture {
@@ -42,7 +42,7 @@ class Registration {
   using Covariance = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMost, kMost>;
 
   // A scene without a slit or a rod has none that is seen. Nothing is allocated after this.
-  Registration(const RobotTable& table, const config::SceneConfig& scene, const RegistrationPriors& priors = {});
+  Registration(const RobotParams& table, const config::SceneConfig& scene, const RegistrationPriors& priors = {});
 
   // Time passes, and the arm is at `theta_rad` now: what was seen gets old.
   void advance(double dt_s, const ThetaVector& theta_rad);
@@ -76,7 +76,7 @@ class Registration {
                       const AnglesOfLengths& angles) const;
   double update(const Picture& picture, const MeasuredArm& measured, State& state, Covariance& covariance) const;
 
-  RobotTable table_;
+  RobotParams table_;
   CableLayout layout_;
   RegistrationPriors priors_;
   bool has_slit_, has_rod_;
@@ -86,4 +86,4 @@ class Registration {
   Covariance covariance_;
 };
 
-}  // namespace liana::live_clearance
+}  // namespace liana::clearance_bound

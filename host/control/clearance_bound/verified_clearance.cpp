@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::live_clearance {
+namespace liana::clearance_bound {
 namespace {
 
 constexpr double kStep_rad = 1e-6;       // of the differences that stand for the derivatives of joint centres
@@ -13,7 +13,7 @@ Vec3 between(const Vec3& from, const Vec3& to, double share) { return add(scale(
 
 }  // namespace
 
-ClearanceFinder::ClearanceFinder(const RobotTable& table, double radius_m, const config::SceneConfig& scene,
+ClearanceFinder::ClearanceFinder(const RobotParams& table, double radius_m, const config::SceneConfig& scene,
                                  const BoundRule& rule)
     : table_(table), layout_(cable_layout(table)), radius_m_(radius_m), scene_(scene), rule_(rule) {}
 
@@ -78,8 +78,8 @@ VerifiedClearance ClearanceFinder::find(const MeasuredArm& arm, const KnownScene
       if (found.distance_m - kLargestBound_m >= least.distance_m) continue;
       const VerifiedClearance here = judged(found, link, obstacle, known);
       if (here.distance_m < least.distance_m) least = here;
-      VerifiedClearance& least_of_link = of_link[static_cast<std::size_t>(link)];
-      if (here.distance_m < least_of_link.distance_m) least_of_link = here;
+      VerifiedClearance& min_of_link = of_link[static_cast<std::size_t>(link)];
+      if (here.distance_m < min_of_link.distance_m) min_of_link = here;
     }
   }
   near_links_ = {};
@@ -91,4 +91,4 @@ VerifiedClearance ClearanceFinder::find(const MeasuredArm& arm, const KnownScene
   return least;
 }
 
-}  // namespace liana::live_clearance
+}  // namespace liana::clearance_bound

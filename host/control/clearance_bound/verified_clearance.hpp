@@ -8,7 +8,7 @@
 #include "host/control/clearance_bound/registration.hpp"
 #include "host/model/clearance/clearance.hpp"
 
-namespace liana::live_clearance {
+namespace liana::clearance_bound {
 
 // How the bound is made.
 struct BoundRule {
@@ -42,7 +42,7 @@ struct KnownScene {
 
 class ClearanceFinder {
  public:
-  ClearanceFinder(const RobotTable& table, double radius_m, const config::SceneConfig& scene,
+  ClearanceFinder(const RobotParams& table, double radius_m, const config::SceneConfig& scene,
                   const BoundRule& rule = {});
 
   // Least over every link and body. 40 links, 15 cables, 3 bodies: about 60 us. Nothing is allocated.
@@ -67,7 +67,7 @@ class ClearanceFinder {
   VerifiedClearance judged(const clearance::Clearance& found, std::int32_t link, std::int32_t obstacle,
                            const KnownScene& known) const;
 
-  RobotTable table_;
+  RobotParams table_;
   CableLayout layout_;
   double radius_m_;
   config::SceneConfig scene_;
@@ -77,4 +77,4 @@ class ClearanceFinder {
   NearLinks near_links_;
 };
 
-}  // namespace liana::live_clearance
+}  // namespace liana::clearance_bound

@@ -15,7 +15,7 @@ namespace liana::force_control {
 
 namespace {
 
-constexpr double kLeastAxis = 1e-3;  // a shorter one has no direction
+constexpr double kMinAxis = 1e-3;  // a shorter one has no direction
 constexpr const char* kByTable = ", as force_control of the robot says";
 
 void require(const std::string& field, double value, double low, double high, const char* as_said) {
@@ -29,16 +29,15 @@ Vec3 axis_of(const api::Arguments& fields) {
   if (!fields.has("axis")) return {0.0, 0.0, 1.0};
   const Vec3 axis = fields.point("axis");
   const double length = norm(axis);
-  if (length < kLeastAxis) {
+  if (length < kMinAxis) {
     throw api::RequestError("out_of_range", "axis = " + Json(axis).dump() + ": allowed a length of " +
-                                                api::text_of(kLeastAxis) +
-                                                " or more: give the direction of the way in");
+                                                api::text_of(kMinAxis) + " or more: give the direction of the way in");
   }
   return scale(axis, 1.0 / length);
 }
 
-serial::PushGains gains_of(const config::SerialRobotConfig& robot, const api::Arguments& fields) {
-  serial::PushGains gains = robot.push_gains;
+serial::InsertGains gains_of(const config::SerialRobotConfig& robot, const api::Arguments& fields) {
+  serial::InsertGains gains = robot.push_gains;
   if (!fields.has("gains")) return gains;
   const api::Arguments asked = fields.object("gains");
   for (std::size_t i = 0; i < gains.size(); ++i) {
@@ -62,17 +61,17 @@ void require_wrist_sensor(const config::SerialRobotConfig& robot) {
 serial::Push push_of(const config::SerialRobotConfig& robot, const api::Arguments& fields) {
   require_torque_drives(robot);
   require_wrist_sensor(robot);
-  const serial::TorqueTable& most = robot.table.torque;
+  const serial::TorqueParams& most = robot.table.torque;
   serial::Push push;
-  push.law =
-      fields.has("law") && fields.text("law") == "impedance" ? serial::PushLaw::kImpedance : serial::PushLaw::kForce;
+  push.law = fields.has("law") && fields.text("law") == "impedance" ? serial::InsertLaw::kImpedance
+                                                                    : serial::InsertLaw::kForce;
   push.tares = fields.flag("tare") ? 1 : 0;
   push.axis_in_tip = axis_of(fields);
   push.force_N = fields.number("force_N");
   push.travel_m = fields.number("travel_m");
   push.aside_m = fields.number("aside_m");
   push.depth_m = fields.number("depth_m");
-  if (push.law == serial::PushLaw::kForce) push.depth_m = 0.0;
+  if (push.law == serial::InsertLaw::kForce) push.depth_m = 0.0;
   push.gains = gains_of(robot, fields);
   require("force_N", push.force_N, 0.0, most.most_force_N, kByTable);
   require("travel_m", push.travel_m, 0.0, most.most_travel_m, kByTable);
@@ -101,7 +100,7 @@ serial::LinkMass payload_of(const api::Arguments& fields) {
 }
 
 void require_torque_drives(const config::SerialRobotConfig& robot) {
-  if (config::gives_torque(robot)) return;
+  if (config::is_torque_controlled(robot)) return;
   throw api::RequestError("refused",
                           "the drives of this robot follow positions: force control needs a robot whose "
                           "drives follow torques (drives.mode = \"torque\", as macro_micro)");

@@ -23,7 +23,7 @@ void __libc_free(void* p);
 namespace {
 
 void refuse_inside_tick(const char* what) {
-  if (!liana::control::TickGuard::active()) return;
+  if (!liana::realtime::TickGuard::active()) return;
   static const char kText[] = "inside a tick: call of ";
   // Nothing that could allocate: plain writes, then abort.
   (void)!::write(STDERR_FILENO, kText, sizeof kText - 1);

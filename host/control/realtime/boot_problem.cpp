@@ -1,6 +1,6 @@
 #include "host/control/realtime/boot_problem.hpp"
 
-namespace liana::control {
+namespace liana::realtime {
 
 std::string text_of(const std::vector<BootProblem>& problems) {
   std::string text;
@@ -8,4 +8,4 @@ std::string text_of(const std::vector<BootProblem>& problems) {
   return text.empty() ? "no drive named a reason" : text;
 }
 
-}  // namespace liana::control
+}  // namespace liana::realtime

@@ -6,7 +6,7 @@
 
 #include "firmware_like/safety/faults.hpp"
 
-namespace liana::control {
+namespace liana::realtime {
 
 struct BootProblem {
   int drive = 0;  // 0-based, in the order of the cables
@@ -17,4 +17,4 @@ struct BootProblem {
 // All texts in one line.
 std::string text_of(const std::vector<BootProblem>& problems);
 
-}  // namespace liana::control
+}  // namespace liana::realtime

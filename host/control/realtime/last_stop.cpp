@@ -5,7 +5,7 @@
 #include "firmware_like/cable_controller.hpp"
 #include "firmware_like/serial_controller.hpp"
 
-namespace liana::control {
+namespace liana::realtime {
 
 namespace {
 
@@ -15,7 +15,7 @@ bool is_off(const CycleOutputs& outputs) {
 
 }  // namespace
 
-void run_guarded(const std::function<void()>& body, ThreadEnd& end) noexcept {
+void run_guarded(const std::function<void()>& body, ThreadResult& end) noexcept {
   try {
     body();
   } catch (const std::exception& error) {
@@ -27,7 +27,7 @@ void run_guarded(const std::function<void()>& body, ThreadEnd& end) noexcept {
 }
 
 template <class Arm>
-void stop_without_service(ArmLink<Arm>& link, std::uint64_t limit_ticks, const std::function<bool()>& next) {
+void stop_without_service(ArmMailbox<Arm>& link, std::uint64_t limit_ticks, const std::function<bool()>& next) {
   constexpr std::uint64_t kUntilTaken = 2;  // ticks: one may have begun before the stop was pressed
   link.stop.press();
   link.report.refresh();
@@ -38,7 +38,7 @@ void stop_without_service(ArmLink<Arm>& link, std::uint64_t limit_ticks, const s
   }
 }
 
-template void stop_without_service(ArmLink<cable::CableArm>&, std::uint64_t, const std::function<bool()>&);
-template void stop_without_service(ArmLink<serial::SerialArm>&, std::uint64_t, const std::function<bool()>&);
+template void stop_without_service(ArmMailbox<cable::CableArm>&, std::uint64_t, const std::function<bool()>&);
+template void stop_without_service(ArmMailbox<serial::SerialArm>&, std::uint64_t, const std::function<bool()>&);
 
-}  // namespace liana::control
+}  // namespace liana::realtime

@@ -9,20 +9,20 @@
 
 #include "host/control/realtime/link.hpp"
 
-namespace liana::control {
+namespace liana::realtime {
 
 // How a thread ended. `problem` is written before `over`: read it only when `over` is true.
-struct ThreadEnd {
+struct ThreadResult {
   std::atomic<bool> over{false};
   std::string problem;  // empty: it ended as it should
 };
 
 // Runs `body`; whatever it throws becomes end.problem.
-void run_guarded(const std::function<void()>& body, ThreadEnd& end) noexcept;
+void run_guarded(const std::function<void()>& body, ThreadResult& end) noexcept;
 
 // For a service side that has failed: presses the stop and lets ticks go on until the drives are off, for at most
 // `limit_ticks`. `next` runs or awaits a tick and returns false when there will be no further one.
 template <class Arm>
-void stop_without_service(ArmLink<Arm>& link, std::uint64_t limit_ticks, const std::function<bool()>& next);
+void stop_without_service(ArmMailbox<Arm>& link, std::uint64_t limit_ticks, const std::function<bool()>& next);
 
-}  // namespace liana::control
+}  // namespace liana::realtime

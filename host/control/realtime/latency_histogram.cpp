@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace liana::control {
+namespace liana::realtime {
 
 std::uint64_t LatencyCounts::total() const { return std::accumulate(count.begin(), count.end(), std::uint64_t{0}); }
 
@@ -37,4 +37,4 @@ void LatencyHistogram::reset() {
   worst_us_.store(0, std::memory_order_relaxed);
 }
 
-}  // namespace liana::control
+}  // namespace liana::realtime

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace liana::control {
+namespace liana::realtime {
 
 constexpr std::size_t kLatencyBuckets = 2048;  // of 1 us each; what takes longer is counted together
 
@@ -54,4 +54,4 @@ struct TickTiming {
   LatencyHistogram tick_us;
 };
 
-}  // namespace liana::control
+}  // namespace liana::realtime

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <type_traits>
 
-namespace liana::control {
+namespace liana::realtime {
 
 // The writer fills its own slot and swaps it with the middle one; the reader swaps the middle one with its own. Nobody
 // ever waits, and a slot is never touched by both.
@@ -44,4 +44,4 @@ class LatestValue {
   std::uint32_t writing_ = 0, reading_ = 2;
 };
 
-}  // namespace liana::control
+}  // namespace liana::realtime

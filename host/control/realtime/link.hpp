@@ -5,19 +5,19 @@
 #include <atomic>
 #include <cstdint>
 
-#include "host/control/realtime/drive_line.hpp"
+#include "host/control/realtime/drive_channel.hpp"
 #include "host/control/realtime/latest_value.hpp"
 #include "host/control/realtime/spsc_ring.hpp"
 #include "host/control/realtime/stop_flag.hpp"
 #include "host/control/realtime/tick_times.hpp"
-#include "host/control/verification/twin_image.hpp"
+#include "host/control/verification/twin_snapshot.hpp"
 #include "host/drives/bus/drive_bus.hpp"
 #include "host/storage/recording/tick_record.hpp"
 
-namespace liana::control {
+namespace liana::realtime {
 
 // What the real-time side reports after every tick, of any robot.
-struct CycleReport {
+struct TickStatus {
   std::uint64_t next_tick = 0;  // ticks done so far
   BootPhase boot = BootPhase::kBooting;
   Overruns overruns{};
@@ -27,12 +27,12 @@ struct CycleReport {
 
 // The same with what the arm itself adds.
 template <class Arm>
-struct ArmReport : CycleReport {
+struct ArmTickStatus : TickStatus {
   Inputs<Arm> inputs{};
   Outputs<Arm> outputs{};
 };
 
-constexpr std::size_t kMostRequests = 16;  // room for requests between the threads, one more than can wait
+constexpr std::size_t kMaxRequests = 16;  // room for requests between the threads, one more than can wait
 
 // What the adapter was asked for last; sequence 0: nothing yet. Aligned as a whole: else clang calls a library for its
 // atomic.
@@ -46,7 +46,7 @@ static_assert(std::atomic<AdapterOrder>::is_always_lock_free);
 struct Link {
   // Service to real time.
   StopFlag stop;  // read before `requests`, and empties them: what was asked for before a stop is void
-  SpscRing<Request, kMostRequests> requests;
+  SpscRing<Request, kMaxRequests> requests;
   std::atomic<AdapterOrder> adapter{AdapterOrder{}};  // serial arms only
   // Real time to service.
   TickTiming timing;
@@ -54,15 +54,16 @@ struct Link {
 
 // All that crosses for one kind of arm.
 template <class Arm>
-struct ArmLink : Link {
-  explicit ArmLink(const typename Arm::Table& table) : image(verify::TwinImage<Arm>(table)), report(ArmReport<Arm>{}) {}
+struct ArmMailbox : Link {
+  explicit ArmMailbox(const typename Arm::Table& table)
+      : image(verification::TwinSnapshot<Arm>(table)), report(ArmTickStatus<Arm>{}) {}
 
   // Service to real time.
   SpscRing<Telecommand<typename Arm::Setpoint>, 16> released;
   // Real time to service.
-  SpscRing<record::TickRecord<Arm>, 512> ticks;
-  LatestValue<verify::TwinImage<Arm>> image;  // at the start of each command interval
-  LatestValue<ArmReport<Arm>> report;         // after each tick
+  SpscRing<recording::TickRecord<Arm>, 512> ticks;
+  LatestValue<verification::TwinSnapshot<Arm>> image;  // at the start of each command interval
+  LatestValue<ArmTickStatus<Arm>> report;              // after each tick
 };
 
-}  // namespace liana::control
+}  // namespace liana::realtime

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace liana::control {
+namespace liana::realtime {
 
 namespace {
 
@@ -64,7 +64,7 @@ void come_before_ordinary_work() {
   ::setpriority(PRIO_PROCESS, 0, kNice);
 }
 
-std::jthread start_realtime(std::function<void(const std::stop_token&)> body, ThreadEnd& end) {
+std::jthread start_realtime(std::function<void(const std::stop_token&)> body, ThreadResult& end) {
   std::promise<int> started;
   std::future<int> result = started.get_future();
   std::jthread thread(
@@ -82,4 +82,4 @@ std::jthread start_realtime(std::function<void(const std::stop_token&)> body, Th
                            "; see `liana doctor`, or use --time fast or paced");
 }
 
-}  // namespace liana::control
+}  // namespace liana::realtime

@@ -7,7 +7,7 @@
 
 #include "host/control/realtime/last_stop.hpp"
 
-namespace liana::control {
+namespace liana::realtime {
 
 constexpr int kRealtimePriority = 80;  // over drivers' interrupt threads (50), under the kernel's own watchdogs (99)
 
@@ -22,6 +22,6 @@ void come_before_ordinary_work();
 
 // Starts `body` in a thread with SCHED_FIFO and a stack that is already in memory. How it ends is written to `end`,
 // which must outlive the thread. Throws std::runtime_error naming the missing privilege.
-std::jthread start_realtime(std::function<void(const std::stop_token&)> body, ThreadEnd& end);
+std::jthread start_realtime(std::function<void(const std::stop_token&)> body, ThreadResult& end);
 
-}  // namespace liana::control
+}  // namespace liana::realtime

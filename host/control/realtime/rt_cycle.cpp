@@ -2,11 +2,11 @@
 
 #include "host/control/realtime/tick_guard.hpp"
 
-namespace liana::control {
+namespace liana::realtime {
 
 template <class Arm>
-RtCycle<Arm>::RtCycle(const typename Arm::Table& table, const std::vector<canopen::DriveExpectation>& drives,
-                      const config::BusesConfig& buses, bus::DriveBus& bus, ArmLink<Arm>& link)
+RtCycle<Arm>::RtCycle(const typename Arm::Table& table, const std::vector<canopen::ExpectedDrive>& drives,
+                      const config::BusesConfig& buses, bus::DriveBus& bus, ArmMailbox<Arm>& link)
     : bus_(bus),
       line_(drives, buses, bus),
       times_(buses.period_us(), link.timing),
@@ -48,7 +48,7 @@ template <class Arm>
 void RtCycle<Arm>::step_core() noexcept {
   const OperatingState state = report_.outputs.state;
   const bool is_off = state == OperatingState::kDisabled || state == OperatingState::kFault;
-  const bool waits = core_.next_request() == Request::kClear && is_off && !line_.bring_back(report_.inputs);
+  const bool waits = core_.next_request() == Request::kClear && is_off && !line_.reboot_lost_drives(report_.inputs);
   if (report_.boot == BootPhase::kDone) return line_.command(core_.step(report_.inputs, waits).drive);
   core_.drop_request();
 }
@@ -65,4 +65,4 @@ void RtCycle<Arm>::finish_tick(const timing::TickStart& start) noexcept {
 template class RtCycle<cable::CableArm>;
 template class RtCycle<serial::SerialArm>;
 
-}  // namespace liana::control
+}  // namespace liana::realtime

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <type_traits>
 
-namespace liana::control {
+namespace liana::realtime {
 
 // Holds up to N-1 items; both ends are wait-free and allocate nothing. N is a power of two.
 template <class T, std::size_t N>
@@ -36,4 +36,4 @@ class SpscRing {
   std::array<T, N> items_{};
 };
 
-}  // namespace liana::control
+}  // namespace liana::realtime

@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-namespace liana::control {
+namespace liana::realtime {
 
 class StopFlag {
  public:
@@ -18,4 +18,4 @@ class StopFlag {
   std::atomic<bool> pressed_{false};
 };
 
-}  // namespace liana::control
+}  // namespace liana::realtime

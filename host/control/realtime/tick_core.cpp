@@ -1,6 +1,6 @@
 #include "host/control/realtime/tick_core.hpp"
 
-namespace liana::control {
+namespace liana::realtime {
 
 // The newest telecommand whose time has come; one that is overdue after lost ticks is still taken until it expires.
 template <class Arm>
@@ -18,7 +18,7 @@ typename TickCore<Arm>::Command TickCore<Arm>::due_telecommand(std::uint64_t tic
 template <class Arm>
 Request TickCore<Arm>::due_request(bool waits) {
   if (link_.stop.take()) {
-    for (std::size_t i = 0; i < kMostRequests && link_.requests.front() != nullptr; ++i) link_.requests.pop();
+    for (std::size_t i = 0; i < kMaxRequests && link_.requests.front() != nullptr; ++i) link_.requests.pop();
     return Request::kStop;
   }
   const Request next = waits ? Request::kNone : next_request();
@@ -49,14 +49,14 @@ const Outputs<Arm>& TickCore<Arm>::step(Inputs<Arm>& inputs, bool waits) {
 }
 
 template <class Arm>
-void TickCore<Arm>::publish(ArmReport<Arm>& report) {
+void TickCore<Arm>::publish(ArmTickStatus<Arm>& report) {
   report.outputs = record_.outputs;
   report.records_lost = records_lost_;
   link_.report.publish(report);
   const std::uint64_t interval = report.next_tick / static_cast<std::uint64_t>(controller_.table().interval_ticks);
   if (interval == imaged_interval_) return;
   imaged_interval_ = interval;
-  verify::TwinImage<Arm>& image = link_.image.draft();  // filled in place: it is large
+  verification::TwinSnapshot<Arm>& image = link_.image.draft();  // filled in place: it is large
   image.next_tick = report.next_tick;
   image.fresh = fresh_;
   image.controller = controller_;
@@ -68,4 +68,4 @@ void TickCore<Arm>::publish(ArmReport<Arm>& report) {
 template class TickCore<cable::CableArm>;
 template class TickCore<serial::SerialArm>;
 
-}  // namespace liana::control
+}  // namespace liana::realtime

@@ -5,12 +5,12 @@
 #include "firmware_like/serial_controller.hpp"
 #include "host/control/realtime/link.hpp"
 
-namespace liana::control {
+namespace liana::realtime {
 
 template <class Arm>
 class TickCore {
  public:
-  TickCore(const typename Arm::Table& table, ArmLink<Arm>& link) : controller_(table), link_(link) {}
+  TickCore(const typename Arm::Table& table, ArmMailbox<Arm>& link) : controller_(table), link_(link) {}
 
   // The request that waits longest; kNone when none does.
   Request next_request() const;
@@ -21,7 +21,7 @@ class TickCore {
   const Outputs<Arm>& step(Inputs<Arm>& inputs, bool waits = false);
   // Makes the state after this tick visible to the service; when a command interval has ended, the Controller's image,
   // too.
-  void publish(ArmReport<Arm>& report);
+  void publish(ArmTickStatus<Arm>& report);
 
  private:
   using Command = Telecommand<typename Arm::Setpoint>;
@@ -30,8 +30,8 @@ class TickCore {
   Request due_request(bool waits);
 
   Controller<Arm> controller_;
-  ArmLink<Arm>& link_;
-  record::TickRecord<Arm> record_{};
+  ArmMailbox<Arm>& link_;
+  recording::TickRecord<Arm> record_{};
   std::uint64_t imaged_interval_ = 0;
   std::uint64_t records_lost_ = 0;
   bool fresh_ = true;
@@ -40,4 +40,4 @@ class TickCore {
 extern template class TickCore<cable::CableArm>;
 extern template class TickCore<serial::SerialArm>;
 
-}  // namespace liana::control
+}  // namespace liana::realtime

@@ -2,7 +2,7 @@
 // (alloc_guard.cpp).
 #pragma once
 
-namespace liana::control {
+namespace liana::realtime {
 
 class TickGuard {
  public:
@@ -17,4 +17,4 @@ class TickGuard {
   static inline thread_local bool inside_ = false;
 };
 
-}  // namespace liana::control
+}  // namespace liana::realtime

@@ -1,6 +1,6 @@
 #include "host/control/realtime/tick_times.hpp"
 
-namespace liana::control {
+namespace liana::realtime {
 
 void TickTimes::begin(const timing::TickStart& start, std::uint64_t now_us, Overruns& overruns) noexcept {
   const std::uint64_t waited_us = heard_us_ - began_us_, took_us = ended_us_ - began_us_;
@@ -22,4 +22,4 @@ void TickTimes::end(const timing::TickStart& start, std::uint64_t now_us) noexce
   timing_.tick_us.record(static_cast<std::uint32_t>(ended_us_ - heard_us_));
 }
 
-}  // namespace liana::control
+}  // namespace liana::realtime

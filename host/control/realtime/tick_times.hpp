@@ -6,7 +6,7 @@
 #include "host/control/realtime/latency_histogram.hpp"
 #include "host/drives/bus/drive_bus.hpp"
 
-namespace liana::control {
+namespace liana::realtime {
 
 // Deadlines that were missed, by cause.
 struct Overruns {
@@ -42,4 +42,4 @@ class TickTimes {
   std::uint64_t began_us_ = 0, heard_us_ = 0, ended_us_ = 0;
 };
 
-}  // namespace liana::control
+}  // namespace liana::realtime

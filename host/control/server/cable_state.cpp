@@ -1,9 +1,9 @@
 // What a cable arm adds to the state message.
-#include "host/control/server/cable_desk.hpp"
+#include "host/control/server/cable_arm_server.hpp"
 #include "host/control/server/state_parts.hpp"
 #include "host/model/config/theta_numbers.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 namespace {
 
@@ -11,7 +11,7 @@ Json first(const cable::CableVector& values, std::int32_t count) {
   return Json(std::vector<double>(values.begin(), values.begin() + count));
 }
 
-Json nodes_json(const cable::RobotTable& table, const cable::Outputs& outputs) {
+Json nodes_json(const cable::RobotParams& table, const cable::Outputs& outputs) {
   Json nodes = Json::array();
   for (std::size_t m = 0; m < static_cast<std::size_t>(table.segment_count); ++m)
     nodes.push_back(outputs.node_command_m[m]);
@@ -31,7 +31,7 @@ const char* contact_state_name(cable::ContactState state) {
 }
 
 // Along an axis on which the force is not known it is null.
-Json contact_json(const cable::ContactReport& contact) {
+Json contact_json(const cable::ContactStatus& contact) {
   Json force_N = Json::array();
   for (std::size_t i = 0; i < contact.force_N.size(); ++i)
     force_N.push_back((contact.seen & 1u << i) != 0 ? Json(contact.force_N[i]) : Json());
@@ -51,19 +51,19 @@ Json rate_json(const device::SampleRate& rate) {
 }
 
 // A hand is slowed by whichever leaves it less: what is in the way, or the tensions that the pose has room for.
-bool tensions_slow(const fixture::Ease& ease, const cable::Outputs& outputs, bool engaged) {
+bool tensions_slow(const virtual_fixtures::Ease& ease, const cable::Outputs& outputs, bool engaged) {
   return engaged && outputs.speed_share < ease.share;
 }
 
-std::string ease_name(const fixture::Ease& ease) {
+std::string ease_name(const virtual_fixtures::Ease& ease) {
   switch (ease.cause) {
-    case fixture::EaseCause::kNone:
+    case virtual_fixtures::SlowdownCause::kNone:
       return "";
-    case fixture::EaseCause::kSingular:
+    case virtual_fixtures::SlowdownCause::kSingular:
       return "near singular";
-    case fixture::EaseCause::kRefused:
+    case virtual_fixtures::SlowdownCause::kRefused:
       return "refused";
-    case fixture::EaseCause::kJointLimit:
+    case virtual_fixtures::SlowdownCause::kJointLimit:
       break;
   }
   return "theta " + std::to_string(ease.theta) + " near its limit";
@@ -71,7 +71,7 @@ std::string ease_name(const fixture::Ease& ease) {
 
 }  // namespace
 
-std::vector<double> theta_deg(const cable::RobotTable& table, const cable::ThetaVector& theta_rad) {
+std::vector<double> theta_deg(const cable::RobotParams& table, const cable::ThetaVector& theta_rad) {
   std::vector<double> out;
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i)
     out.push_back(in_degrees(theta_rad[i]));
@@ -79,9 +79,9 @@ std::vector<double> theta_deg(const cable::RobotTable& table, const cable::Theta
 }
 
 // Null while nothing can be claimed.
-Json CableDesk::clearance_json() const {
+Json CableArmServer::clearance_json() const {
   if (!clearance_) return nullptr;
-  const live_clearance::Claim& claim = clearance_->claim();
+  const clearance_bound::Claim& claim = clearance_->claim();
   if (claim.clearance.link < 0) return nullptr;  // the scene is empty
   const Vec3 turn_rad = clearance_->turn_rad();
   return {{"distance_m", claim.clearance.distance_m},
@@ -98,8 +98,8 @@ Json CableDesk::clearance_json() const {
 }
 
 // What fixtures make of the hand, and the two figures that they are felt by.
-Json CableDesk::guidance_json() const {
-  const fixture::Guidance& guidance = arbiter_.guidance();
+Json CableArmServer::guidance_json() const {
+  const virtual_fixtures::Guidance& guidance = arbiter_.guidance();
   const bool by_tension = tensions_slow(arbiter_.ease(), outputs(), arbiter_.device().engaged());
   Json out{{"fixtures", Json::array()},
            {"plane", guidance.plane_name()},
@@ -112,14 +112,14 @@ Json CableDesk::guidance_json() const {
   for (const config::SceneFixture& one : guidance.fixtures()) {
     if (guidance.is_chosen(one.name)) out["fixtures"].push_back(one.name);
   }
-  const std::optional<fixture::PitchBudget> budget = pitch_budget();
+  const std::optional<virtual_fixtures::PitchBudget> budget = pitch_budget();
   if (!budget) return out;
   out["pitch_allowed_deg"] = in_degrees(budget->allowed_rad);
   out["pitch_used_deg"] = in_degrees(budget->used_rad);
   return out;
 }
 
-void CableDesk::add_state(Json& state) const {
+void CableArmServer::add_state(Json& state) const {
   const cable::Outputs& o = outputs();
   const arbiter::DeviceUse& device = arbiter_.device().in_use();
   const bool awaits_held = arbiter_.is_asking() && o.held_at_target == 0;  // a hold that was refused awaits nothing
@@ -138,8 +138,8 @@ void CableDesk::add_state(Json& state) const {
                       {"frame", arbiter::name_of(device.mapping.frame)},
                       {"feedback", feedback_}};
   state["guidance"] = guidance_json();
-  if (arbiter_.ease().cause == fixture::EaseCause::kJointLimit) state["limits"].push_back("near_theta");
-  if (arbiter_.ease().cause == fixture::EaseCause::kSingular) state["limits"].push_back("near_singular");
+  if (arbiter_.ease().cause == virtual_fixtures::SlowdownCause::kJointLimit) state["limits"].push_back("near_theta");
+  if (arbiter_.ease().cause == virtual_fixtures::SlowdownCause::kSingular) state["limits"].push_back("near_singular");
   state["shape"] = {{"missing_m", shape_progress_.missing_m()},
                     {"settled", shape_progress_.is_settled() && !arbiter_.is_searching()},
                     {"searching", arbiter_.is_searching()}};
@@ -161,9 +161,9 @@ void CableDesk::add_state(Json& state) const {
   add_tip(state, o);
 }
 
-void CableDesk::add_drive_state(std::size_t drive, Json& state) const {
+void CableArmServer::add_drive_state(std::size_t drive, Json& state) const {
   state["position_m"] = paid_out_m(table_.drive[drive], inputs().drive[drive]);
   state["tension_N"] = reported_tension_N(table_.drive[drive], inputs().drive[drive]);
 }
 
-}  // namespace liana::daemon
+}  // namespace liana::server

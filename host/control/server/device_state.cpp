@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::daemon {
+namespace liana::server {
 
 namespace {
 
@@ -12,7 +12,7 @@ constexpr double kWatchdogIntervals = 5.0;
 
 void fill(const Vec3& from, double (&to)[3]) { std::copy(from.begin(), from.end(), to); }
 
-liana_plane plane_of(const haptic::Plane& plane) {
+liana_plane plane_of(const haptics::Plane& plane) {
   liana_plane out{};
   fill(plane.normal, out.normal);
   out.offset_m = plane.offset_m;
@@ -60,7 +60,7 @@ void DeviceState::look(const ArmForDevices& arm, double tick_s) {
 }
 
 // What a hand is to feel (wrench, reference, walls) is told to the device in use alone.
-liana_state DeviceState::state_for(const arbiter::DeviceSteer* steer) const {
+liana_state DeviceState::state_for(const arbiter::TeleopInput* steer) const {
   liana_state out = common_;
   out.scale = out.rotation_scale = 1.0;
   if (steer == nullptr) return out;
@@ -70,10 +70,10 @@ liana_state DeviceState::state_for(const arbiter::DeviceSteer* steer) const {
   std::string_view(steer->reason()).copy(out.reason, sizeof out.reason - 1);
   out.scale = steer->in_use().mapping.scale;
   out.rotation_scale = steer->in_use().mapping.rotation_scale;
-  static_assert(fixture::kMostPlanes == LIANA_MOST_PLANES);
+  static_assert(virtual_fixtures::kMaxPlanes == LIANA_MOST_PLANES);
   out.planes = LIANA_MOST_PLANES;
   std::transform(planes_.begin(), planes_.end(), out.plane, plane_of);
   return out;
 }
 
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -7,10 +7,10 @@
 
 #include "firmware_like/math/pose.hpp"
 #include "host/api/device/packets.hpp"
-#include "host/control/arbiter/device_steer.hpp"
-#include "host/control/virtual_fixtures/felt_planes.hpp"
+#include "host/control/arbiter/teleop_input.hpp"
+#include "host/control/virtual_fixtures/haptic_planes.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 // The arm, as a device is told of it.
 struct ArmForDevices {
@@ -20,7 +20,7 @@ struct ArmForDevices {
   Pose measured_tip{}, commanded_tip{};
   std::optional<Pose> predicted_tip{};  // at the end of the command released last
   std::optional<double> clearance_m{};
-  fixture::PlaneSlots::Told planes{};  // for the device in use
+  virtual_fixtures::PlaneSlots::Told planes{};  // for the device in use
 };
 
 class DeviceState {
@@ -34,7 +34,7 @@ class DeviceState {
   // The interval's state, once per interval.
   void look(const ArmForDevices& arm, double tick_s);
   // For a device; `steer` only where it is the one in use.
-  liana_state state_for(const arbiter::DeviceSteer* steer) const;
+  liana_state state_for(const arbiter::TeleopInput* steer) const;
 
  private:
   struct Made {
@@ -45,8 +45,8 @@ class DeviceState {
   double interval_s_;
   Made in_force_, next_;
   std::optional<Pose> before_;  // the tip, one interval ago
-  fixture::PlaneSlots::Told planes_{};
+  virtual_fixtures::PlaneSlots::Told planes_{};
   liana_state common_{};
 };
 
-}  // namespace liana::daemon
+}  // namespace liana::server

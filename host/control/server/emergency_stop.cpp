@@ -2,7 +2,7 @@
 
 #include "host/base/json/json.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 namespace {
 
@@ -36,7 +36,7 @@ std::string printable(std::string_view text) {
     const std::size_t bytes = character_bytes(text);
     const std::string_view character = text.substr(0, bytes);
     const std::string_view shown = bytes == 0 ? "?" : is_control(character) ? " " : character;
-    if (out.size() + shown.size() > kMostReasonBytes) break;
+    if (out.size() + shown.size() > kMaxReasonBytes) break;
     out += shown;
     text.remove_prefix(bytes == 0 ? 1 : bytes);
   }
@@ -52,4 +52,4 @@ std::string text_of(const StopOrder& order) {
   return "emergency stop by " + order.by + (order.reason.empty() ? "" : ": " + order.reason);
 }
 
-}  // namespace liana::daemon
+}  // namespace liana::server

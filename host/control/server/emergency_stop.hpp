@@ -11,11 +11,11 @@ namespace liana {
 class Json;
 }  // namespace liana
 
-namespace liana::daemon {
+namespace liana::server {
 
-constexpr std::size_t kMostReasonBytes = 200;  // of a stop's reason; longer ones are cut
+constexpr std::size_t kMaxReasonBytes = 200;  // of a stop's reason; longer ones are cut
 
-// `text` as one line that can be shown anywhere: at most kMostReasonBytes bytes of UTF-8, control characters as spaces,
+// `text` as one line that can be shown anywhere: at most kMaxReasonBytes bytes of UTF-8, control characters as spaces,
 // what is no UTF-8 as question marks.
 std::string printable(std::string_view text);
 
@@ -47,4 +47,4 @@ class EmergencyStop {
   std::optional<StopOrder> order_;
 };
 
-}  // namespace liana::daemon
+}  // namespace liana::server

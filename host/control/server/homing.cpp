@@ -7,7 +7,7 @@
 
 #include "host/drives/calibration/fixture.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 namespace {
 
 using Index = std::size_t;
@@ -19,7 +19,7 @@ struct Contradiction {
   double largest_m = 0.0;
 };
 
-std::vector<Contradiction> contradictions(const cable::RobotTable& table, const cable::EstimatorState& estimator) {
+std::vector<Contradiction> contradictions(const cable::RobotParams& table, const cable::EstimatorState& estimator) {
   std::vector<Contradiction> out;
   Index first = 0;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
@@ -41,7 +41,7 @@ std::string text_of(const Contradiction& found) {
   return text;
 }
 
-std::string why_lengths_do_not_fit(const cable::RobotTable& table, const cable::EstimatorState& estimator) {
+std::string why_lengths_do_not_fit(const cable::RobotParams& table, const cable::EstimatorState& estimator) {
   std::string out;
   for (const Contradiction& found : contradictions(table, estimator))
     out += (out.empty() ? "cables " : ", cables ") + text_of(found);
@@ -54,22 +54,22 @@ std::string why_lengths_do_not_fit(const cable::RobotTable& table, const cable::
 
 }  // namespace
 
-double paid_out_m(const cable::DriveTable& drive, const DriveFeedback& feedback) {
+double paid_out_m(const cable::DriveParams& drive, const DriveFeedback& feedback) {
   return drive.direction * (static_cast<double>(feedback.position_counts) - drive.zero_counts) * drive.metres_per_count;
 }
 
-double reported_tension_N(const cable::DriveTable& drive, const DriveFeedback& feedback) {
+double reported_tension_N(const cable::DriveParams& drive, const DriveFeedback& feedback) {
   return feedback.torque_permille * drive.newtons_per_permille;
 }
 
-cable::CableVector paid_out_m(const cable::RobotTable& table, const cable::Inputs& inputs) {
+cable::CableVector paid_out_m(const cable::RobotParams& table, const cable::Inputs& inputs) {
   cable::CableVector out{};
   for (Index i = 0; i < static_cast<Index>(table.cable_count()); ++i)
     out[i] = paid_out_m(table.drive[i], inputs.drive[i]);
   return out;
 }
 
-cable::CableVector reported_tension_N(const cable::RobotTable& table, const cable::Inputs& inputs) {
+cable::CableVector reported_tension_N(const cable::RobotParams& table, const cable::Inputs& inputs) {
   cable::CableVector out{};
   for (Index i = 0; i < static_cast<Index>(table.cable_count()); ++i)
     out[i] = reported_tension_N(table.drive[i], inputs.drive[i]);
@@ -80,8 +80,8 @@ Homing::Homing(const config::RobotConfig& robot, const std::string& in_pose) : r
   if (!in_pose.empty()) calibration::check_tells_apart(robot, in_pose);
 }
 
-void Homing::look(const control::ArmReport<cable::CableArm>& report, const cable::EstimatorState& estimator) {
-  const cable::RobotTable& table = robot_.table;
+void Homing::look(const realtime::ArmTickStatus<cable::CableArm>& report, const cable::EstimatorState& estimator) {
+  const cable::RobotParams& table = robot_.table;
   for (Index i = 0; i < static_cast<Index>(table.cable_count()); ++i) {
     if (report.inputs.drive[i].feedback_age_ticks == 0xFFFF) return;
   }
@@ -94,4 +94,4 @@ void Homing::look(const control::ArmReport<cable::CableArm>& report, const cable
   if (why_not_.empty() && report.outputs.homed == 0) why_not_ = why_lengths_do_not_fit(table, estimator);
 }
 
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -8,17 +8,17 @@
 #include "host/control/realtime/link.hpp"
 #include "host/model/config/config.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 // Cable that a drive reports as paid out beyond its zero [m], and tension that it reports [N].
-double paid_out_m(const cable::DriveTable& drive, const DriveFeedback& feedback);
-double reported_tension_N(const cable::DriveTable& drive, const DriveFeedback& feedback);
+double paid_out_m(const cable::DriveParams& drive, const DriveFeedback& feedback);
+double reported_tension_N(const cable::DriveParams& drive, const DriveFeedback& feedback);
 
 // Cable that every drive reports as paid out beyond its zero [m].
-cable::CableVector paid_out_m(const cable::RobotTable& table, const cable::Inputs& inputs);
+cable::CableVector paid_out_m(const cable::RobotParams& table, const cable::Inputs& inputs);
 
 // Tension that every drive reports [N].
-cable::CableVector reported_tension_N(const cable::RobotTable& table, const cable::Inputs& inputs);
+cable::CableVector reported_tension_N(const cable::RobotParams& table, const cable::Inputs& inputs);
 
 class Homing {
  public:
@@ -27,7 +27,7 @@ class Homing {
   Homing(const config::RobotConfig& robot, const std::string& in_pose);
 
   // Once per interval after booting. The pose is compared until it fits once: then the arm may leave it.
-  void look(const control::ArmReport<cable::CableArm>& report, const cable::EstimatorState& estimator);
+  void look(const realtime::ArmTickStatus<cable::CableArm>& report, const cable::EstimatorState& estimator);
 
   bool is_homed() const { return why_not_.empty(); }
   // What contradicts what and what to do; empty while homed.
@@ -39,4 +39,4 @@ class Homing {
   std::string why_not_ = "the drives have not been heard yet";
 };
 
-}  // namespace liana::daemon
+}  // namespace liana::server

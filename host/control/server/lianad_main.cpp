@@ -15,11 +15,11 @@
 #include "host/control/realtime/last_stop.hpp"
 #include "host/control/realtime/realtime.hpp"
 #include "host/control/realtime/rt_cycle.hpp"
-#include "host/control/server/cable_desk.hpp"
-#include "host/control/server/serial_desk.hpp"
+#include "host/control/server/cable_arm_server.hpp"
+#include "host/control/server/serial_arm_server.hpp"
 #include "host/control/server/turns.hpp"
 #include "host/drives/calibration/calibration.hpp"
-#include "host/drives/canopen/drive_expectation.hpp"
+#include "host/drives/canopen/expected_drive.hpp"
 #include "host/model/config/serial_robot.hpp"
 
 namespace {
@@ -94,8 +94,8 @@ std::optional<gid_t> group_of(const Options& options) {
   return api::group_named("--group", options.group);
 }
 
-liana::daemon::ServiceConfig service_config(const Setup& setup, const std::string& robot_json) {
-  liana::daemon::ServiceConfig config;
+liana::server::ServiceConfig service_config(const Setup& setup, const std::string& robot_json) {
+  liana::server::ServiceConfig config;
   config.api_path = setup.options.api;
   config.api_group = group_of(setup.options);
   config.time_mode = setup.mode;
@@ -114,34 +114,35 @@ liana::daemon::ServiceConfig service_config(const Setup& setup, const std::strin
 
 // The API is there before the bus hears of us: the bench connects to it at its first wake-up.
 template <class Arm, class Robot>
-int serve(const Setup& setup, const Robot& robot, liana::control::ArmLink<Arm>& link, liana::daemon::Desk& desk) {
-  std::unique_ptr<liana::control::RtCycle<Arm>> cycle;
-  liana::daemon::ServiceConfig config = service_config(setup, robot.canonical_json);
+int serve(const Setup& setup, const Robot& robot, liana::realtime::ArmMailbox<Arm>& link,
+          liana::server::ArmServer& desk) {
+  std::unique_ptr<liana::realtime::RtCycle<Arm>> cycle;
+  liana::server::ServiceConfig config = service_config(setup, robot.canonical_json);
   config.boot_problems = [&] { return cycle->line().boot_problems(); };
   config.serials = [&] { return cycle->line().serials(); };
-  liana::daemon::Service service(config, desk);
+  liana::server::Service service(config, desk);
   const std::optional<liana::api::Registration> registration = registered(setup.options.api);
   const std::unique_ptr<liana::bus::DriveBus> bus =
       liana::bus::open_drive_bus(setup.buses, setup.mode, setup.options.bus_socket);
-  cycle = std::make_unique<liana::control::RtCycle<Arm>>(robot.table, canopen::drive_expectations(robot, setup.buses),
-                                                         setup.buses, *bus, link);
+  cycle = std::make_unique<liana::realtime::RtCycle<Arm>>(robot.table, canopen::drive_expectations(robot, setup.buses),
+                                                          setup.buses, *bus, link);
   handle_signals();
   const auto stop_limit = static_cast<std::uint64_t>(kStopLimit_s / robot.table.tick_s);
-  const liana::daemon::Signalled signalled = [] { return g_signal != 0; };
-  const liana::daemon::Ticks ticks{
+  const liana::server::Signalled signalled = [] { return g_signal != 0; };
+  const liana::server::Ticks ticks{
       [&] { return cycle->run_tick(); },
-      [&](const std::function<bool()>& next) { liana::control::stop_without_service(link, stop_limit, next); }};
+      [&](const std::function<bool()>& next) { liana::realtime::stop_without_service(link, stop_limit, next); }};
   return failing([&] {
     const bool is_real = setup.mode == liana::timing::TimeMode::kReal;
     if (!is_real) service.wait_for(setup.expected, kExpectTimeout_s);
-    const bool finished = is_real ? liana::daemon::run_real(service, ticks, signalled)
-                                  : liana::daemon::run_lockstep(service, ticks, signalled);
-    service.take_leave();
+    const bool finished = is_real ? liana::server::run_real(service, ticks, signalled)
+                                  : liana::server::run_lockstep(service, ticks, signalled);
+    service.flush_and_close();
     if (!finished) throw std::runtime_error("the bus has ended: liana-bus or the bench left");
   });
 }
 
-device::DoorPlace devices_of(const Options& options) {
+device::DeviceEndpoint devices_of(const Options& options) {
   return {options.devices.empty() ? device::devices_path(options.api) : options.devices, group_of(options)};
 }
 
@@ -152,8 +153,8 @@ int serve_cable_arm(const Setup& setup) {
     liana::calibration::apply(
         liana::calibration::load_calibration(options.calibration, robot, liana::calibration::today_utc()), robot);
   }
-  const auto link = std::make_unique<liana::control::ArmLink<cable::CableArm>>(robot.table);
-  liana::daemon::CableDesk desk(robot, setup.scene, options.in_pose, setup.mode, *link, devices_of(options));
+  const auto link = std::make_unique<liana::realtime::ArmMailbox<cable::CableArm>>(robot.table);
+  liana::server::CableArmServer desk(robot, setup.scene, options.in_pose, setup.mode, *link, devices_of(options));
   if (options.fixtures == "off") desk.leave_out_fixtures();
   return serve(setup, robot, *link, desk);
 }
@@ -169,8 +170,8 @@ int serve_serial_arm(const Setup& setup) {
   refuse("--devices", options.devices, "no device steers a serial arm yet");
   refuse("--fixtures", options.fixtures, "no hand steers a serial arm yet");
   const liana::config::SerialRobotConfig robot = liana::config::load_serial_robot(options.robot, setup.buses);
-  const auto link = std::make_unique<liana::control::ArmLink<serial::SerialArm>>(robot.table);
-  liana::daemon::SerialDesk desk(robot, setup.scene, setup.mode, *link);
+  const auto link = std::make_unique<liana::realtime::ArmMailbox<serial::SerialArm>>(robot.table);
+  liana::server::SerialArmServer desk(robot, setup.scene, setup.mode, *link);
   return serve(setup, robot, *link, desk);
 }
 
@@ -182,8 +183,8 @@ int run(const Options& options) {
   const bool is_serial = liana::config::is_serial_robot(options.robot);
   if (*mode == liana::timing::TimeMode::kReal) {
     const int code = failing([] {
-      liana::control::lock_memory();
-      liana::control::come_before_ordinary_work();
+      liana::realtime::lock_memory();
+      liana::realtime::come_before_ordinary_work();
     });
     if (code != 0) return code;
   }
@@ -194,7 +195,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  liana::command_line::CommandLine line("lianad: control core, buses, verification and API of an arm");
+  liana::options::CommandLine line("lianad: control core, buses, verification and API of an arm");
   line.option("--robot", options.robot, "robot JSON (docs/reference/formats.md)").required();
   line.option("--scene", options.scene, "scene JSON").required();
   line.option("--buses", options.buses, "buses JSON").required();

@@ -5,7 +5,7 @@
 
 #include "host/api/server/request_error.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 namespace {
 
@@ -18,7 +18,7 @@ std::string process_text(std::int32_t process) {
 std::string Claimant::text() const { return "'" + name + "' (" + process_text(process) + ")"; }
 
 bool Owner::may_take(const TakeOver& how) const {
-  const bool is_silent = how.silent_s >= kMostSilence_s;
+  const bool is_silent = how.silent_s >= kMaxSilence_s;
   if (!how.is_allowed) return false;
   if (how.from.empty()) return is_silent && how.stop_in_force;
   return how.from == now_.name && (is_silent || how.stop_in_force);
@@ -55,4 +55,4 @@ void Owner::require(std::uint32_t client) const {
                                            : "'" + now_.name + "' owns motion (" + process_text(now_.process) + ")");
 }
 
-}  // namespace liana::daemon
+}  // namespace liana::server

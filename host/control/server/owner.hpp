@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-namespace liana::daemon {
+namespace liana::server {
 
 // So long an owner may send and read nothing before others may take motion from it, s of this machine's time.
-constexpr double kMostSilence_s = 5.0;
+constexpr double kMaxSilence_s = 5.0;
 
 // A client that owns motion, or wants to.
 struct Claimant {
@@ -32,7 +32,7 @@ struct TakeOver {
 
 class Owner {
  public:
-  // Makes `wanted` the owner. While another one is, motion is taken from it by its name after a stop or kMostSilence_s
+  // Makes `wanted` the owner. While another one is, motion is taken from it by its name after a stop or kMaxSilence_s
   // of silence, and without its name after both; returns whom it was taken from. Throws RequestError not_owner
   // otherwise.
   std::optional<Claimant> acquire(const Claimant& wanted, const TakeOver& how = {});
@@ -52,4 +52,4 @@ class Owner {
   Claimant now_;
 };
 
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -3,7 +3,7 @@
 #include "host/model/config/canonical.hpp"
 #include "host/model/config/sha256.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 std::string path_hash(const Json& points_deg) { return config::sha256_hex(config::canonical_json(points_deg)); }
 
@@ -12,4 +12,4 @@ Json path_json(const std::optional<arbiter::PathProgress>& path) {
   return {{"hash", path->hash}, {"share", path->share}};
 }
 
-}  // namespace liana::daemon
+}  // namespace liana::server

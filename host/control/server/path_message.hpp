@@ -8,7 +8,7 @@
 #include "host/base/json/json.hpp"
 #include "host/control/arbiter/path_move.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 // SHA-256 over the canonical JSON of points_deg: the same points in the same order have the same one.
 std::string path_hash(const Json& points_deg);
@@ -32,4 +32,4 @@ arbiter::PathRequest<Arm> path_request(const api::Arguments& fields) {
   return out;
 }
 
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-namespace liana::daemon {
+namespace liana::server {
 
 namespace {
 
@@ -12,8 +12,8 @@ constexpr std::array kEnds{"none",  "captured",      "sensor_lost",    "overload
                            "aside", "early_capture", "adapter_silent", "stopped"};
 constexpr std::array kHealth{"good", "silent", "saturated", "failed", "no_number", "not_at_rest", "stuck"};
 constexpr std::array kCatches{"open", "closing", "closed", "failed"};
-static_assert(kPhases.size() == static_cast<std::size_t>(serial::PushPhase::kYielding) + 1);
-static_assert(kEnds.size() == static_cast<std::size_t>(serial::PushEnd::kStopped) + 1);
+static_assert(kPhases.size() == static_cast<std::size_t>(serial::InsertPhase::kYielding) + 1);
+static_assert(kEnds.size() == static_cast<std::size_t>(serial::InsertResult::kStopped) + 1);
 static_assert(kHealth.size() == static_cast<std::size_t>(serial::WristHealth::kStuck) + 1);
 static_assert(kCatches.size() == static_cast<std::size_t>(serial::CatchState::kFailed) + 1);
 
@@ -37,14 +37,14 @@ Json payload_json(const serial::LinkMass& payload_at_tip) {
   return {{"mass_kg", payload_at_tip.mass_kg}, {"center_m", payload_at_tip.center_m}};
 }
 
-Json push_json(const serial::PushReport& push, double tick_s) {
+Json push_json(const serial::InsertStatus& push, double tick_s) {
   const bool was_asked = push.number > 0;
   const auto of_push = [&](Json value) { return was_asked ? std::move(value) : Json(); };
   const bool is_heard = push.wrist_age_ticks != serial::kNeverHeard;
   return {{"number", push.number},
           {"phase", name_of(kPhases, push.phase)},
           {"end", name_of(kEnds, push.end)},
-          {"law", push.law == serial::PushLaw::kImpedance ? "impedance" : "force"},
+          {"law", push.law == serial::InsertLaw::kImpedance ? "impedance" : "force"},
           {"set_N", of_push(push.set_N)},
           {"given", of_push(wrench_json(push.given))},
           {"felt", is_heard ? wrench_json(push.felt) : Json()},
@@ -55,7 +55,7 @@ Json push_json(const serial::PushReport& push, double tick_s) {
           {"wrist_age_s", age_json(push.wrist_age_ticks, tick_s)}};
 }
 
-Json adapter_json(const serial::PushReport& push, double tick_s) {
+Json adapter_json(const serial::InsertStatus& push, double tick_s) {
   Json depth_m;
   if (push.adapter_age_ticks != serial::kNeverHeard) {
     depth_m = Json::array();
@@ -69,4 +69,4 @@ Json adapter_json(const serial::PushReport& push, double tick_s) {
           {"depth_m", depth_m}};
 }
 
-}  // namespace liana::daemon
+}  // namespace liana::server

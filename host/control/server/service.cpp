@@ -13,20 +13,20 @@
 #include "host/control/verification/refusal_table.hpp"
 #include "host/storage/recording/tick_packet.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 namespace {
 
 constexpr double kLockstepPatience_s = 10.0;  // a client that stays silent longer is dead
 constexpr double kAfterMission_s = 1.0;       // of arm time at rest
 constexpr double kAfterFault_s = 5.0;         // the same where something failed: elastic cables let the arm swing
-constexpr double kMostAfterMission_s = 60.0;  // of arm time, at rest or not
+constexpr double kMaxAfterMission_s = 60.0;   // of arm time, at rest or not
 constexpr double kHoming_s = 0.5;             // of arm time after booting: homing takes 0.1 s
 constexpr double kShutdownLimit_s = 10.0;     // of arm time, until the drives are off
 
 }  // namespace
 
-Service::Service(const ServiceConfig& config, Desk& desk)
+Service::Service(const ServiceConfig& config, ArmServer& desk)
     : config_(config),
       desk_(desk),
       bounds_(api::request_bounds(Json::parse(config.robot_json))),
@@ -82,7 +82,7 @@ void Service::cycle() {
   log_.begin_interval(tick());
   watch_events_file();
   watch_arm();
-  desk_.watch(boot_seen_ == control::BootPhase::kDone);
+  desk_.watch(boot_seen_ == realtime::BootPhase::kDone);
   watch_homing();
   forward_ticks();
   idle(0.0);  // what came from clients outside lockstep
@@ -117,7 +117,7 @@ void Service::publish_state() {
 
 // A clear says what it looked at, and what kept it from clearing.
 void Service::note_clear() {
-  const ClearReport& clear = desk_.supervisor().clear;
+  const ClearResult& clear = desk_.supervisor().clear;
   if (clear.tick == clear_seen_tick_) return;
   clear_seen_tick_ = clear.tick;
   note(clear_event(clear));
@@ -125,7 +125,7 @@ void Service::note_clear() {
 
 // An arm that is not homed some time after booting says why, once; the refusal to enable it says how it stands.
 void Service::watch_homing() {
-  if (boot_seen_ == control::BootPhase::kDone && !homed_told_ && desk_.why_not_homed().empty()) {
+  if (boot_seen_ == realtime::BootPhase::kDone && !homed_told_ && desk_.why_not_homed().empty()) {
     homed_told_ = true;
     note(homed_event());
   }
@@ -152,7 +152,7 @@ bool Service::is_over_after_mission() {
   };
   const double rested_s = since_s(std::max(*mission_end_tick_, moved_tick_));
   const double enough_s = now().faults.count == 0 ? kAfterMission_s : kAfterFault_s;
-  return rested_s > enough_s || since_s(*mission_end_tick_) > kMostAfterMission_s;
+  return rested_s > enough_s || since_s(*mission_end_tick_) > kMaxAfterMission_s;
 }
 
 // What changes by itself: the end of booting, the end of the run after the mission.
@@ -164,21 +164,21 @@ void Service::watch_arm() {
   note(desk_.take_events());
   if (mission_end_tick_) {
     if (is_over_after_mission()) begin_shutdown("the mission has ended");
-  } else if (dismissed_) {
+  } else if (shutdown_requested_) {
     begin_shutdown("asked for");
   }
-  const control::BootPhase boot = desk_.report().boot;
+  const realtime::BootPhase boot = desk_.report().boot;
   if (boot == boot_seen_) return;
-  if (boot == control::BootPhase::kBooting) note(boot_goes_on_event());
+  if (boot == realtime::BootPhase::kBooting) note(boot_goes_on_event());
   boot_seen_ = boot;
   notes_.boot_problems.clear();
-  if (boot == control::BootPhase::kDone) {
+  if (boot == realtime::BootPhase::kDone) {
     note(booted_event());
     image_sent_ = false;  // one from the time before, after a boot that had failed, is of another tick
     notes_.serials = config_.serials();
     homing_due_tick_ = tick() + ticks_in(kHoming_s);
   }
-  if (boot != control::BootPhase::kFailed) return;
+  if (boot != realtime::BootPhase::kFailed) return;
   notes_.boot_problems = config_.boot_problems();
   note(boot_failed_events(notes_.boot_problems));
 }
@@ -199,8 +199,8 @@ void Service::forward_ticks() {
     note_emergencies(inputs);
     if (wanted) server_.publish(api::Topic::kTick, packet());
   });
-  if (boot_seen_ == control::BootPhase::kBooting || !wanted) return;
-  if (image_sent_ && desk_.image_tick() % record::kImageEveryTicks != 0) return;
+  if (boot_seen_ == realtime::BootPhase::kBooting || !wanted) return;
+  if (image_sent_ && desk_.image_tick() % recording::kImageEveryTicks != 0) return;
   server_.publish(api::Topic::kTick, desk_.image_packet());
   image_sent_ = true;
 }
@@ -209,7 +209,7 @@ void Service::forward_ticks() {
 void Service::forward_camera() {
   while (!camera_.empty() && camera_.front().due_tick <= tick()) {
     server_.publish(api::Topic::kCamera, camera_.front().packet);
-    desk_.take_picture(camera_.front().picture);
+    desk_.take_observation(camera_.front().picture);
     camera_.pop_front();
   }
 }
@@ -245,26 +245,27 @@ void Service::release_next() {
   ++notes_.refusals;
   if (!verdict->goes_on) ++notes_.refused_motions;
   note(verdict_event(verdict->sequence, verdict->worst));
-  const verify::RefusalRow& row = verify::row_of(verdict->worst.code);
-  const bool stops = row.action == verify::RefusalAction::kStop && !verdict->leads_back;  // the way out tries again
+  const verification::RefusalRow& row = verification::row_of(verdict->worst.code);
+  const bool stops =
+      row.action == verification::RefusalAction::kStop && !verdict->leads_back;  // the way out tries again
   if (stops) order_stop({"lianad", std::string("refused: ") + row.says, tick()});
 }
 
 // A path that does not begin is a refusal as that of a command is: who asked for it looks there.
 void Service::tell_of_paths() {
-  for (const arbiter::PathNews& news : desk_.take_path_news()) {
+  for (const arbiter::PathEvents& news : desk_.take_path_news()) {
     note(path_event(news));
     if (news.what != event::PathEvent::kRefused) continue;
     ++notes_.refusals;
     ++notes_.refused_motions;
     notes_.verdict.released = false;
-    notes_.verdict.worst.code = verify::Refusal::kPath;
+    notes_.verdict.worst.code = verification::Refusal::kPath;
     notes_.verdict.worst.text = news.text;
   }
 }
 
 void Service::keep_way() {
-  for (const arbiter::WayNews& news : desk_.take_way_news()) note(way_event(news));
+  for (const arbiter::RetractEvents& news : desk_.take_way_news()) note(way_event(news));
   if (!way_file_) return;
   if (const auto change = desk_.take_way_change()) way_file_->follow(*change);
   if (auto trouble = way_file_->trouble()) note(std::move(*trouble));
@@ -283,8 +284,8 @@ void Service::watch_events_file() {
 }
 
 void Service::request(Request what) {
-  const bool asks_again = boot_seen_ == control::BootPhase::kFailed && what == Request::kClear;
-  if (boot_seen_ != control::BootPhase::kDone && !asks_again)
+  const bool asks_again = boot_seen_ == realtime::BootPhase::kFailed && what == Request::kClear;
+  if (boot_seen_ != realtime::BootPhase::kDone && !asks_again)
     return;  // drives that are not booted have no power, and a stop in force keeps it so
   if (!desk_.link().requests.push(what))
     throw api::RequestError("busy", "too many requests are waiting for the next ticks");
@@ -293,7 +294,7 @@ void Service::request(Request what) {
 // Drives that are not booted have no power.
 void Service::press_stop() noexcept {
   stop_tick_ = tick();
-  if (boot_seen_ == control::BootPhase::kDone) desk_.link().stop.press();
+  if (boot_seen_ == realtime::BootPhase::kDone) desk_.link().stop.press();
 }
 
 // Nobody asks for motion any more: the command in force expires and the arm holds.
@@ -330,4 +331,4 @@ bool Service::finished() const {
   return (off && told) || waited_s > kShutdownLimit_s;
 }
 
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -16,18 +16,18 @@
 #include "host/base/event/event_log.hpp"
 #include "host/base/event/line_file.hpp"
 #include "host/base/json/json.hpp"
-#include "host/control/server/desk.hpp"
-#include "host/control/server/dispatch_log.hpp"
-#include "host/control/server/host_trouble.hpp"
+#include "host/control/server/arm_server.hpp"
+#include "host/control/server/command_log.hpp"
+#include "host/control/server/host_warning.hpp"
 #include "host/control/server/owner.hpp"
+#include "host/control/server/retract_path_file.hpp"
 #include "host/control/server/service_events.hpp"
 #include "host/control/server/setpoint_stream.hpp"
 #include "host/control/server/state_message.hpp"
 #include "host/control/server/tick_watch.hpp"
-#include "host/control/server/way_file.hpp"
 #include "host/model/config/config.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 // What the service needs to know about the run.
 struct ServiceConfig {
@@ -37,20 +37,20 @@ struct ServiceConfig {
   std::string robot_json, scene_json;  // canonical
   config::BusesConfig buses;
   double camera_latency_s = 0.0;
-  std::string events_file;                                           // path; empty: events are not written
-  std::string commands_file;                                         // path; empty: commands are not logged
-  std::string way_file;                                              // path; empty: the way back is kept nowhere
-  std::string verify_times_file;                                     // path; empty: nobody asks how long commands take
-  bool ends_with_mission = false;                                    // stop the arm once the mission has come and gone
-  std::function<std::vector<control::BootProblem>()> boot_problems;  // asked once, when booting has failed
-  std::function<std::vector<std::uint32_t>()> serials;               // of the drives; asked once, when they are booted
+  std::string events_file;                                            // path; empty: events are not written
+  std::string commands_file;                                          // path; empty: commands are not logged
+  std::string way_file;                                               // path; empty: the way back is kept nowhere
+  std::string verify_times_file;                                      // path; empty: nobody asks how long commands take
+  bool ends_with_mission = false;                                     // stop the arm once the mission has come and gone
+  std::function<std::vector<realtime::BootProblem>()> boot_problems;  // asked once, when booting has failed
+  std::function<std::vector<std::uint32_t>()> serials;                // of the drives; asked once, when they are booted
 };
 
 class Service : private api::ApiHandler {
  public:
   // Listens at config.api_path; throws std::runtime_error, also about the files that config names. `desk` must
   // outlive this.
-  Service(const ServiceConfig& config, Desk& desk);
+  Service(const ServiceConfig& config, ArmServer& desk);
 
   // Waits until a client of every named role has said hello; throws std::runtime_error naming those missing after
   // `timeout_s`.
@@ -69,9 +69,9 @@ class Service : private api::ApiHandler {
   // There will be no further cycle().
   void end_lockstep() { server_.end_lockstep(); }
   // Gives slow readers a moment to take what was said last; for the end.
-  void take_leave() { server_.deliver(1.0); }
+  void flush_and_close() { server_.deliver(1.0); }
   // Somebody has asked for the end; otherwise clients may still want to read the last state.
-  bool dismissed() const { return dismissed_; }
+  bool dismissed() const { return shutdown_requested_; }
 
  private:
   using Handler = Json (Service::*)(const api::ClientInfo&, const api::Arguments&);
@@ -129,39 +129,39 @@ class Service : private api::ApiHandler {
   void keep_way();
 
   ServiceConfig config_;
-  Desk& desk_;
+  ArmServer& desk_;
   api::RequestBounds bounds_;
   Owner owner_;
   SetpointStream stream_;
   std::optional<std::uint64_t> homing_due_tick_;  // when an arm that is not homed says why
   Notes notes_;
-  HostTrouble trouble_;
-  FaultWatch faults_;
+  HostWarning trouble_;
+  FaultMonitor faults_;
   event::EventLog log_;
   std::optional<event::EventFile> file_;
-  std::optional<DispatchLog> dispatch_;
-  std::optional<WayFile> way_file_;
+  std::optional<CommandLog> dispatch_;
+  std::optional<RetractPathFile> way_file_;
   std::optional<event::LineFile> verify_times_;
-  control::BootPhase boot_seen_ = control::BootPhase::kBooting;
+  realtime::BootPhase boot_seen_ = realtime::BootPhase::kBooting;
   bool homed_told_ = false;
   bool image_sent_ = false;
   std::string published_;  // operating state of the last state message
   struct CameraFrame {
     std::uint64_t due_tick;
     std::string packet;
-    TipPicture picture;
+    CameraObservation picture;
   };
   std::deque<CameraFrame> camera_;
   std::uint64_t clear_seen_tick_ = 0;
   TickWatch tick_watch_;
   std::optional<std::int64_t> clock_ahead_us_;  // of arm time, real time only
-  control::Overruns overruns_before_;           // at the last reset of the timing
+  realtime::Overruns overruns_before_;          // at the last reset of the timing
   std::optional<std::uint64_t> mission_end_tick_, shutdown_tick_;
   std::uint64_t moved_tick_ = 0;            // the last after the mission's end in which the arm was led on
   std::optional<std::uint64_t> stop_tick_;  // of the last stop, whoever asked for it
-  bool dismissed_ = false;
+  bool shutdown_requested_ = false;
   int mission_asked_ = 0;  // how often somebody has told the mission something
   api::ApiServer server_;  // last: its destructor may call gone()
 };
 
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -7,7 +7,7 @@
 #include "host/control/verification/refusal_table.hpp"
 #include "host/drives/canopen/emergency.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 namespace {
 
 std::string drive_name(long long index) { return "drive " + std::to_string(index); }
@@ -60,10 +60,10 @@ event::Event boot_goes_on_event() {
           .text = "booting goes on: a drive has come, or is asked for again"};
 }
 
-std::vector<event::Event> boot_failed_events(const std::vector<control::BootProblem>& problems) {
+std::vector<event::Event> boot_failed_events(const std::vector<realtime::BootProblem>& problems) {
   std::vector<event::Event> events;
   events.reserve(problems.size());
-  for (const control::BootProblem& problem : problems) {
+  for (const realtime::BootProblem& problem : problems) {
     events.push_back({.kind = event::EventKind::kBootProblem,
                       .number = event::number_of(problem.number),
                       .subject = drive_name(problem.drive),
@@ -72,7 +72,7 @@ std::vector<event::Event> boot_failed_events(const std::vector<control::BootProb
   }
   events.push_back({.kind = event::EventKind::kBoot,
                     .number = event::number_of(event::BootEvent::kFailed),
-                    .text = "booting failed: " + control::text_of(problems)});
+                    .text = "booting failed: " + realtime::text_of(problems)});
   return events;
 }
 
@@ -88,7 +88,7 @@ event::Event not_homed_event(const std::string& why) {
           .text = "not homed: " + why};
 }
 
-event::Event clear_event(const ClearReport& clear) {
+event::Event clear_event(const ClearResult& clear) {
   const std::string result =
       clear.missing == 0 ? "faults cleared" : "faults not cleared, not met: " + condition_names(clear.missing);
   return {.kind = event::EventKind::kClear,
@@ -108,16 +108,16 @@ event::Event emergency_event(std::size_t drive, std::uint16_t code) {
           .text = text};
 }
 
-event::Event verdict_event(std::uint64_t command, const verify::Verdict& verdict) {
+event::Event verdict_event(std::uint64_t command, const verification::Verdict& verdict) {
   return {.kind = event::EventKind::kVerdict,
           .number = event::number_of(verdict.code),
           .subject = event::number_of(verdict.code) < 200 ? "execution" : "simulation",
           .values = {{"command", static_cast<double>(command)}, {"share", verdict.share}},
           .text = "refused " + std::to_string(command) + ", M_e " + std::to_string(event::number_of(verdict.code)) +
-                  " " + verify::row_of(verdict.code).name + ": " + verdict.text};
+                  " " + verification::row_of(verdict.code).name + ": " + verdict.text};
 }
 
-event::Event path_event(const arbiter::PathNews& news) {
+event::Event path_event(const arbiter::PathEvents& news) {
   return {.kind = event::EventKind::kPath,
           .number = event::number_of(news.what),
           .subject = news.path.hash,
@@ -125,7 +125,7 @@ event::Event path_event(const arbiter::PathNews& news) {
           .text = news.text};
 }
 
-event::Event way_event(const arbiter::WayNews& news) {
+event::Event way_event(const arbiter::RetractEvents& news) {
   return {.kind = event::EventKind::kWayBack,
           .number = event::number_of(news.what),
           .values = {{"points", static_cast<double>(news.points)}, {"distance_m", news.distance_m}},
@@ -183,7 +183,7 @@ event::Event last_step_event(const std::string& after) {
   return {.kind = event::EventKind::kStep, .text = "steps over; what ended the last: " + after};
 }
 
-std::vector<event::Event> FaultWatch::changes(const FaultList& now) {
+std::vector<event::Event> FaultMonitor::changes(const FaultList& now) {
   std::vector<event::Event> events;
   for (std::size_t i = 0; i < static_cast<std::size_t>(now.count); ++i) {
     if (!has(seen_, now.fault[i])) events.push_back(fault_event(now.fault[i]));
@@ -193,4 +193,4 @@ std::vector<event::Event> FaultWatch::changes(const FaultList& now) {
   return events;
 }
 
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -9,30 +9,30 @@
 #include "firmware_like/safety/faults.hpp"
 #include "firmware_like/safety/supervisor.hpp"
 #include "host/base/event/event.hpp"
-#include "host/control/arbiter/path_news.hpp"
-#include "host/control/arbiter/way_news.hpp"
+#include "host/control/arbiter/path_events.hpp"
+#include "host/control/arbiter/retract_events.hpp"
 #include "host/control/realtime/boot_problem.hpp"
 #include "host/control/server/emergency_stop.hpp"
 #include "host/control/server/owner.hpp"
 #include "host/control/verification/verdict.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 event::Event booted_event();
 event::Event boot_goes_on_event();
 // One for each drive that did not boot, and one for all of them.
-std::vector<event::Event> boot_failed_events(const std::vector<control::BootProblem>& problems);
+std::vector<event::Event> boot_failed_events(const std::vector<realtime::BootProblem>& problems);
 event::Event homed_event();
 event::Event not_homed_event(const std::string& why);
-event::Event clear_event(const ClearReport& clear);
+event::Event clear_event(const ClearResult& clear);
 // `drive`: 0-based.
 event::Event emergency_event(std::size_t drive, std::uint16_t code);
 // A command that verification refused.
-event::Event verdict_event(std::uint64_t command, const verify::Verdict& verdict);
+event::Event verdict_event(std::uint64_t command, const verification::Verdict& verdict);
 // A path that begins, has come to an end or is refused.
-event::Event path_event(const arbiter::PathNews& news);
+event::Event path_event(const arbiter::PathEvents& news);
 // What has become of the way back.
-event::Event way_event(const arbiter::WayNews& news);
+event::Event way_event(const arbiter::RetractEvents& news);
 // A request that is answered with this error.
 event::Event refusal_event(const std::string& client, const std::string& op, const std::string& code,
                            const std::string& why);
@@ -49,7 +49,7 @@ event::Event step_event(int index, const std::string& name, const std::string& w
 event::Event last_step_event(const std::string& after);
 
 // Which faults of the core are new.
-class FaultWatch {
+class FaultMonitor {
  public:
   // Events of what `now` has and the list of the last call had not.
   std::vector<event::Event> changes(const FaultList& now);
@@ -58,4 +58,4 @@ class FaultWatch {
   FaultList seen_;
 };
 
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -7,7 +7,7 @@
 #include "host/control/server/service.hpp"
 #include "host/control/server/timing_message.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 namespace {
 constexpr double kRounding_s = 0.1;  // of virtual time: the bench may be some slots ahead
@@ -101,7 +101,7 @@ Json Service::on_acquire(const api::ClientInfo& client, const api::Arguments& fi
 std::string Service::why_taken(const TakeOver& how) const {
   const auto& stop = notes_.stop.order();
   const std::string silence = "silent for " + api::text_of(std::round(how.silent_s)) + " s";
-  return stop ? "after " + text_of(*stop) + (how.silent_s < kMostSilence_s ? "" : ", " + silence) : silence;
+  return stop ? "after " + text_of(*stop) + (how.silent_s < kMaxSilence_s ? "" : ", " + silence) : silence;
 }
 
 Json Service::on_release(const api::ClientInfo& client, const api::Arguments&) {
@@ -112,9 +112,9 @@ Json Service::on_release(const api::ClientInfo& client, const api::Arguments&) {
 
 Json Service::on_state_command(const api::ClientInfo&, const api::Arguments& fields) {
   const std::string command = fields.text("command");
-  if (boot_seen_ == control::BootPhase::kFailed && command != "clear")
-    throw api::RequestError("fault", "booting failed: " + control::text_of(notes_.boot_problems));
-  if (boot_seen_ == control::BootPhase::kBooting) throw api::RequestError("busy", "the drives are still booting");
+  if (boot_seen_ == realtime::BootPhase::kFailed && command != "clear")
+    throw api::RequestError("fault", "booting failed: " + realtime::text_of(notes_.boot_problems));
+  if (boot_seen_ == realtime::BootPhase::kBooting) throw api::RequestError("busy", "the drives are still booting");
   if (command == "enable") {
     if (const auto& stop = notes_.stop.order()) {
       throw api::RequestError(
@@ -162,7 +162,7 @@ Json Service::on_stop(const api::ClientInfo& client, const api::Arguments& field
 // Acted on at the next interval: where the end of the mission stops the arm, and the mission has just ended, its
 // (repeatable) time counts.
 Json Service::on_shutdown(const api::ClientInfo& client, const api::Arguments&) {
-  dismissed_ = true;
+  shutdown_requested_ = true;
   note({.kind = event::EventKind::kShutdown,
         .subject = client.name,
         .text = "shutdown asked for by '" + client.name + "'"});
@@ -251,7 +251,7 @@ Json Service::on_timing(const api::ClientInfo&, const api::Arguments& fields) {
                                            " has no wake-ups to measure; only --time real has");
   }
   desk_.refresh_report();
-  const control::Overruns& overruns = desk_.report().overruns;
+  const realtime::Overruns& overruns = desk_.report().overruns;
   Json answer = timing_message(desk_.link().timing.wakeup_us.counts(), desk_.link().timing.tick_us.counts(),
                                overruns.since(overruns_before_));
   if (!fields.flag("reset")) return answer;
@@ -261,4 +261,4 @@ Json Service::on_timing(const api::ClientInfo&, const api::Arguments& fields) {
   return answer;
 }
 
-}  // namespace liana::daemon
+}  // namespace liana::server

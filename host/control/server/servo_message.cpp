@@ -4,10 +4,10 @@
 #include "host/base/json/json.hpp"
 #include "host/control/server/state_parts.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
-servo::ServoRequest servo_request(const api::Arguments& fields) {
-  servo::ServoRequest out;
+visual_servo::ServoRequest servo_request(const api::Arguments& fields) {
+  visual_servo::ServoRequest out;
   out.target = fields.text("target");
   out.place = fields.pose("offset");
   if (fields.has("point")) out.point_in_tip = fields.pose("point");
@@ -33,8 +33,8 @@ motion::Swings swings_of(const api::Arguments& fields) {
   return {fields.number("swing_s"), fields.number("quicker_swing_s"), fields.number("swing_off")};
 }
 
-Json servo_json(const servo::ServoReport& report) {
-  Json out{{"phase", servo::servo_phase_name(report.phase)},
+Json servo_json(const visual_servo::ServoStatus& report) {
+  Json out{{"phase", visual_servo::servo_phase_name(report.phase)},
            {"target", report.target},
            {"place", report.place ? pose_json(*report.place) : Json()},
            {"error_m", nullptr},
@@ -51,4 +51,4 @@ Json servo_json(const servo::ServoReport& report) {
   return out;
 }
 
-}  // namespace liana::daemon
+}  // namespace liana::server

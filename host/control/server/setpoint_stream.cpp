@@ -6,7 +6,7 @@
 #include "host/api/server/request_error.hpp"
 #include "host/api/server/request_text.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 namespace {
 
@@ -20,8 +20,8 @@ double turn_deg(const Pose& a, const Pose& b) {
   return norm(rotation_vector(multiply(a.quaternion, conjugate(b.quaternion)))) / kDegree;
 }
 
-bool is_near(const Pose& a, const Pose& b, double most_m, double most_deg) {
-  return distance_m(a, b) <= most_m && turn_deg(a, b) <= most_deg;
+bool is_near(const Pose& a, const Pose& b, double most_m, double max_deg) {
+  return distance_m(a, b) <= most_m && turn_deg(a, b) <= max_deg;
 }
 
 [[noreturn]] void too_far(double far, double most, const std::string& unit, const std::string& from) {
@@ -66,12 +66,12 @@ void SetpointStream::check_stamp(const api::Arguments& setpoint, double now_s) c
 }
 
 void SetpointStream::check_jump(const Pose& goal, const Pose& tip) const {
-  const double most_m = api::kJump_s * bounds_.tip_speed_m_s, most_deg = api::kJump_s * bounds_.tip_rate_deg_s;
+  const double most_m = api::kJump_s * bounds_.tip_speed_m_s, max_deg = api::kJump_s * bounds_.tip_rate_deg_s;
   const Pose& before = goal_.value_or(tip);
-  if (is_near(goal, before, most_m, most_deg) || is_near(goal, tip, most_m, most_deg)) return;
+  if (is_near(goal, before, most_m, max_deg) || is_near(goal, tip, most_m, max_deg)) return;
   const std::string from = goal_ ? "the goal before it" : "where the tip is commanded";
   if (distance_m(goal, before) > most_m) too_far(distance_m(goal, before), most_m, " m", from);
-  too_far(turn_deg(goal, before), most_deg, " deg", from);
+  too_far(turn_deg(goal, before), max_deg, " deg", from);
 }
 
 void SetpointStream::note(const api::RequestRow& row, const api::Arguments& setpoint, double now_s) {
@@ -103,4 +103,4 @@ std::optional<double> SetpointStream::overdue(double next_s, const Pose& tip) {
   return ttl_s;
 }
 
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -8,7 +8,7 @@
 #include "firmware_like/math/pose.hpp"
 #include "host/api/server/arguments.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 class SetpointStream {
  public:
@@ -42,4 +42,4 @@ class SetpointStream {
   std::optional<double> ttl_s_;    // of that goal
 };
 
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -5,10 +5,10 @@
 #include "firmware_like/drive/cia402.hpp"
 #include "firmware_like/drive/pdo.hpp"
 #include "firmware_like/safety/faults.hpp"
-#include "host/control/server/host_trouble.hpp"
+#include "host/control/server/host_warning.hpp"
 #include "host/control/verification/refusal_table.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 namespace {
 
@@ -29,8 +29,8 @@ Json faults_json(const FaultList& list) {
 }
 
 // Of drives that did not boot: the core has not run, and knows nothing of them. The text is about this drive.
-void add_boot_faults(Json& state, const std::vector<control::BootProblem>& problems) {
-  for (const control::BootProblem& problem : problems) {
+void add_boot_faults(Json& state, const std::vector<realtime::BootProblem>& problems) {
+  for (const realtime::BootProblem& problem : problems) {
     const FaultInfo& info = fault_info(problem.number);
     state["faults"].push_back({{"number", static_cast<int>(problem.number)},
                                {"name", info.name},
@@ -53,7 +53,7 @@ Json limits_json(std::uint32_t limits) {
   return names;
 }
 
-Json drives_json(const Desk& desk, const std::vector<std::uint32_t>& serials) {
+Json drives_json(const ArmServer& desk, const std::vector<std::uint32_t>& serials) {
   Json drives = Json::array();
   for (std::size_t i = 0; i < desk.drive_count(); ++i) {
     Json drive{{"node", node_of_drive(i)},
@@ -66,8 +66,8 @@ Json drives_json(const Desk& desk, const std::vector<std::uint32_t>& serials) {
   return drives;
 }
 
-Json buses_json(const config::BusesConfig& buses, const Desk& desk) {
-  const control::CycleReport& report = desk.report();
+Json buses_json(const config::BusesConfig& buses, const ArmServer& desk) {
+  const realtime::TickStatus& report = desk.report();
   const double time_s = static_cast<double>(report.next_tick) * buses.tick_s();
   Json list = Json::array();
   for (std::size_t b = 0; b < buses.buses.size(); ++b) {
@@ -97,17 +97,17 @@ Json stop_json(const EmergencyStop& stop) {
 
 // When the samples were taken (the device's clock), and when the command was released and comes into force (arm time).
 Json made_of_json(const Notes& notes, double tick_s) {
-  if (!notes.verdict.made_of) return nullptr;
-  return {{"newest_us", notes.verdict.made_of->newest_us},
-          {"oldest_us", notes.verdict.made_of->oldest_us},
+  if (!notes.verdict.source_stamp) return nullptr;
+  return {{"newest_us", notes.verdict.source_stamp->newest_us},
+          {"oldest_us", notes.verdict.source_stamp->oldest_us},
           {"released_s", 1e-6 * static_cast<double>(notes.verdict_us)},
           {"in_force_s", static_cast<double>(notes.verdict.first_tick) * tick_s}};
 }
 
 Json verdict_json(const Notes& notes, double tick_s) {
   const LastVerdict& v = notes.verdict;
-  const verify::RefusalRow& row = verify::row_of(v.worst.code);
-  const verify::Margins& m = v.worst.margins;
+  const verification::RefusalRow& row = verification::row_of(v.worst.code);
+  const verification::Margins& m = v.worst.margins;
   return {{"sequence", v.sequence},
           {"released", v.released},
           {"code", static_cast<int>(v.worst.code)},
@@ -130,16 +130,16 @@ Json events_json(const std::deque<event::Event>& events) {
 
 }  // namespace
 
-const char* state_name(const Desk& desk) {
+const char* state_name(const ArmServer& desk) {
   static constexpr std::array<const char*, 5> kNames{"DISABLED", "ENABLING", "ENABLED", "STOPPING", "FAULT"};
-  if (desk.report().boot == control::BootPhase::kBooting) return "BOOTING";
-  if (desk.report().boot == control::BootPhase::kFailed) return "FAULT";
+  if (desk.report().boot == realtime::BootPhase::kBooting) return "BOOTING";
+  if (desk.report().boot == realtime::BootPhase::kFailed) return "FAULT";
   return kNames[static_cast<std::size_t>(desk.outputs().state)];
 }
 
-Json state_message(const config::BusesConfig& buses, const Desk& desk, const Owner& owner, const Notes& notes,
+Json state_message(const config::BusesConfig& buses, const ArmServer& desk, const Owner& owner, const Notes& notes,
                    const std::deque<event::Event>& events) {
-  const control::CycleReport& report = desk.report();
+  const realtime::TickStatus& report = desk.report();
   const CycleOutputs& o = desk.outputs();
   Json state{{"op", "state"},
              {"tick", report.next_tick},
@@ -170,4 +170,4 @@ Json state_message(const config::BusesConfig& buses, const Desk& desk, const Own
   return state;
 }
 
-}  // namespace liana::daemon
+}  // namespace liana::server

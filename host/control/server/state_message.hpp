@@ -9,13 +9,13 @@
 
 #include "host/base/event/event.hpp"
 #include "host/base/json/json.hpp"
-#include "host/control/server/desk.hpp"
+#include "host/control/server/arm_server.hpp"
 #include "host/control/server/emergency_stop.hpp"
 #include "host/control/server/owner.hpp"
 #include "host/control/server/tip_tool.hpp"
 #include "host/model/config/config.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 // What the service adds to the arm's own report.
 struct Notes {
@@ -25,7 +25,7 @@ struct Notes {
   LastVerdict verdict{};
   std::int64_t verdict_us = 0;  // arm time at which it was given
   std::uint64_t refusals = 0, refused_motions = 0;
-  std::vector<control::BootProblem> boot_problems;  // faults of drives that did not boot
+  std::vector<realtime::BootProblem> boot_problems;  // faults of drives that did not boot
   EmergencyStop stop;
   TipTool tool;
   bool stopping = false;
@@ -34,10 +34,10 @@ struct Notes {
 };
 
 // Name of the operating state in the API.
-const char* state_name(const Desk& desk);
+const char* state_name(const ArmServer& desk);
 
 // The whole message; `events`: those it shows.
-Json state_message(const config::BusesConfig& buses, const Desk& desk, const Owner& owner, const Notes& notes,
+Json state_message(const config::BusesConfig& buses, const ArmServer& desk, const Owner& owner, const Notes& notes,
                    const std::deque<event::Event>& events);
 
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -3,9 +3,9 @@
 
 #include "firmware_like/math/pose.hpp"
 #include "host/base/json/json.hpp"
-#include "host/control/arbiter/way_news.hpp"
+#include "host/control/arbiter/retract_events.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 constexpr double in_degrees(double rad) { return rad * 57.29577951308232; }
 
@@ -33,4 +33,4 @@ void add_tip(Json& state, const Outputs& o) {
                  {"residual_rad", {o.ik_residual[3], o.ik_residual[4], o.ik_residual[5]}}};
 }
 
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-namespace liana::daemon {
+namespace liana::server {
 
-std::optional<std::uint32_t> TickWatch::longest_us(const control::LatencyCounts& now) {
+std::optional<std::uint32_t> TickWatch::longest_us(const realtime::LatencyCounts& now) {
   const bool is_reset = !std::ranges::equal(now.count, seen_.count, std::ranges::greater_equal{});
   if (is_reset) seen_ = {};
   std::optional<std::uint32_t> longest_us;
@@ -15,4 +15,4 @@ std::optional<std::uint32_t> TickWatch::longest_us(const control::LatencyCounts&
   return longest_us;
 }
 
-}  // namespace liana::daemon
+}  // namespace liana::server

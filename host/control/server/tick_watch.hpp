@@ -6,16 +6,16 @@
 
 #include "host/control/realtime/latency_histogram.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 class TickWatch {
  public:
   // Of what was counted since the last look [us], rounded down; kLatencyBuckets for all that took so long or longer.
   // Nothing where no tick was counted. Counts that went back were reset meanwhile.
-  std::optional<std::uint32_t> longest_us(const control::LatencyCounts& now);
+  std::optional<std::uint32_t> longest_us(const realtime::LatencyCounts& now);
 
  private:
-  control::LatencyCounts seen_;
+  realtime::LatencyCounts seen_;
 };
 
-}  // namespace liana::daemon
+}  // namespace liana::server

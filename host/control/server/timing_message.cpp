@@ -2,11 +2,11 @@
 
 #include "host/base/json/json.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 namespace {
 
-Json times_json(const control::LatencyCounts& counts) {
+Json times_json(const realtime::LatencyCounts& counts) {
   Json buckets = Json::array();
   for (std::size_t i = 0; i < counts.count.size(); ++i) {
     if (counts.count[i] > 0) buckets.push_back({i, counts.count[i]});
@@ -19,8 +19,8 @@ Json times_json(const control::LatencyCounts& counts) {
 
 }  // namespace
 
-Json timing_message(const control::LatencyCounts& wakeup, const control::LatencyCounts& tick,
-                    const control::Overruns& overruns) {
+Json timing_message(const realtime::LatencyCounts& wakeup, const realtime::LatencyCounts& tick,
+                    const realtime::Overruns& overruns) {
   return {{"ticks", tick.total()},
           {"wakeup_us", times_json(wakeup)},
           {"tick_us", times_json(tick)},
@@ -32,4 +32,4 @@ Json timing_message(const control::LatencyCounts& wakeup, const control::Latency
             {"lost_ticks", overruns.lost_ticks}}}};
 }
 
-}  // namespace liana::daemon
+}  // namespace liana::server

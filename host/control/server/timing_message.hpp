@@ -5,10 +5,10 @@
 #include "host/control/realtime/latency_histogram.hpp"
 #include "host/control/realtime/link.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 // `overruns`: those of the same time as the counts. At most 64 KiB as text up to 9 999 999 ticks in every bucket.
-Json timing_message(const control::LatencyCounts& wakeup, const control::LatencyCounts& tick,
-                    const control::Overruns& overruns);
+Json timing_message(const realtime::LatencyCounts& wakeup, const realtime::LatencyCounts& tick,
+                    const realtime::Overruns& overruns);
 
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -5,7 +5,7 @@
 #include "host/api/server/request_error.hpp"
 #include "host/control/server/emergency_stop.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 Json TipTool::ask(const std::string& command, double time_s, bool is_connected) {
   if (!is_connected)
@@ -54,4 +54,4 @@ Json TipTool::json() const {
   return {{"number", number_}, {"command", command_}, {"phase", phase_}, {"reason", reason_}};
 }
 
-}  // namespace liana::daemon
+}  // namespace liana::server

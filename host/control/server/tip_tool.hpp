@@ -10,7 +10,7 @@
 #include "host/base/event/event.hpp"
 #include "host/base/json/json.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 class TipTool {
  public:
@@ -46,4 +46,4 @@ class TipTool {
   std::deque<Word> heard_;
 };
 
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -8,7 +8,7 @@
 #include "host/control/realtime/last_stop.hpp"
 #include "host/control/realtime/realtime.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 namespace {
 
@@ -42,7 +42,7 @@ bool alternate(Service& service, const Ticks& ticks, const Signalled& signalled)
 }
 
 // The service runs once per command interval, when the real-time thread has published its image.
-void serve_beside(const control::ThreadEnd& realtime, Service& service, const Signalled& signalled) {
+void serve_beside(const realtime::ThreadResult& realtime, Service& service, const Signalled& signalled) {
   while (!realtime.over && !service.finished()) {
     if (signalled()) service.begin_shutdown("signal");
     if (service.interval_began()) service.cycle();
@@ -62,8 +62,8 @@ bool run_lockstep(Service& service, const Ticks& ticks, const Signalled& signall
 }
 
 bool run_real(Service& service, const Ticks& ticks, const Signalled& signalled) {
-  control::ThreadEnd end;
-  const std::jthread realtime = control::start_realtime(
+  realtime::ThreadResult end;
+  const std::jthread realtime = realtime::start_realtime(
       [&ticks](const std::stop_token& stop) {
         while (!stop.stop_requested() && ticks.run_tick()) {
         }
@@ -81,8 +81,8 @@ bool run_real(Service& service, const Ticks& ticks, const Signalled& signalled) 
   if (!end.over || end.problem.empty()) return service.finished();
   // Without ticks the drives hear nothing more and stop by themselves.
   service.stop_by_itself("the real-time thread failed: " + end.problem);
-  service.take_leave();
+  service.flush_and_close();
   end_after_stop("the real-time thread", end.problem);
 }
 
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -5,7 +5,7 @@
 
 #include "host/control/server/service.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 // The real-time side, whatever the arm.
 struct Ticks {
@@ -24,4 +24,4 @@ bool run_lockstep(Service& service, const Ticks& ticks, const Signalled& signall
 // Real time: two threads, each of which ends the motion when the other one fails; then as run_lockstep.
 bool run_real(Service& service, const Ticks& ticks, const Signalled& signalled);
 
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -4,13 +4,13 @@
 
 #include "firmware_like/serial/drive_units.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 
 namespace {
 
 constexpr double kPushBeyond_m = 0.001;  // a push that ends at its bound has stopped within this
 
-void judge_tension(const cable::RobotTable& table, const cable::Outputs& outputs, Judge& judge) {
+void judge_tension(const cable::RobotParams& table, const cable::Outputs& outputs, Judge& judge) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.cable_count()); ++i) {
     const double tension_N = outputs.tension_plan_N[i];
     judge.check(Refusal::kTension, "planned tension of cable", kNewtons, static_cast<int>(i), tension_N,
@@ -20,8 +20,8 @@ void judge_tension(const cable::RobotTable& table, const cable::Outputs& outputs
   }
 }
 
-void judge_push(const serial::TorqueTable& most, const serial::PushReport& push, Judge& judge) {
-  if (push.phase == serial::PushPhase::kNone || push.phase == serial::PushPhase::kYielding) return;
+void judge_push(const serial::TorqueParams& most, const serial::InsertStatus& push, Judge& judge) {
+  if (push.phase == serial::InsertPhase::kNone || push.phase == serial::InsertPhase::kYielding) return;
   judge.check(Refusal::kPushTube, "way of the push along its axis", kMillimetres, -1, push.travel_m,
               most.most_travel_m + kPushBeyond_m);
   judge.check(Refusal::kPushTube, "way of the push beside its axis", kMillimetres, -1, push.aside_m,
@@ -31,7 +31,7 @@ void judge_push(const serial::TorqueTable& most, const serial::PushReport& push,
 
 }  // namespace
 
-void judge_targets(const cable::RobotTable& table, const cable::Outputs* before, const cable::Outputs& after,
+void judge_targets(const cable::RobotParams& table, const cable::Outputs* before, const cable::Outputs& after,
                    Judge& judge) {
   judge_tension(table, after, judge);
   if (before == nullptr) return;
@@ -42,7 +42,7 @@ void judge_targets(const cable::RobotTable& table, const cable::Outputs* before,
   }
 }
 
-void judge_targets(const serial::RobotTable& table, const serial::Outputs* before, const serial::Outputs& after,
+void judge_targets(const serial::RobotParams& table, const serial::Outputs* before, const serial::Outputs& after,
                    Judge& judge) {
   if (before == nullptr) return;
   for (std::size_t i = 0; i < table.joints(); ++i) {
@@ -52,7 +52,7 @@ void judge_targets(const serial::RobotTable& table, const serial::Outputs* befor
   }
 }
 
-void judge_joints(const cable::RobotTable& table, const cable::Outputs& first, const cable::Outputs& outputs,
+void judge_joints(const cable::RobotParams& table, const cable::Outputs& first, const cable::Outputs& outputs,
                   Judge& judge) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
     const double from_rad = std::fabs(first.theta_command_rad[i]);
@@ -64,10 +64,10 @@ void judge_joints(const cable::RobotTable& table, const cable::Outputs& first, c
 }
 
 // A range need not be symmetric: what counts is the distance from its middle.
-void judge_joints(const serial::RobotTable& table, const serial::Outputs&, const serial::Outputs& outputs,
+void judge_joints(const serial::RobotParams& table, const serial::Outputs&, const serial::Outputs& outputs,
                   Judge& judge) {
   for (std::size_t i = 0; i < table.joints(); ++i) {
-    const serial::JointTable& joint = table.joint[i];
+    const serial::JointParams& joint = table.joint[i];
     judge.check(Refusal::kJointAngle, "angle from the middle of its range of joint", kDegrees, static_cast<int>(i),
                 outputs.joint_command_rad[i] - 0.5 * (joint.low_rad + joint.high_rad),
                 0.5 * (joint.high_rad - joint.low_rad));
@@ -77,4 +77,4 @@ void judge_joints(const serial::RobotTable& table, const serial::Outputs&, const
   judge_push(table.torque, outputs.push, judge);
 }
 
-}  // namespace liana::verify
+}  // namespace liana::verification

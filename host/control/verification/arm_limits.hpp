@@ -5,21 +5,21 @@
 #include "firmware_like/serial_controller.hpp"
 #include "host/control/verification/judge.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 
 // Execution: a tick's planned forces, and its targets against those of the tick before (nullptr: there is none).
-void judge_targets(const cable::RobotTable& table, const cable::Outputs* before, const cable::Outputs& after,
+void judge_targets(const cable::RobotParams& table, const cable::Outputs* before, const cable::Outputs& after,
                    Judge& judge);
-void judge_targets(const serial::RobotTable& table, const serial::Outputs* before, const serial::Outputs& after,
+void judge_targets(const serial::RobotParams& table, const serial::Outputs* before, const serial::Outputs& after,
                    Judge& judge);
 
 // Motion: angles in their ranges, rates within the limits; of a serial arm that pushes, the tube of the robot's table:
 // how far along the axis and beside it, and the set force. (The push's own, narrower tube is the core's: it ends the
 // push by name.)
 // A cable arm that stands beyond a range already, as of `first`, goes no further out.
-void judge_joints(const cable::RobotTable& table, const cable::Outputs& first, const cable::Outputs& outputs,
+void judge_joints(const cable::RobotParams& table, const cable::Outputs& first, const cable::Outputs& outputs,
                   Judge& judge);
-void judge_joints(const serial::RobotTable& table, const serial::Outputs& first, const serial::Outputs& outputs,
+void judge_joints(const serial::RobotParams& table, const serial::Outputs& first, const serial::Outputs& outputs,
                   Judge& judge);
 
 // The tip's own limits.
@@ -27,9 +27,9 @@ struct TipRates {
   double speed_m_s = 0.0;
   double rate_rad_s = 0.0;
 };
-inline TipRates tip_rates(const cable::RobotTable& table) {
+inline TipRates tip_rates(const cable::RobotParams& table) {
   return {table.limits.tip_speed_m_s, table.limits.tip_rate_rad_s};
 }
-inline TipRates tip_rates(const serial::RobotTable& table) { return {table.tip.speed_m_s, table.tip.rate_rad_s}; }
+inline TipRates tip_rates(const serial::RobotParams& table) { return {table.tip.speed_m_s, table.tip.rate_rad_s}; }
 
-}  // namespace liana::verify
+}  // namespace liana::verification

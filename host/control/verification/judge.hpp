@@ -8,7 +8,7 @@
 #include "firmware_like/math/trig.hpp"
 #include "host/control/verification/verdict.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 
 constexpr double kRounding = 1.0 + 1e-6;  // limits that the limiter reaches exactly
 
@@ -76,4 +76,4 @@ class Judge {
   Pass tightest_;
 };
 
-}  // namespace liana::verify
+}  // namespace liana::verification

@@ -6,23 +6,23 @@
 
 #include "host/model/clearance/clearance.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 
 namespace {
 
 constexpr double kRounded_m = 1e-6;
 
-First at_scene(const config::SceneConfig& scene, const simulate::Nearest& nearest, const LinkName& link_name) {
+First at_scene(const config::SceneConfig& scene, const simulation::Nearest& nearest, const LinkName& link_name) {
   if (nearest.link < 0) return {};
   return {clearance::obstacle_name(scene, nearest.other) + " (" + link_name(nearest.link) + ")", nearest.time_s};
 }
 
-First at_itself(const simulate::Nearest& nearest, const LinkName& link_name) {
+First at_itself(const simulation::Nearest& nearest, const LinkName& link_name) {
   return {link_name(nearest.other) + " (" + link_name(nearest.link) + ")", nearest.time_s};
 }
 
 // An arm that is too near already may go away; the way back out may need it to go along beside a body first.
-bool leads_away(const simulate::Distances& distances, double travel_m, const TooNear& too_near) {
+bool leads_away(const simulation::Distances& distances, double travel_m, const TooNear& too_near) {
   const double start_m = distances.scene_at_start_m, least_m = distances.scene.distance_m;
   const double end_m = distances.scene_at_end_m;
   if (!too_near.stands()) return end_m >= start_m && least_m >= start_m - kGivenAway_m;
@@ -31,15 +31,15 @@ bool leads_away(const simulate::Distances& distances, double travel_m, const Too
 }
 
 // An arm that touches a body goes into no other one, and out of all that it touches.
-const simulate::BodyBeside* entered(const simulate::Distances& distances, double prediction_m) {
-  for (const simulate::BodyBeside& body : distances.bodies) {
+const simulation::BodyBeside* entered(const simulation::Distances& distances, double prediction_m) {
+  for (const simulation::BodyBeside& body : distances.bodies) {
     if (body.nearest.distance_m < std::min(body.at_start_m, prediction_m) - kGivenAway_m) return &body;
   }
   return nullptr;
 }
 
 // An arm that touches itself, or all but does, may unfold, and no more than rounding the other way.
-bool leads_apart(const simulate::Distances& distances) {
+bool leads_apart(const simulation::Distances& distances) {
   const double start_m = distances.self_at_start_m;
   return distances.self_at_end_m >= start_m - kRounded_m && distances.self.distance_m >= start_m - kGivenAway_m;
 }
@@ -49,8 +49,8 @@ bool leads_apart(const simulate::Distances& distances) {
 void TooNear::stand(double distance_m) {
   const double kept_m = distance_m - kGivenAway_m;
   farthest_m_ = stands_ ? std::max(distance_m, farthest_m_) : distance_m;
-  least_m_ = stands_ ? std::max(least_m_, kept_m) : kept_m;
-  if (was_refused_) least_m_ = std::max(std::min(least_m_, distance_m - kCreptDip_m), farthest_m_ - kMostCrept_m);
+  min_m_ = stands_ ? std::max(min_m_, kept_m) : kept_m;
+  if (was_refused_) min_m_ = std::max(std::min(min_m_, distance_m - kCreptDip_m), farthest_m_ - kMostCrept_m);
   stands_ = true;
   was_refused_ = false;
 }
@@ -70,8 +70,8 @@ void refuse(SimulationVerdict& verdict, Refusal code, const std::string& text, c
 }
 
 // Before anything else: a contact is what a command is stopped for.
-void judge_distances(const config::SceneConfig& scene, const simulate::Distances& distances, const LinkName& link_name,
-                     double travel_m, TooNear& too_near, SimulationVerdict& verdict) {
+void judge_distances(const config::SceneConfig& scene, const simulation::Distances& distances,
+                     const LinkName& link_name, double travel_m, TooNear& too_near, SimulationVerdict& verdict) {
   const config::SceneMargins& levels = scene.margins;
   const double least_m = distances.scene.distance_m, start_m = distances.scene_at_start_m;
   const double claimed_m = least_m - levels.prediction_m;
@@ -91,7 +91,7 @@ void judge_distances(const config::SceneConfig& scene, const simulate::Distances
   };
   if (!std::isfinite(least_m) || (claimed_m < levels.refuse_m && !leads_away(distances, travel_m, too_near))) {
     refuse_contact(least_m, start_m, first);
-  } else if (const simulate::BodyBeside* body = entered(distances, levels.prediction_m)) {
+  } else if (const simulation::BodyBeside* body = entered(distances, levels.prediction_m)) {
     refuse_contact(body->nearest.distance_m, body->at_start_m, at_scene(scene, body->nearest, link_name));
   } else if (!(distances.self.distance_m > 0.0)) {
     const First self = at_itself(distances.self, link_name);
@@ -102,4 +102,4 @@ void judge_distances(const config::SceneConfig& scene, const simulate::Distances
   }
 }
 
-}  // namespace liana::verify
+}  // namespace liana::verification

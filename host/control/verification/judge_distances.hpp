@@ -7,7 +7,7 @@
 #include "host/control/verification/verdict.hpp"
 #include "host/model/simulation/motion.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 
 // What the bound between poses and the noise of a measured pose may give away.
 constexpr double kGivenAway_m = 1e-3;
@@ -35,10 +35,10 @@ class TooNear {
   void refused() { was_refused_ = true; }
   bool stands() const { return stands_; }
   // Nothing of a motion may be nearer than that.
-  double least_m() const { return least_m_; }
+  double least_m() const { return min_m_; }
 
  private:
-  double farthest_m_ = 0.0, least_m_ = 0.0;
+  double farthest_m_ = 0.0, min_m_ = 0.0;
   bool stands_ = false, was_refused_ = false;
 };
 
@@ -51,12 +51,12 @@ std::string plain_link_name(std::int32_t link);
 // Refuses contact with the scene (208) and with itself (209); sets `slowly`, margins.clearance_m and where the arm
 // comes nearest. `travel_m`: the farthest that any point of the arm is moved. `too_near`: of all motions of this arm in
 // turn.
-void judge_distances(const config::SceneConfig& scene, const simulate::Distances& distances, const LinkName& link_name,
-                     double travel_m, TooNear& too_near, SimulationVerdict& verdict);
+void judge_distances(const config::SceneConfig& scene, const simulation::Distances& distances,
+                     const LinkName& link_name, double travel_m, TooNear& too_near, SimulationVerdict& verdict);
 
 // Of what is refused: why, and what comes first.
 void refuse(SimulationVerdict& verdict, Refusal code, const std::string& text, const First& first);
 
 std::string in_millimetres(double distance_m);
 
-}  // namespace liana::verify
+}  // namespace liana::verification

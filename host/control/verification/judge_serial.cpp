@@ -5,7 +5,7 @@
 #include "firmware_like/math/trig.hpp"
 #include "host/control/verification/judge.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 
 namespace {
 
@@ -13,16 +13,16 @@ using Index = std::size_t;
 
 constexpr double kMeanRate = 1.01;   // rates of rows are means over an interval of what the twin did in ticks
 constexpr double kCatchingUp = 1.5;  // times the tip's limit
-constexpr double kMostMargin = 1e3;  // [deg, deg/s] before anything was looked at
+constexpr double kMaxMargin = 1e3;   // [deg, deg/s] before anything was looked at
 
 // Angles and rates that the drives are told.
-void judge_told(const serial::RobotTable& table, const simulate::ToldRows<serial::JointVector>& told, Judge& judge,
+void judge_told(const serial::RobotParams& table, const simulation::ToldRows<serial::JointVector>& told, Judge& judge,
                 SimulationVerdict& verdict) {
-  double& angle_deg = verdict.margins.joint_deg = kMostMargin;
-  double& rate_deg_s = verdict.margins.rate_deg_s = kMostMargin;
+  double& angle_deg = verdict.margins.joint_deg = kMaxMargin;
+  double& rate_deg_s = verdict.margins.rate_deg_s = kMaxMargin;
   for (Index row = 0; row < told.rows_rad.size(); ++row) {
     for (Index i = 0; i < table.joints(); ++i) {
-      const serial::JointTable& joint = table.joint[i];
+      const serial::JointParams& joint = table.joint[i];
       const double now_rad = told.rows_rad[row][i], before_rad = told.rows_rad[row > 0 ? row - 1 : 0][i];
       const double middle_rad = 0.5 * (joint.low_rad + joint.high_rad);
       const double room_rad = 0.5 * (joint.high_rad - joint.low_rad);
@@ -40,8 +40,8 @@ void judge_told(const serial::RobotTable& table, const simulate::ToldRows<serial
   }
 }
 
-void judge_tip(const serial::RobotTable& table, const simulate::SerialMotion& motion, double interval_s, Judge& judge,
-               SimulationVerdict& verdict) {
+void judge_tip(const serial::RobotParams& table, const simulation::SerialMotion& motion, double interval_s,
+               Judge& judge, SimulationVerdict& verdict) {
   const std::vector<Vec3>& tip_m = motion.tip_in_base_m;
   for (Index row = 1; row < tip_m.size() && verdict.passed(); ++row) {
     judge.check(Refusal::kTipSpeed, "simulated tip speed", kMetresPerSecond, -1,
@@ -52,8 +52,8 @@ void judge_tip(const serial::RobotTable& table, const simulate::SerialMotion& mo
 
 }  // namespace
 
-void judge_serial(const serial::RobotTable& table, const simulate::SerialSimulation& simulation,
-                  const simulate::ToldRows<serial::JointVector>& told, const simulate::SerialMotion& motion,
+void judge_serial(const serial::RobotParams& table, const simulation::SerialSimulation& simulation,
+                  const simulation::ToldRows<serial::JointVector>& told, const simulation::SerialMotion& motion,
                   TooNear& too_near, SimulationVerdict& verdict) {
   const double clearance_unknown_m = verdict.margins.clearance_m;
   const std::vector<Vec3>& tip_m = motion.tip_in_base_m;
@@ -72,4 +72,4 @@ void judge_serial(const serial::RobotTable& table, const simulate::SerialSimulat
   if (verdict.first.body.empty()) verdict.first = nearest;
 }
 
-}  // namespace liana::verify
+}  // namespace liana::verification

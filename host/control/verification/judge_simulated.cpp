@@ -9,12 +9,12 @@
 #include "host/control/verification/tick_time.hpp"
 #include "host/control/virtual_fixtures/forbidden.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 
 namespace {
 
 using Index = std::size_t;
-using simulate::Moment;
+using simulation::Moment;
 
 constexpr double kEvenRate = 1.01;  // rates of the sequence are means over an interval of what the twin did in ticks
 constexpr double kTipLead = 1.05;   // the same allowance as the execution end's
@@ -27,12 +27,12 @@ class MomentJudge {
   MomentJudge(const MotionRules& rules, SimulationVerdict& verdict)
       : table_(rules.table), zone_(rules.zone), verdict_(verdict), judge_(verdict) {}
 
-  void told(const simulate::JointSequence& sequence) {
+  void told(const simulation::JointSequence& sequence) {
     for (Index row = 0; row < sequence.rows_rad.size(); ++row) {
       const cable::ThetaVector& now = sequence.rows_rad[row];
       const cable::ThetaVector& before = sequence.rows_rad[row > 0 ? row - 1 : 0];
       for (Index k = 0; k < thetas(); ++k) {
-        const double limit_rad = most_rad(sequence, k);
+        const double limit_rad = max_rad(sequence, k);
         const double rate_rad_s = (now[k] - before[k]) / sequence.interval_s;
         judge_.check(Refusal::kJointAngle, "theta", kDegrees, static_cast<int>(k), now[k], limit_rad);
         judge_.check(Refusal::kJointRate, "rate of theta", kDegreesPerSecond, static_cast<int>(k), rate_rad_s,
@@ -44,7 +44,7 @@ class MomentJudge {
     }
   }
 
-  void told_tip(const simulate::Motion& motion, double interval_s) {
+  void told_tip(const simulation::Motion& motion, double interval_s) {
     const std::vector<Vec3>& tip_m = motion.told_tip_in_base_m;
     for (Index row = 1; row < tip_m.size(); ++row) {
       judge_.check(Refusal::kTipSpeed, "tip speed", kMetresPerSecond, -1,
@@ -54,11 +54,11 @@ class MomentJudge {
     }
   }
 
-  void simulated(const simulate::JointSequence& sequence, const simulate::Motion& motion) {
+  void simulated(const simulation::JointSequence& sequence, const simulation::Motion& motion) {
     for (const Moment& moment : motion.moments) {
       joints(sequence, motion, moment);
       nodes(moment);
-      cables(moment, motion.least_passed_share);
+      cables(moment, motion.min_passed_share);
     }
   }
 
@@ -70,16 +70,16 @@ class MomentJudge {
   static void least(double& margin, double value) { margin = std::fmin(margin, value); }
 
   // An arm that stands beyond a range already goes no further out.
-  double most_rad(const simulate::JointSequence& sequence, Index k) const {
+  double max_rad(const simulation::JointSequence& sequence, Index k) const {
     return std::fmax(table_.segment[k / 2].theta_limit_rad, std::fabs(sequence.rows_rad.front()[k]));
   }
 
-  void joints(const simulate::JointSequence& sequence, const simulate::Motion& motion, const Moment& moment) {
+  void joints(const simulation::JointSequence& sequence, const simulation::Motion& motion, const Moment& moment) {
     for (Index k = 0; k < thetas(); ++k) {
       const double stands_rad = std::fabs(motion.moments.front().theta_rad[k]);
       judge_.check(Refusal::kJointAngle, "simulated theta", kDegrees, static_cast<int>(k),
                    std::fabs(moment.theta_rad[k]) + motion.friction_band_rad[k],
-                   std::fmax(most_rad(sequence, k), stands_rad) + kSwingAngle_rad);
+                   std::fmax(max_rad(sequence, k), stands_rad) + kSwingAngle_rad);
       judge_.check(Refusal::kJointRate, "simulated rate of theta", kDegreesPerSecond, static_cast<int>(k),
                    moment.rate_rad_s[k], kSwingRate * table_.limits.theta_rate_rad_s);
       note("theta", k, moment.time_s);
@@ -132,14 +132,14 @@ class MomentJudge {
     verdict_.first = {index == kNoIndex ? what : numbered(what, index), time_s};
   }
 
-  const cable::RobotTable& table_;
+  const cable::RobotParams& table_;
   const arbiter::SpeedZone& zone_;
   SimulationVerdict& verdict_;
   Judge judge_;
 };
 
 // The farthest that any node is moved.
-double travel_m(const cable::RobotTable& table, const simulate::Motion& motion) {
+double travel_m(const cable::RobotParams& table, const simulation::Motion& motion) {
   double most_m = 0.0;
   if (motion.moments.empty()) return most_m;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
@@ -152,14 +152,14 @@ double travel_m(const cable::RobotTable& table, const simulate::Motion& motion) 
 // When the tip passes a wall of the fixture from between them, and by how much; nothing where it does not. A tip that
 // is beyond a wall already may go back, and by what the noise of a measured pose gives away no farther; one in the room
 // behind a wall, where it came past none, is no concern of theirs.
-void judge_walls(const MotionRules& rules, const config::SceneFixture& walls, const simulate::Motion& motion,
+void judge_walls(const MotionRules& rules, const config::SceneFixture& walls, const simulation::Motion& motion,
                  SimulationVerdict& verdict) {
   const auto tip = static_cast<Index>(rules.table.segment_count - 1);
   double allowed_m = 0.0;
   bool was_between = false;
   for (const Moment& moment : motion.moments) {
     const auto beyond =
-        fixture::beyond_walls(walls, rules.arm_radius_m, rules.drawing_in_base, moment.node_in_base_m[tip]);
+        virtual_fixtures::beyond_walls(walls, rules.arm_radius_m, rules.drawing_in_base, moment.node_in_base_m[tip]);
     const bool concerns = beyond && (was_between || beyond->is_between);
     was_between = concerns;
     if (!concerns) continue;
@@ -174,8 +174,8 @@ void judge_walls(const MotionRules& rules, const config::SceneFixture& walls, co
 
 }  // namespace
 
-SimulationVerdict judge_simulated(const MotionRules& rules, const simulate::JointSequence& sequence, bool comes_to_rest,
-                                  const simulate::Motion& motion, TooNear& too_near) {
+SimulationVerdict judge_simulated(const MotionRules& rules, const simulation::JointSequence& sequence,
+                                  bool comes_to_rest, const simulation::Motion& motion, TooNear& too_near) {
   SimulationVerdict verdict;
   if (!motion.solved) {
     refuse(verdict, Refusal::kNotFinite, "the simulated arm's equations have no solution", {});
@@ -198,4 +198,4 @@ SimulationVerdict judge_simulated(const MotionRules& rules, const simulate::Join
   return verdict;
 }
 
-}  // namespace liana::verify
+}  // namespace liana::verification

@@ -4,7 +4,7 @@
 #include "host/control/arbiter/speed_zone.hpp"
 #include "host/control/verification/judge_distances.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 
 // What is told is held against the limits as they are. What the arm makes of it swings about that, and the limits leave
 // room for the swing: these are the simulated arm's own.
@@ -16,7 +16,7 @@ constexpr double kNodeShare = 2.0;          // times the tip's limit: nodes may 
 
 // Limits of the simulation end.
 struct MotionRules {
-  cable::RobotTable table{};
+  cable::RobotParams table{};
   config::SceneConfig scene;
   arbiter::SpeedZone zone;
   config::Machine machine;    // that the controller runs on
@@ -26,7 +26,7 @@ struct MotionRules {
 
 // `comes_to_rest`: the sequence ends with the arm told to stand. `too_near`: of all motions of this arm in turn. Cost:
 // about 300 instructions a moment.
-SimulationVerdict judge_simulated(const MotionRules& rules, const simulate::JointSequence& sequence, bool comes_to_rest,
-                                  const simulate::Motion& motion, TooNear& too_near);
+SimulationVerdict judge_simulated(const MotionRules& rules, const simulation::JointSequence& sequence,
+                                  bool comes_to_rest, const simulation::Motion& motion, TooNear& too_near);
 
-}  // namespace liana::verify
+}  // namespace liana::verification

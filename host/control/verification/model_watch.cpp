@@ -2,9 +2,9 @@
 
 #include "host/control/verification/judge.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 
-void judge_model(const cable::RobotTable& table, const cable::Outputs& now, ExecutionVerdict& verdict) {
+void judge_model(const cable::RobotParams& table, const cable::Outputs& now, ExecutionVerdict& verdict) {
   if (!verdict.passed() || now.state != OperatingState::kEnabled || now.faults.count > 0) return;
   Judge judge(verdict);
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
@@ -18,4 +18,4 @@ void judge_model(const cable::RobotTable& table, const cable::Outputs& now, Exec
   }
 }
 
-}  // namespace liana::verify
+}  // namespace liana::verification

@@ -6,7 +6,7 @@
 #include "firmware_like/serial_controller.hpp"
 #include "host/control/verification/verdict.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 
 // Bands of a cable arm, 2.5 and 1.3 times what whole missions show with friction up to 0.12, declared or not.
 constexpr double kModelAngle_rad = 0.0175;  // measured against commanded theta: 1 deg
@@ -15,8 +15,8 @@ constexpr double kModelTensionShare = 0.5;  // of the planned one, added to it
 
 // Refuses (M_e 109) a verdict on predictions of a model that does not describe the arm at the start, `now`: the arm
 // holds. Where a fault is latched, that says more, and what may still move is the way back.
-void judge_model(const cable::RobotTable& table, const cable::Outputs& now, ExecutionVerdict& verdict);
+void judge_model(const cable::RobotParams& table, const cable::Outputs& now, ExecutionVerdict& verdict);
 // Serial arms have drives that follow, or a following error: nothing is refused here.
-inline void judge_model(const serial::RobotTable&, const serial::Outputs&, ExecutionVerdict&) {}
+inline void judge_model(const serial::RobotParams&, const serial::Outputs&, ExecutionVerdict&) {}
 
-}  // namespace liana::verify
+}  // namespace liana::verification

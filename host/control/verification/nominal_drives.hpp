@@ -8,7 +8,7 @@
 #include "firmware_like/drive/ideal_drive.hpp"
 #include "firmware_like/math/convert.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 
 template <class Arm>
 class NominalDrives {
@@ -36,7 +36,7 @@ class NominalDrives {
   // Before the first command of its own it is not known how the target has moved: then it has not.
   DriveFeedback next_feedback(const DriveFeedback& last, const DriveCommand& told, std::size_t i,
                               std::int16_t torque_permille) const {
-    if (!Arm::gives_torque(table_)) return ideal_feedback(last, told, torque_permille);
+    if (!Arm::is_torque_controlled(table_)) return ideal_feedback(last, told, torque_permille);
     const std::int32_t before = has_told_ ? target_before_[i] : told.target_counts;
     return ideal_torque_feedback(last, told, before, torque_permille);
   }
@@ -48,4 +48,4 @@ class NominalDrives {
   [[no_unique_address]] typename Arm::Sensors sensors_;
 };
 
-}  // namespace liana::verify
+}  // namespace liana::verification

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace liana::verify {
+namespace liana::verification {
 
 namespace {
 
@@ -152,4 +152,4 @@ std::string markdown_of(std::span<const RefusalRow> rows) {
   return text;
 }
 
-}  // namespace liana::verify
+}  // namespace liana::verification

@@ -8,7 +8,7 @@
 
 #include "host/control/verification/verdict.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 
 // Besides that the command is not released, which lets the arm come to rest along its path.
 enum class RefusalAction : std::uint8_t {
@@ -39,4 +39,4 @@ const char* refusal_action_name(RefusalAction action);
 // The table as it stands in docs/reference/refusals.md.
 std::string markdown_of(std::span<const RefusalRow> rows);
 
-}  // namespace liana::verify
+}  // namespace liana::verification

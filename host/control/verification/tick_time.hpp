@@ -7,14 +7,14 @@
 #include "host/control/verification/verdict.hpp"
 #include "host/model/config/config.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 
 // The costliest tick that the gate on instructions allows (tests/bench/gate.py: 68,000 for 15 drives), which
 // grows with the drives.
 constexpr double kTickInstructionsPerDrive = 4550.0;
 
 // What the predicted ticks leave of the time that the machine has for each of them; refuses when they take more.
-inline void judge_tick_time(const cable::RobotTable& table, const config::Machine& machine, Verdict& verdict) {
+inline void judge_tick_time(const cable::RobotParams& table, const config::Machine& machine, Verdict& verdict) {
   const double allowed_us = 1e6 * machine.tick_share * table.tick_s;
   const double taken_us = kTickInstructionsPerDrive * table.drive_count() / machine.mips;
   verdict.margins.time_us = allowed_us - taken_us;
@@ -24,4 +24,4 @@ inline void judge_tick_time(const cable::RobotTable& table, const config::Machin
                  std::to_string(static_cast<int>(allowed_us)) + " us for it";
 }
 
-}  // namespace liana::verify
+}  // namespace liana::verification

@@ -2,7 +2,7 @@
 
 #include "host/control/verification/nominal_drives.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 
 namespace {
 
@@ -11,7 +11,7 @@ template <class Arm>
 struct Copy {
   using Command = Telecommand<typename Arm::Setpoint>;
 
-  explicit Copy(const TwinImage<Arm>& start)
+  explicit Copy(const TwinSnapshot<Arm>& start)
       : controller(start.controller), drives(controller.table(), start.last_inputs), tick(start.next_tick) {}
 
   Outputs<Arm> step(const Outputs<Arm>& told, const Command& command) {
@@ -36,7 +36,7 @@ Command command_at(std::span<const Command> released, std::uint64_t tick) {
 }  // namespace
 
 template <class Arm>
-void Twin<Arm>::run(const TwinImage<Arm>& start, std::span<const Command> released, const Candidate<Arm>& candidate,
+void Twin<Arm>::run(const TwinSnapshot<Arm>& start, std::span<const Command> released, const Candidate<Arm>& candidate,
                     std::size_t max_stop_ticks, Prediction<Arm>& prediction) {
   const Outputs<Arm>& last = start.last_outputs;
   prediction.faults_before = static_cast<std::uint64_t>(last.faults.count) + last.faults.dropped;
@@ -59,4 +59,4 @@ void Twin<Arm>::run(const TwinImage<Arm>& start, std::span<const Command> releas
 template class Twin<cable::CableArm>;
 template class Twin<serial::SerialArm>;
 
-}  // namespace liana::verify
+}  // namespace liana::verification

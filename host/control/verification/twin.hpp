@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "host/control/verification/release_step.hpp"
-#include "host/control/verification/twin_image.hpp"
+#include "host/control/verification/issue_step.hpp"
+#include "host/control/verification/twin_snapshot.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 
 // What the twin predicts for one candidate. Whoever predicts again and again keeps one: its memory is used anew.
 template <class Arm>
@@ -26,11 +26,11 @@ class Twin {
   // Advances a copy through what is already released, then through the candidate, then through the stop that follows
   // when nothing else comes; at most `max_stop_ticks` of it.
   // Cost: a tick of the controller for each of them, and nothing else that counts.
-  static void run(const TwinImage<Arm>& start, std::span<const Command> released, const Candidate<Arm>& candidate,
+  static void run(const TwinSnapshot<Arm>& start, std::span<const Command> released, const Candidate<Arm>& candidate,
                   std::size_t max_stop_ticks, Prediction<Arm>& prediction);
 };
 
 extern template class Twin<cable::CableArm>;
 extern template class Twin<serial::SerialArm>;
 
-}  // namespace liana::verify
+}  // namespace liana::verification

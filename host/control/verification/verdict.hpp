@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-namespace liana::verify {
+namespace liana::verification {
 
 // Error codes M_e: 1xx what only the controller can fail at, 2xx the motion, whichever end sees it. Numbers never
 // change meaning; refusal_table.hpp says what each of them is called.
@@ -74,4 +74,4 @@ struct Verdict {
 struct ExecutionVerdict : Verdict {};
 struct SimulationVerdict : Verdict {};
 
-}  // namespace liana::verify
+}  // namespace liana::verification

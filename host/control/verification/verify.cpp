@@ -2,7 +2,7 @@
 
 #include "host/control/verification/arm_limits.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 
 namespace {
 
@@ -98,9 +98,9 @@ LIANA_JUDGE_EXECUTION(cable::CableArm);
 LIANA_JUDGE_EXECUTION(serial::SerialArm);
 #undef LIANA_JUDGE_EXECUTION
 
-template SimulationVerdict judge_motion<serial::SerialArm>(const serial::RobotTable&,
+template SimulationVerdict judge_motion<serial::SerialArm>(const serial::RobotParams&,
                                                            const Candidate<serial::SerialArm>&,
                                                            const Prediction<serial::SerialArm>&,
                                                            const arbiter::SpeedZone&);
 
-}  // namespace liana::verify
+}  // namespace liana::verification

@@ -5,7 +5,7 @@
 #include "host/control/verification/twin.hpp"
 #include "host/control/verification/verdict.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 
 // Longest stop that is accepted: full speed to rest takes about 2 s with the limits of the arm (v/a + a/j + filter
 // lag).
@@ -30,4 +30,4 @@ SimulationVerdict judge_motion(const typename Arm::Table& table, const Candidate
 // has reached).
 void judge_time(std::uint64_t first_tick, std::uint64_t ticks_done, ExecutionVerdict& verdict);
 
-}  // namespace liana::verify
+}  // namespace liana::verification

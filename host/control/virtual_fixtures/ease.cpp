@@ -7,7 +7,7 @@
 
 #include "host/base/eigen/thetas.hpp"
 
-namespace liana::fixture {
+namespace liana::virtual_fixtures {
 namespace {
 
 using Index = std::size_t;
@@ -19,18 +19,18 @@ constexpr double kLookAhead_rad = 0.003;  // how far the motion is followed to s
 constexpr double kLess = 1e-6;            // a change of a singular value that is one
 constexpr double kDamped = 1e-4;          // m2/rad2: directions that are all but lost ask for no wild angles
 
-Rows6 free_jacobian(const RobotTable& table, const ArmKinematics& arm, std::uint32_t held_mask) {
+Rows6 free_jacobian(const RobotParams& table, const ArmKinematics& arm, std::uint32_t held_mask) {
   Rows6 J = Rows6::Zero();
-  const Eigen::Index n = algebra::theta_count(table);
-  J.topLeftCorner(3, n) = algebra::view(arm.tip_jacobian.linear, n);
-  J.bottomLeftCorner(3, n) = algebra::view(arm.tip_jacobian.angular, n);
+  const Eigen::Index n = eigen::theta_count(table);
+  J.topLeftCorner(3, n) = eigen::view(arm.tip_jacobian.linear, n);
+  J.bottomLeftCorner(3, n) = eigen::view(arm.tip_jacobian.angular, n);
   for (Eigen::Index k = 0; k < n; ++k) {
     if ((held_mask >> k & 1u) != 0) J.col(k).setZero();
   }
   return J;
 }
 
-double least_of(const Rows6& J) {
+double min_of(const Rows6& J) {
   const Eigen::Matrix<double, 6, 6> square = J * J.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(square, Eigen::EigenvaluesOnly);
   return std::sqrt(std::max(0.0, solver.eigenvalues()[0]));
@@ -40,22 +40,22 @@ Row6 way_to(const Pose& goal, const Pose& tip) {
   const Vec3 move = subtract(goal.position_m, tip.position_m);
   const Vec3 turn = rotation_vector(multiply(goal.quaternion, conjugate(tip.quaternion)));
   Row6 way;
-  way << algebra::view(move), algebra::view(turn);
+  way << eigen::view(move), eigen::view(turn);
   return way;
 }
 
 // From 1 where there is `from` left to the least share where there is `to`.
 double share_of(double left, double to, double from) {
-  return std::clamp(kLeastShare + (1.0 - kLeastShare) * (left - to) / (from - to), kLeastShare, 1.0);
+  return std::clamp(kMinShare + (1.0 - kMinShare) * (left - to) / (from - to), kMinShare, 1.0);
 }
 
 }  // namespace
 
-double least_singular_value(const RobotTable& table, const ThetaVector& theta_rad, std::uint32_t held_mask) {
-  return least_of(free_jacobian(table, forward_kinematics(table, theta_rad), held_mask));
+double least_singular_value(const RobotParams& table, const ThetaVector& theta_rad, std::uint32_t held_mask) {
+  return min_of(free_jacobian(table, forward_kinematics(table, theta_rad), held_mask));
 }
 
-Ease ease(const RobotTable& table, const ThetaVector& theta_rad, std::uint32_t held_mask, const Pose& goal_in_base) {
+Ease ease(const RobotParams& table, const ThetaVector& theta_rad, std::uint32_t held_mask, const Pose& goal_in_base) {
   const ArmKinematics arm = forward_kinematics(table, theta_rad);
   const Row6 way = way_to(goal_in_base, arm.tip_in_base);
   if (way.norm() < kStill) return {};
@@ -74,13 +74,13 @@ Ease ease(const RobotTable& table, const ThetaVector& theta_rad, std::uint32_t h
     if (std::fabs(move_rad) < 0.05 * kLookAhead_rad || move_rad * theta_rad[k] <= 0.0) continue;  // not towards it
     const double left_rad = table.segment[k / 2].theta_limit_rad - std::fabs(theta_rad[k]);
     const double share = share_of(left_rad, 0.0, kEaseFrom_rad);
-    if (share < out.share) out = {share, EaseCause::kJointLimit, static_cast<std::int32_t>(k) + 1};
+    if (share < out.share) out = {share, SlowdownCause::kJointLimit, static_cast<std::int32_t>(k) + 1};
   }
-  const double now = least_of(J);
+  const double now = min_of(J);
   const double share = share_of(now, kEaseToSingular, kEaseFromSingular);
   if (share < out.share && least_singular_value(table, ahead_rad, held_mask) < now - kLess)
-    out = {share, EaseCause::kSingular, 0};
+    out = {share, SlowdownCause::kSingular, 0};
   return out;
 }
 
-}  // namespace liana::fixture
+}  // namespace liana::virtual_fixtures

@@ -1,6 +1,6 @@
 #include "host/control/virtual_fixtures/felt_scene.hpp"
 
-namespace liana::fixture {
+namespace liana::virtual_fixtures {
 namespace {
 
 // Where a fixture stands for commands, and nothing where it is not felt.
@@ -15,17 +15,17 @@ std::optional<Pose> felt_at(const Guidance& guidance, const config::SceneFixture
 
 }  // namespace
 
-std::vector<FeltPlane> feel_scene(const Guidance& guidance, const Vec3& tip_command_m, double room_m,
-                                  double arm_radius_m, const HandMap& map, const FeelTable& feel) {
-  std::vector<FeltPlane> out;
+std::vector<HapticPlane> feel_scene(const Guidance& guidance, const Vec3& tip_command_m, double room_m,
+                                    double arm_radius_m, const HandMap& map, const FeelTable& feel) {
+  std::vector<HapticPlane> out;
   const std::vector<config::SceneFixture>& fixtures = guidance.fixtures();
   for (std::uint32_t i = 0; i < fixtures.size(); ++i) {
     const std::optional<Pose> frame = felt_at(guidance, fixtures[i], tip_command_m);
     if (!frame) continue;
-    const auto planes = feel_planes(fixtures[i], i, *frame, room_m, arm_radius_m, map, feel);
+    const auto planes = render_planes(fixtures[i], i, *frame, room_m, arm_radius_m, map, feel);
     out.insert(out.end(), planes.begin(), planes.end());
   }
   return out;
 }
 
-}  // namespace liana::fixture
+}  // namespace liana::virtual_fixtures

@@ -1,6 +1,6 @@
 #include "host/control/virtual_fixtures/forbidden.hpp"
 
-namespace liana::fixture {
+namespace liana::virtual_fixtures {
 
 std::optional<Beyond> beyond_walls(const config::SceneFixture& fixture, double arm_radius_m,
                                    const Pose& drawing_in_base, const Vec3& tip_in_base) {
@@ -11,4 +11,4 @@ std::optional<Beyond> beyond_walls(const config::SceneFixture& fixture, double a
   return Beyond{off_m - (fixture.half_gap_m - arm_radius_m), off_m <= fixture.half_gap_m};
 }
 
-}  // namespace liana::fixture
+}  // namespace liana::virtual_fixtures

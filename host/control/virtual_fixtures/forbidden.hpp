@@ -5,7 +5,7 @@
 
 #include "host/control/virtual_fixtures/placed.hpp"
 
-namespace liana::fixture {
+namespace liana::virtual_fixtures {
 
 // Of a tip at one place.
 struct Beyond {
@@ -18,4 +18,4 @@ struct Beyond {
 std::optional<Beyond> beyond_walls(const config::SceneFixture& fixture, double arm_radius_m,
                                    const Pose& drawing_in_base, const Vec3& tip_in_base);
 
-}  // namespace liana::fixture
+}  // namespace liana::virtual_fixtures

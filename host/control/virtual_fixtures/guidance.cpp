@@ -6,7 +6,7 @@
 #include "firmware_like/math/trig.hpp"
 #include "host/model/inverse_kinematics/dof_split.hpp"
 
-namespace liana::fixture {
+namespace liana::virtual_fixtures {
 namespace {
 
 using Index = std::size_t;
@@ -14,8 +14,8 @@ using Index = std::size_t;
 constexpr double kSight_s = 2.0;         // low pass: the tip swings at 0.6 Hz about where it is led
 constexpr double kSight_m_s = 0.005;     // and no faster than this: the first picture moves the scene by millimetres
 constexpr double kSight_rad_s = 0.0035;  // 0.2 deg/s
-constexpr double kMostOff_m = 0.03;      // more than an arm that is well is off its command: no more is made up for
-constexpr double kMostOff_rad = 0.035;   // 2 deg
+constexpr double kMaxOff_m = 0.03;       // more than an arm that is well is off its command: no more is made up for
+constexpr double kMaxOff_rad = 0.035;    // 2 deg
 constexpr double kLeave_m = 0.02;        // a plane that guides does so until the tip is out of its box by this
 constexpr std::int32_t kHalvings = 6;    // of the way between two yaws: a 64th of it is nothing a hand feels
 
@@ -38,14 +38,14 @@ Pose followed(const Pose& from, const Pose& to, double dt_s) {
 
 }  // namespace
 
-std::int32_t planar_of_mask(const RobotTable& table, std::uint32_t held_mask) {
+std::int32_t planar_of_mask(const RobotParams& table, std::uint32_t held_mask) {
   std::int32_t segments = 0;
   while (segments < table.segment_count && (held_mask >> (2 * (table.segment_count - 1 - segments)) & 1u) != 0)
     ++segments;
   return segments;
 }
 
-Guidance::Guidance(const RobotTable& table, const std::vector<config::SceneFixture>& fixtures, double arm_radius_m)
+Guidance::Guidance(const RobotParams& table, const std::vector<config::SceneFixture>& fixtures, double arm_radius_m)
     : table_(table), fixtures_(fixtures), arm_radius_m_(arm_radius_m) {}
 
 bool Guidance::knows(const std::string& name) const {
@@ -58,7 +58,7 @@ bool Guidance::is_chosen(const std::string& name) const {
 
 // What is seen first is taken as it is: nobody has been guided by anything else.
 void Guidance::see(const Sight& sight, double dt_s) {
-  const Sight now{sight.drawing_in_base, no_longer(sight.off_m, kMostOff_m), no_longer(sight.off_rad, kMostOff_rad)};
+  const Sight now{sight.drawing_in_base, no_longer(sight.off_m, kMaxOff_m), no_longer(sight.off_rad, kMaxOff_rad)};
   if (!has_seen_) sight_ = now;
   has_seen_ = true;
   sight_.off_m = followed(sight_.off_m, now.off_m, kSight_m_s, dt_s);
@@ -103,14 +103,15 @@ GuidePlane Guidance::placed(const config::SceneFixture& fixture, const Commanded
 // from where the tip stands to where the hand turns it. An arm that does not fit as it stands is not held back.
 void Guidance::limit_yaw(const Pose& goal, const Commanded& now) {
   const config::SceneFixture& slit = fixtures_[*active_];
-  const solve::SlitMouth mouth{plane_->frame_in_base, slit.depth_m, slit.half_gap_m - arm_radius_m_, slit.half_width_m};
+  const inverse_kinematics::SlitMouth mouth{plane_->frame_in_base, slit.depth_m, slit.half_gap_m - arm_radius_m_,
+                                            slit.half_width_m};
   const double from = yaw_rad(*plane_, now.tip_in_base.quaternion), to = yaw_rad(*plane_, goal.quaternion);
-  solve::PlanarPart part{planar_of_mask(table_, now.held_mask), in_plane(*plane_, goal), now.theta_rad};
+  inverse_kinematics::PlanarPart part{planar_of_mask(table_, now.held_mask), in_plane(*plane_, goal), now.theta_rad};
   const auto fits_at = [&](double share) {
     GuidePlane only = *plane_;
     only.yaw_low_rad = only.yaw_high_rad = from + share * (to - from);
     part.tip_in_base = in_plane(only, goal);
-    return solve::some_yaw_fits(table_, part, mouth);
+    return inverse_kinematics::some_yaw_fits(table_, part, mouth);
   };
   yaw_limited_ = !fits_at(1.0) && fits_at(0.0);
   if (!yaw_limited_) return;
@@ -145,4 +146,4 @@ const std::string& Guidance::plane_name() const {
   return active_ ? fixtures_[*active_].name : kNone;
 }
 
-}  // namespace liana::fixture
+}  // namespace liana::virtual_fixtures

@@ -13,7 +13,7 @@
 #include "host/control/virtual_fixtures/guide.hpp"
 #include "host/control/virtual_fixtures/placed.hpp"
 
-namespace liana::fixture {
+namespace liana::virtual_fixtures {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -28,12 +28,12 @@ struct Commanded {
 using Choice = std::optional<std::vector<std::string>>;
 
 // How many segments from the tip on have their pitches held: 0, 1, 2 are 10+0, 9+1, 8+2.
-std::int32_t planar_of_mask(const RobotTable& table, std::uint32_t held_mask);
+std::int32_t planar_of_mask(const RobotParams& table, std::uint32_t held_mask);
 
 class Guidance {
  public:
   Guidance() = default;  // no fixtures: every goal is as it was
-  Guidance(const RobotTable& table, const std::vector<config::SceneFixture>& fixtures, double arm_radius_m);
+  Guidance(const RobotParams& table, const std::vector<config::SceneFixture>& fixtures, double arm_radius_m);
 
   // From the next interval on. The hand that steers feels no step.
   void choose(const Choice& names) { choice_ = names; }
@@ -43,8 +43,8 @@ class Guidance {
   bool is_chosen(const std::string& name) const;
   // Once per command interval of `dt_s`.
   void see(const Sight& sight, double dt_s);
-  // The goal to ask for in place of the hand's; once per interval while a hand steers. Two calls of solve::fits at the
-  // least, 150 where the hand turns the tip beyond its yaws.
+  // The goal to ask for in place of the hand's; once per interval while a hand steers. Two calls of
+  // inverse_kinematics::fits at the least, 150 where the hand turns the tip beyond its yaws.
   Pose guide(const Pose& goal, const Commanded& now, double dt_s);
   // Nobody steers.
   void stop();
@@ -65,7 +65,7 @@ class Guidance {
   GuidePlane placed(const config::SceneFixture& fixture, const Commanded& now) const;
   void limit_yaw(const Pose& goal, const Commanded& now);
 
-  RobotTable table_{};
+  RobotParams table_{};
   std::vector<config::SceneFixture> fixtures_;
   double arm_radius_m_ = 0.0;
   Choice choice_;
@@ -78,4 +78,4 @@ class Guidance {
   bool yaw_limited_ = false;
 };
 
-}  // namespace liana::fixture
+}  // namespace liana::virtual_fixtures

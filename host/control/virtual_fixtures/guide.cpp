@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace liana::fixture {
+namespace liana::virtual_fixtures {
 namespace {
 
 constexpr double kRise_s = 1.0;  // from standing to the most
@@ -41,4 +41,4 @@ void Guide::stop() {
   bump_m_ = bump_rad_ = {};
 }
 
-}  // namespace liana::fixture
+}  // namespace liana::virtual_fixtures

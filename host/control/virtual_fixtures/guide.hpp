@@ -6,7 +6,7 @@
 
 #include "host/control/virtual_fixtures/guide_plane.hpp"
 
-namespace liana::fixture {
+namespace liana::virtual_fixtures {
 
 // How fast a bump bleeds away at most, what that speed rises by in a second, and how slowly it ends. A tip that is led
 // aside by 5 mm/s from one interval to the next swings beyond its speed in the slit.
@@ -37,4 +37,4 @@ class Guide {
   double bleeds_m_s_ = 0.0, bleeds_rad_s_ = 0.0;  // now
 };
 
-}  // namespace liana::fixture
+}  // namespace liana::virtual_fixtures

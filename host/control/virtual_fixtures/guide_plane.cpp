@@ -6,18 +6,18 @@
 #include "firmware_like/math/trig.hpp"
 #include "host/control/virtual_fixtures/placed.hpp"
 
-namespace liana::fixture {
+namespace liana::virtual_fixtures {
 namespace {
 
 // The least turn from one unit vector to another; of opposite ones, which have no least, none.
-Quat least_turn(const Vec3& from, const Vec3& to) {
+Quat min_turn(const Vec3& from, const Vec3& to) {
   const Vec3 axis = cross(from, to);
   return normalize({1.0 + dot(from, to), axis[0], axis[1], axis[2]});
 }
 
 Quat level(const GuidePlane& plane, const Quat& tip) {
   const Vec3 normal = scale(rotate(plane.attitude, kY), plane.side);
-  return normalize(multiply(least_turn(rotate(tip, kY), normal), tip));
+  return normalize(multiply(min_turn(rotate(tip, kY), normal), tip));
 }
 
 // Of what is out of the range, the way to its nearer end.
@@ -48,4 +48,4 @@ Pose in_plane(const GuidePlane& plane, const Pose& goal) {
   return {subtract(goal.position_m, scale(normal, off_plane_m(plane, goal.position_m))), normalize(yawed)};
 }
 
-}  // namespace liana::fixture
+}  // namespace liana::virtual_fixtures

@@ -5,7 +5,7 @@
 
 #include "firmware_like/math/pose.hpp"
 
-namespace liana::haptic {
+namespace liana::haptics {
 
 constexpr std::int64_t kTick_us = 1000;
 constexpr double kTick_s = 1e-3;
@@ -22,4 +22,4 @@ inline Vec3 no_longer(const Vec3& v, double most) noexcept {
   return length > most ? scale(v, most / length) : v;
 }
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

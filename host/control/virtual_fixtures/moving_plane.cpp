@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::haptic {
+namespace liana::haptics {
 namespace {
 
-constexpr double kMostStiffness_N_m = 3000.0;
-constexpr double kMostDamping_N_s_m = 30.0;
+constexpr double kMaxStiffness_N_m = 3000.0;
+constexpr double kMaxDamping_N_s_m = 30.0;
 
 double between(double from, double to, double share) { return from + share * (to - from); }
 
@@ -23,8 +23,8 @@ Plane between(const Plane& from, const Plane& to, double share) {
 // Comparisons are false for NaN.
 bool is_valid(const Plane& plane) noexcept {
   return std::fabs(norm(plane.normal) - 1.0) <= 1e-6 && std::isfinite(plane.offset_m) && plane.stiffness_N_m >= 0.0 &&
-         plane.stiffness_N_m <= kMostStiffness_N_m && plane.damping_N_s_m >= 0.0 &&
-         plane.damping_N_s_m <= kMostDamping_N_s_m;
+         plane.stiffness_N_m <= kMaxStiffness_N_m && plane.damping_N_s_m >= 0.0 &&
+         plane.damping_N_s_m <= kMaxDamping_N_s_m;
 }
 
 Vec3 plane_force(const Plane& plane, double plane_m_s, const Motion& hand) noexcept {
@@ -54,4 +54,4 @@ void MovingPlane::advance() noexcept {
   speed_m_s_ = (now_.offset_m - before_m) / kTick_s;
 }
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

@@ -6,7 +6,7 @@
 
 #include "host/control/virtual_fixtures/hand_motion.hpp"
 
-namespace liana::haptic {
+namespace liana::haptics {
 
 // Free where normal . p >= offset_m, in the device's frame.
 struct Plane {
@@ -45,4 +45,4 @@ class MovingPlane {
   int done_ = kInterval;
 };
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

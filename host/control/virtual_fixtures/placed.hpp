@@ -6,7 +6,7 @@
 #include "firmware_like/math/pose.hpp"
 #include "host/model/config/config.hpp"
 
-namespace liana::fixture {
+namespace liana::virtual_fixtures {
 
 inline constexpr Vec3 kX{1.0, 0.0, 0.0}, kY{0.0, 1.0, 0.0}, kZ{0.0, 0.0, 1.0};
 
@@ -33,4 +33,4 @@ inline bool is_along(const config::SceneFixture& fixture, const Vec3& point, dou
          std::fabs(point[2]) <= fixture.half_width_m + more_m;
 }
 
-}  // namespace liana::fixture
+}  // namespace liana::virtual_fixtures

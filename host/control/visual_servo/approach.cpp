@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::servo {
+namespace liana::visual_servo {
 
 namespace {
 
@@ -67,4 +67,4 @@ Pose Approach::move(const Vec3& wished_m_s, const Vec3& wished_rad_s, double dt_
   return asked_;
 }
 
-}  // namespace liana::servo
+}  // namespace liana::visual_servo

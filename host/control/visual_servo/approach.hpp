@@ -7,7 +7,7 @@
 
 #include "firmware_like/math/pose.hpp"
 
-namespace liana::servo {
+namespace liana::visual_servo {
 
 // Figures of the payload's approach, found by simulation (docs/explanation/visual-servo.md).
 struct ApproachLimits {
@@ -61,4 +61,4 @@ class Approach {
   Vec3 rate_rad_s_{};             // base frame
 };
 
-}  // namespace liana::servo
+}  // namespace liana::visual_servo

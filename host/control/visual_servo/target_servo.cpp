@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace liana::servo {
+namespace liana::visual_servo {
 
 namespace {
 
@@ -163,4 +163,4 @@ void TargetServo::end(const std::string& reason) {
   if (is_under_way()) end_as(ServoPhase::kStandby, reason);
 }
 
-}  // namespace liana::servo
+}  // namespace liana::visual_servo

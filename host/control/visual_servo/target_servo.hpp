@@ -9,11 +9,11 @@
 
 #include "firmware_like/math/pose.hpp"
 #include "host/control/visual_servo/approach.hpp"
-#include "host/control/visual_servo/quiet_way.hpp"
 #include "host/control/visual_servo/target_track.hpp"
 #include "host/control/visual_servo/tip_history.hpp"
+#include "host/control/visual_servo/zero_sway_profile.hpp"
 
-namespace liana::servo {
+namespace liana::visual_servo {
 
 // What is asked for.
 struct ServoRequest {
@@ -37,7 +37,7 @@ enum class ServoPhase : std::uint8_t { kStandby, kApproaching, kDwelling, kDone,
 const char* servo_phase_name(ServoPhase phase);
 
 // How it goes, or how the last one went.
-struct ServoReport {
+struct ServoStatus {
   ServoPhase phase = ServoPhase::kStandby;
   std::string target;
   std::optional<Pose> place;       // where the point should be, in the target's frame; nothing before the first
@@ -69,7 +69,7 @@ class TargetServo {
   bool is_under_way() const {
     return report_.phase == ServoPhase::kApproaching || report_.phase == ServoPhase::kDwelling;
   }
-  const ServoReport& report() const { return report_; }
+  const ServoStatus& report() const { return report_; }
 
  private:
   void look();
@@ -86,9 +86,9 @@ class TargetServo {
   ServoRequest request_;
   TargetTrack track_;
   Approach approach_;
-  std::optional<QuietWay> way_;  // where the base swings, once its middle is known
+  std::optional<ZeroSwayProfile> way_;  // where the base swings, once its middle is known
   double way_begun_s_ = 0.0;
-  ServoReport report_;
+  ServoStatus report_;
   bool saw_ = false;  // since the last look
   double begun_s_ = 0.0;
   double last_seen_s_ = 0.0;  // when the last usable image came
@@ -96,4 +96,4 @@ class TargetServo {
   std::string trouble_;  // what is wrong with the newest image
 };
 
-}  // namespace liana::servo
+}  // namespace liana::visual_servo

@@ -4,7 +4,7 @@
 
 #include "host/control/visual_servo/approach.hpp"
 
-namespace liana::servo {
+namespace liana::visual_servo {
 
 namespace {}  // namespace
 
@@ -84,4 +84,4 @@ void TargetTrack::filter(double capture_s, const Pose& seen_in_base) {
   target_in_base_ = {place_->mean(), normalize(multiply(quaternion_of(attitude_->mean()), first_attitude_))};
 }
 
-}  // namespace liana::servo
+}  // namespace liana::visual_servo

@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "firmware_like/math/pose.hpp"
-#include "host/control/visual_servo/swing_filter.hpp"
+#include "host/control/visual_servo/sway_filter.hpp"
 
-namespace liana::servo {
+namespace liana::visual_servo {
 
 // An image this far from what earlier ones say is not believed: 15 deviations of the camera that is assumed (2 mm,
 // 0.2 deg).
@@ -64,7 +64,7 @@ class TargetTrack {
   void filter(double capture_s, const Pose& seen_in_base);
 
   double tau_s_;
-  std::optional<SwingFilter> place_, attitude_;  // where the base swings; attitudes as turns from the first one
+  std::optional<SwayFilter> place_, attitude_;  // where the base swings; attitudes as turns from the first one
   Quat first_attitude_{};
   Pose target_in_base_{};
   double last_capture_s_ = -1e18;  // of any image
@@ -76,4 +76,4 @@ class TargetTrack {
   Pose tip_at_last_{};
 };
 
-}  // namespace liana::servo
+}  // namespace liana::visual_servo

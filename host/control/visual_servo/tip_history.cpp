@@ -2,7 +2,7 @@
 
 #include "firmware_like/operator_input/tip_interval.hpp"
 
-namespace liana::servo {
+namespace liana::visual_servo {
 
 namespace {
 
@@ -36,4 +36,4 @@ std::optional<Pose> TipHistory::at(double time_s) const {
   return std::nullopt;
 }
 
-}  // namespace liana::servo
+}  // namespace liana::visual_servo

@@ -7,7 +7,7 @@
 
 #include "firmware_like/math/pose.hpp"
 
-namespace liana::servo {
+namespace liana::visual_servo {
 
 constexpr std::size_t kHistoryLength = 256;  // command intervals of 20 ms: 5 s
 
@@ -30,4 +30,4 @@ class TipHistory {
   std::size_t count_ = 0;
 };
 
-}  // namespace liana::servo
+}  // namespace liana::visual_servo

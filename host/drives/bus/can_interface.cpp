@@ -19,7 +19,7 @@ namespace liana::bus {
 namespace {
 
 constexpr int kArpHardwareCan = 280;  // ARPHRD_CAN
-constexpr int kLeastTransmitQueue = 64;
+constexpr int kMinTransmitQueue = 64;
 
 std::string interface_list() {
   std::string list;
@@ -58,8 +58,7 @@ void check_interface(int descriptor, const std::string& name) {
   }
   request = request_for(name);
   // 0 means no queue at all (vcan): nothing can overflow. Linux's default of 10 is less than the frames of one tick.
-  if (ioctl(descriptor, SIOCGIFTXQLEN, &request) == 0 && request.ifr_qlen > 0 &&
-      request.ifr_qlen < kLeastTransmitQueue) {
+  if (ioctl(descriptor, SIOCGIFTXQLEN, &request) == 0 && request.ifr_qlen > 0 && request.ifr_qlen < kMinTransmitQueue) {
     refuse(name, "its transmit queue holds " + std::to_string(request.ifr_qlen) +
                      " frames, needed are 64; ip link set " + name + " txqueuelen 128");
   }

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "host/base/net/socket.hpp"
-#include "host/drives/bus/wire_packets.hpp"
+#include "host/drives/bus/bus_protocol.hpp"
 #include "host/model/config/config.hpp"
 
 namespace liana::bus {

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "host/drives/bus/bus_book.hpp"
+#include "host/drives/bus/bus_entry.hpp"
 #include "host/drives/bus/embedded_link.hpp"
 
 namespace liana::bus {
@@ -33,7 +33,7 @@ class LockstepBus final : public DriveBus {
   void end() noexcept;
 
   std::unique_ptr<EmbeddedLink> link_;
-  BusBook book_;
+  BusEntry book_;
   wire::Yield yield_;
   wire::Wake wake_;
   std::array<int, kMaxDriveBuses> queued_{};  // frames of this yield per bus

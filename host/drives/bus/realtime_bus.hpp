@@ -4,7 +4,7 @@
 #include <poll.h>
 
 #include "host/base/clock/tick_clock.hpp"
-#include "host/drives/bus/bus_book.hpp"
+#include "host/drives/bus/bus_entry.hpp"
 
 namespace liana::bus {
 
@@ -28,14 +28,14 @@ class RealtimeBus : public DriveBus {
   // True when no further frame can come.
   virtual bool ended() const noexcept = 0;
   void watch(int descriptor) noexcept;
-  BusBook& book() noexcept { return book_; }
-  const BusBook& book() const noexcept { return book_; }
+  BusEntry& book() noexcept { return book_; }
+  const BusEntry& book() const noexcept { return book_; }
 
  private:
   bool any_failed() const noexcept;
 
   timing::TickClock clock_;
-  BusBook book_;
+  BusEntry book_;
   std::array<pollfd, kMaxDriveBuses> watched_{};
   nfds_t watched_count_ = 0;
 };

@@ -12,7 +12,7 @@
 #include "firmware_like/drive/pdo.hpp"
 #include "host/drives/bus_simulator/bus_listener.hpp"
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 
 BusHub::BusHub(const BusHubOptions& options, std::vector<Participant> participants)
     : participants_(std::move(participants)),
@@ -124,4 +124,4 @@ std::uint64_t BusHub::awake_from_ns(std::size_t index) const {
   return from_slot == slot() ? now_ns : from_slot * period_us_ * 1000;
 }
 
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

@@ -10,7 +10,7 @@
 #include "host/drives/bus_simulator/candump_log.hpp"
 #include "host/drives/bus_simulator/participant.hpp"
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 
 struct BusHubOptions {
   timing::TimeMode time_mode = timing::TimeMode::kFast;
@@ -71,4 +71,4 @@ void run_lockstep(BusHub& hub, bool paced);
 // The monotonic clock rules. Returns when the bus has ended.
 void run_real(BusHub& hub);
 
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

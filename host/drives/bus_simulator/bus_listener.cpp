@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "host/base/net/peer.hpp"
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 namespace {
 
 volatile std::sig_atomic_t g_stop = 0;
@@ -83,4 +83,4 @@ std::vector<Participant> admit_participants(const std::string& socket_path, cons
   return present;
 }
 
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

@@ -6,7 +6,7 @@
 
 #include "host/drives/bus_simulator/participant.hpp"
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 
 // Asks the bus process to end soon; for signal handlers.
 void request_bus_stop();
@@ -17,4 +17,4 @@ bool bus_stop_requested();
 // Throws std::runtime_error when it cannot listen.
 std::vector<Participant> admit_participants(const std::string& socket_path, const wire::Welcome& welcome);
 
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

@@ -4,10 +4,10 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "host/drives/bus/wire_packets.hpp"
+#include "host/drives/bus/bus_protocol.hpp"
 #include "host/drives/bus_simulator/json_file.hpp"
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 namespace {
 
 [[noreturn]] void refuse(const std::string& path, const std::string& field, const Json& value,
@@ -76,4 +76,4 @@ void write_bus_stats(const std::string& path, const BusHub& hub) {
   if (!file) throw std::runtime_error(path + ": cannot be written; give --stats a file in a directory you may write");
 }
 
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

@@ -5,7 +5,7 @@
 
 #include "host/drives/bus_simulator/bus_hub.hpp"
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 
 // Wires and period from the bus table (docs/reference/formats.md); nothing else in it matters here. Throws
 // std::runtime_error with file and field.
@@ -15,4 +15,4 @@ void load_wires(const std::string& path, BusHubOptions& options);
 // be written.
 void write_bus_stats(const std::string& path, const BusHub& hub);
 
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

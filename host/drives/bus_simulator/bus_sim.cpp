@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 
 BusSim::BusSim(std::vector<WireConfig> wires, std::uint32_t period_us, int participants, FaultScript script,
                FrameSink& sink)
@@ -185,4 +185,4 @@ void BusSim::hand_over(Line& line, const EndedFrame& ended) {
   line.held.clear();
 }
 
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

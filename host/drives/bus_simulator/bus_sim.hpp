@@ -11,7 +11,7 @@
 #include "host/drives/bus_simulator/fault_script.hpp"
 #include "host/drives/bus_simulator/transmit_queue.hpp"
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 
 constexpr std::uint64_t kNeverNs = std::numeric_limits<std::uint64_t>::max();
 constexpr std::uint32_t kErrorFrameBits = 20;  // two superposed flags and the delimiter
@@ -118,4 +118,4 @@ class BusSim {
   std::uint64_t slots_begun_ = 0;
 };
 
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 namespace {
 
 constexpr std::size_t kBufferBytes = 1 << 16;
@@ -63,4 +63,4 @@ void CandumpLog::write(const bus::CanFrame& frame) {
   if (std::fwrite(line.data(), 1, size, file_.get()) != size) ++lost_;
 }
 
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

@@ -10,7 +10,7 @@
 
 #include "host/drives/bus/can_frame.hpp"
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 
 constexpr std::size_t kLongestLogLine = 64;
 
@@ -36,4 +36,4 @@ class CandumpLog {
   std::uint64_t lost_ = 0;
 };
 
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

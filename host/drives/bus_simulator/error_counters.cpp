@@ -5,12 +5,12 @@
 
 #include <algorithm>
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 namespace {
 
 constexpr int kFailedTransmission = 8;
 constexpr int kWarning = 96, kPassive = 128, kBusOff = 256;
-constexpr int kMostReceiveErrors = 255, kAfterPassiveReceiver = 127;
+constexpr int kMaxReceiveErrors = 255, kAfterPassiveReceiver = 127;
 
 ErrorState state_for(int transmit, int receive) noexcept {
   if (transmit >= kBusOff) return ErrorState::kBusOff;
@@ -41,7 +41,7 @@ std::optional<bus::CanFrame> ErrorCounters::unacknowledged() noexcept {
 }
 
 std::optional<bus::CanFrame> ErrorCounters::receive_failed() noexcept {
-  receive_ = std::min(kMostReceiveErrors, receive_ + 1);
+  receive_ = std::min(kMaxReceiveErrors, receive_ + 1);
   return judge();
 }
 
@@ -79,4 +79,4 @@ bus::CanFrame ErrorCounters::report(std::uint32_t error_class, std::uint8_t cont
   return frame;
 }
 
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

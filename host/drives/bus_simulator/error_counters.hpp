@@ -6,7 +6,7 @@
 
 #include "host/drives/bus/can_frame.hpp"
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 
 // In rising order of trouble.
 enum class ErrorState : std::uint8_t { kActive, kWarning, kPassive, kBusOff };
@@ -37,4 +37,4 @@ class ErrorCounters {
   ErrorState state_ = ErrorState::kActive;
 };
 
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

@@ -8,7 +8,7 @@
 
 #include "host/drives/bus_simulator/json_file.hpp"
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 namespace {
 
 bool covers(const BusFault& fault, std::uint64_t slot) { return slot >= fault.from_slot && slot <= fault.to_slot; }
@@ -181,4 +181,4 @@ FaultScript parse_fault_script(const std::string& text, const std::string& path,
   return FaultScript(std::move(faults));
 }
 
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

@@ -9,7 +9,7 @@
 
 #include "host/drives/bus/can_frame.hpp"
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 
 constexpr std::uint64_t kLastSlot = std::numeric_limits<std::uint32_t>::max();
 
@@ -65,4 +65,4 @@ FaultScript load_fault_script(const std::string& path, int bus_count);
 // The same from the text of a script, which messages call `path`.
 FaultScript parse_fault_script(const std::string& text, const std::string& path, int bus_count);
 
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

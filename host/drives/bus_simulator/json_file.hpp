@@ -6,7 +6,7 @@
 
 #include "host/base/json/number_error.hpp"
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 
 // The value of a file's text; null when it is no JSON, which its reader says with what belongs there. Throws
 // std::runtime_error with file, field and number where no double holds the number.
@@ -20,4 +20,4 @@ inline Json parse_file(const std::string& text, const std::string& path) {
   }
 }
 
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

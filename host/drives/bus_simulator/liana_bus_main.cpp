@@ -8,7 +8,7 @@
 #include "host/drives/bus_simulator/bus_listener.hpp"
 #include "host/drives/bus_simulator/bus_process.hpp"
 
-using namespace liana::bus_sim;
+using namespace liana::bus_simulator;
 
 namespace {
 
@@ -62,7 +62,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  liana::command_line::CommandLine line(
+  liana::options::CommandLine line(
       "The embedded CAN bus: exact bit timing, arbitration and bounded queues between lianad and the bench, and "
       "virtual time.",
       "liana-bus");

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <utility>
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 
 Participant::Participant(api::UniqueFd socket, const wire::Hello& hello)
     : socket_(std::move(socket)),
@@ -49,4 +49,4 @@ void Participant::refuse(const std::string& reason) {
   send(socket_.get(), packet.data(), packet.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
 }
 
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "host/base/net/socket.hpp"
-#include "host/drives/bus/wire_packets.hpp"
+#include "host/drives/bus/bus_protocol.hpp"
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 
 class Participant {
  public:
@@ -55,4 +55,4 @@ class Participant {
   std::unique_ptr<wire::Yield> yield_ = std::make_unique<wire::Yield>();
 };
 
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

@@ -3,7 +3,7 @@
 
 #include "host/drives/bus_simulator/bus_hub.hpp"
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 namespace {
 
 constexpr std::uint64_t kForeverNs = std::numeric_limits<std::uint64_t>::max();
@@ -133,4 +133,4 @@ void run_lockstep(BusHub& hub, bool paced) {
   }
 }
 
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

@@ -5,7 +5,7 @@
 
 #include "host/drives/bus_simulator/bus_hub.hpp"
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 namespace {
 
 constexpr std::uint64_t kLookUpNs = 100'000'000;  // how often a stop is noticed at least
@@ -55,4 +55,4 @@ void run_real(BusHub& hub) {
   }
 }
 
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

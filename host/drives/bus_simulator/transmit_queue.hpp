@@ -7,7 +7,7 @@
 
 #include "host/drives/bus/frame_bits.hpp"
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 
 constexpr std::size_t kTransmitQueueFrames = 64;
 
@@ -60,4 +60,4 @@ class TransmitQueue {
   std::size_t count_ = 0;
 };
 
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

@@ -131,7 +131,7 @@ std::string serial_problem_of(const config::RobotConfig& robot, std::span<const 
 
 CableCalibration cable_of(const config::RobotConfig& robot, const Lengths& lengths, Index c, double scale,
                           const CalibrationReading& first) {
-  const DriveTable& table = robot.table.drive[c];
+  const DriveParams& table = robot.table.drive[c];
   // expected = scale reported + zero; reported is what the table's drum and direction make of the counts.
   const double zero_m = lengths.expected_mean_m[column(c)] - scale * lengths.reported_mean_m[column(c)];
   CableCalibration out;
@@ -145,7 +145,7 @@ CableCalibration cable_of(const config::RobotConfig& robot, const Lengths& lengt
 }
 
 // Whether two cables of one segment end in holes opposite each other: what one gains the other loses, in every pose.
-bool are_opposite(const RobotTable& robot, Index a, Index b) {
+bool are_opposite(const RobotParams& robot, Index a, Index b) {
   constexpr double kOpposite = -0.9998;  // cosine of 179 deg
   const CableLayout layout = cable_layout(robot);
   if (layout.segment[a] != layout.segment[b]) return false;
@@ -153,7 +153,7 @@ bool are_opposite(const RobotTable& robot, Index a, Index b) {
   return along < kOpposite * robot.hole_radius_m * robot.hole_radius_m;
 }
 
-[[noreturn]] void refuse_alike(const RobotTable& robot, Index a, Index b) {
+[[noreturn]] void refuse_alike(const RobotParams& robot, Index a, Index b) {
   const std::string who = text("cables %d and %d", static_cast<int>(a), static_cast<int>(b));
   if (are_opposite(robot, a, b))
     throw std::runtime_error(who +
@@ -175,10 +175,10 @@ void check_poses(const config::RobotConfig& robot, std::span<const ThetaVector> 
   for (const ThetaVector& theta_rad : poses_rad) readings.push_back({theta_rad, {}, tension_N});
   const Eigen::MatrixXd cables = lengths_of(robot, readings).expected;
   for (Index a = 0; a < Index(cables.cols()); ++a) {
-    if (cables.col(column(a)).lpNorm<Eigen::Infinity>() < kLeastChange_m)
+    if (cables.col(column(a)).lpNorm<Eigen::Infinity>() < kMinChange_m)
       throw std::runtime_error(
           text("cable %d changes by less than %.0f mm between these poses: add one that bends its segment more",
-               static_cast<int>(a), 1e3 * kLeastChange_m));
+               static_cast<int>(a), 1e3 * kMinChange_m));
     for (Index b = 0; b < Index(cables.cols()); ++b) {
       const Fit alike = fit(cables.col(column(a)), cables.col(column(b)));
       if (a != b && alike.misfit_m < kApart_m && std::fabs(std::fabs(alike.scale) - 1.0) <= 2.0 * kDrumShare)

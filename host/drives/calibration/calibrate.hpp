@@ -30,7 +30,7 @@ struct CalibrationResult {
 void check_poses(const config::RobotConfig& robot, std::span<const cable::ThetaVector> poses_rad);
 
 // By which every cable's length has to differ from its mean over the poses, for its direction to be seen.
-constexpr double kLeastChange_m = 5e-3;
+constexpr double kMinChange_m = 5e-3;
 
 // Fits a drum radius and a zero to every drive. A drive that counts backwards gets the other direction and is a problem
 // of nobody; cables that are wound on each other's drums, a drum that is off by over 2 %, readings that no drum

@@ -16,7 +16,7 @@ using std::chrono::sys_days;
 
 constexpr double kTwoPi = 6.28318530717958647692;
 constexpr double kOtherDrumShare = 0.05;  // a drum further from the table's radius is another drum
-constexpr double kMostFriction = 0.5;     // as in robot tables
+constexpr double kMaxFriction = 0.5;      // as in robot tables
 constexpr const char* kAgain = "run liana calibrate again";
 
 std::string checksum(Json content) {
@@ -90,7 +90,7 @@ CableCalibration read_cable(const config::Field& field, const config::RobotConfi
 }
 
 FrictionOf read_friction_of(const config::Field& field) {
-  return {field.at("mu").number({0, kMostFriction}), field.at("sd").number({0, kMostFriction})};
+  return {field.at("mu").number({0, kMaxFriction}), field.at("sd").number({0, kMaxFriction})};
 }
 
 Friction read_friction(const config::Field& field, const config::RobotConfig& robot) {
@@ -163,7 +163,7 @@ void apply(const Calibration& calibration, config::RobotConfig& robot) {
   robot.drive_serials.clear();
   for (std::size_t i = 0; i < calibration.cables.size(); ++i) {
     const CableCalibration& cable = calibration.cables[i];
-    DriveTable& drive = robot.table.drive[i];
+    DriveParams& drive = robot.table.drive[i];
     drive.direction = cable.direction;
     drive.zero_counts = cable.zero_counts;
     drive.metres_per_count = kTwoPi * cable.drum_radius_m / (robot.counts_per_turn * robot.gear);

@@ -49,7 +49,7 @@ ThetaVector named_pose_rad(const config::RobotConfig& robot, const std::string& 
   return theta_rad;
 }
 
-CableVector beyond_zero_m(const RobotTable& table, const ThetaVector& theta_rad, const CableVector& tension_N) {
+CableVector beyond_zero_m(const RobotParams& table, const ThetaVector& theta_rad, const CableVector& tension_N) {
   const CableLayout layout = cable_layout(table);
   const ArmTrig trig = arm_trig(table, theta_rad);
   const CableGeometry geometry = cable_geometry(table, layout, trig);

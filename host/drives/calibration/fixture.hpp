@@ -18,7 +18,7 @@ cable::ThetaVector named_pose_rad(const config::RobotConfig& robot, const std::s
 
 // Unstretched cable that every drive has paid out beyond its zero with the arm at one pose and each cable pulled with
 // `tension_N` [m].
-cable::CableVector beyond_zero_m(const cable::RobotTable& table, const cable::ThetaVector& theta_rad,
+cable::CableVector beyond_zero_m(const cable::RobotParams& table, const cable::ThetaVector& theta_rad,
                                  const cable::CableVector& tension_N);
 
 // The named pose tells every two cables apart by three times the tolerance, so that no two drives can have each other's

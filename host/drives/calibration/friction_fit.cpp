@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "firmware_like/cable/arm/friction_watch.hpp"
+#include "firmware_like/cable/arm/friction_estimator.hpp"
 
 namespace liana::calibration {
 
@@ -13,7 +13,7 @@ namespace {
 
 using Index = std::size_t;
 
-constexpr double kLeastMotion_s = 10.0;
+constexpr double kMinMotion_s = 10.0;
 constexpr double kSample_s = 0.32;   // an equation of every axis in so much time, as the core's noise is meant
 constexpr double kPriorMu = 0.1;     // any friction there is
 constexpr double kGainShare = 0.01;  // of torque readings, by drive
@@ -42,7 +42,7 @@ struct FrictionFit::Moment {
   bool slides(Index j, std::int32_t end) const { return (sample.turning & ((2u << end) - 1u)) >> j != 0; }
 };
 
-FrictionFit::FrictionFit(const RobotTable& table) : table_(table), layout_(cable_layout(table)) {}
+FrictionFit::FrictionFit(const RobotParams& table) : table_(table), layout_(cable_layout(table)) {}
 
 void FrictionFit::add(const ThetaVector& commanded_rad, const CableVector& tension_N, bool moving) {
   update_cable_geometry(table_, layout_, arm_trig(table_, commanded_rad), geometry_);
@@ -124,7 +124,7 @@ FrictionOf FrictionFit::found(const Fit& fit, Index part) {
 }
 
 Friction FrictionFit::solve() const {
-  if (static_cast<double>(samples_.size()) * kSample_s < kLeastMotion_s)
+  if (static_cast<double>(samples_.size()) * kSample_s < kMinMotion_s)
     throw std::runtime_error("friction: the arm has moved for less than 10 s");
   Friction out{found(fit(1), 0), {}};
   const Fit each = fit(static_cast<Index>(table_.segment_count));

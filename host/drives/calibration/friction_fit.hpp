@@ -1,5 +1,5 @@
 // Friction of the cables from what their drives report while the arm moves slowly: the balance of torques that the core
-// watches, too (firmware_like/cable/arm/friction_watch.hpp), fitted to a whole motion at once
+// watches, too (firmware_like/cable/arm/friction_estimator.hpp), fitted to a whole motion at once
 // (docs/explanation/friction.md).
 #pragma once
 
@@ -15,7 +15,7 @@ namespace liana::calibration {
 class FrictionFit {
  public:
   // Of a checked table; its friction_mu is not used.
-  explicit FrictionFit(const cable::RobotTable& table);
+  explicit FrictionFit(const cable::RobotParams& table);
 
   // Every command interval of the motion, in order: where the arm is told to be and what its cables pull.
   void add(const cable::ThetaVector& commanded_rad, const cable::CableVector& tension_N, bool moving);
@@ -48,7 +48,7 @@ class FrictionFit {
   Fit fit(std::size_t parts) const;
   static FrictionOf found(const Fit& fit, std::size_t part);
 
-  cable::RobotTable table_;
+  cable::RobotParams table_;
   cable::CableLayout layout_;
   cable::CableGeometry geometry_{};
   cable::SlipState slip_{};

@@ -26,7 +26,7 @@ BootTiming boot_timing(double rate_hz, const config::DriveTimes& allowed) {
           ticks(allowed.operational_s)};
 }
 
-BootNode::BootNode(const DriveExpectation& drive, const BootTiming& timing, bool look_only)
+BootNode::BootNode(const ExpectedDrive& drive, const BootTiming& timing, bool look_only)
     : bus_(drive.bus),
       node_(drive.node),
       timing_(timing),
@@ -80,7 +80,7 @@ void BootNode::advance() noexcept {
       if (waited_ticks_ % timing_.start_ticks == 0) send_nmt(kNmtStart);
       return;
     case NodePhase::kFailed:  // it may have come without a word: with its cable, after its boot-up message
-      if (!is_missing() || waited_ticks_ < timing_.most_reset_ticks) return;
+      if (!is_missing() || waited_ticks_ < timing_.max_reset_ticks) return;
       waited_ticks_ = 0;
       return send_nmt(kNmtResetCommunication);
     case NodePhase::kConfigured:
@@ -93,7 +93,7 @@ void BootNode::wait_for_boot_up() noexcept {
   if (++without_boot_up_ >= timing_.boot_up_ticks) return fail(BootFailure::kNoBootUp);
   if (waited_ticks_ < reset_wait_) return;
   waited_ticks_ = 0;
-  reset_wait_ = std::min(2 * reset_wait_, timing_.most_reset_ticks);
+  reset_wait_ = std::min(2 * reset_wait_, timing_.max_reset_ticks);
   send_nmt(kNmtResetCommunication);
 }
 
@@ -109,21 +109,21 @@ void BootNode::begin_object() noexcept {
 
 void BootNode::finish_transfer() noexcept {
   const std::optional<std::uint32_t> before = at_ == 0 ? std::nullopt : outcomes_[at_ - 1].found;
-  const TransferEnd end = transfer_.advance(plan_, before, sdo_);
-  if (end == TransferEnd::kNotYet) return;
-  outcomes_[at_] = {transfer_.found(), end != TransferEnd::kRight && end != TransferEnd::kMissing};
+  const TransferResult end = transfer_.advance(plan_, before, sdo_);
+  if (end == TransferResult::kNotYet) return;
+  outcomes_[at_] = {transfer_.found(), end != TransferResult::kRight && end != TransferResult::kMissing};
   switch (end) {
-    case TransferEnd::kAborted:
+    case TransferResult::kAborted:
       return refused(BootFailure::kAborted);
-    case TransferEnd::kWrong:
+    case TransferResult::kWrong:
       return refused(BootFailure::kValue);
-    case TransferEnd::kSilent:
+    case TransferResult::kSilent:
       return fail(BootFailure::kNoAnswer);
-    case TransferEnd::kRight:
+    case TransferResult::kRight:
       if (transfer_.found()) plan_.keep(at_, *transfer_.found());
       [[fallthrough]];
-    case TransferEnd::kMissing:
-    case TransferEnd::kNotYet:
+    case TransferResult::kMissing:
+    case TransferResult::kNotYet:
       return next_object();
   }
 }
@@ -233,7 +233,7 @@ void BootNode::fail(BootFailure failure, std::uint32_t found) noexcept {
 
 // The last place is for what ended the plan.
 void BootNode::note(const BootMismatch& mismatch) noexcept {
-  if (mismatch_count_ == kMostMismatches) {
+  if (mismatch_count_ == kMaxMismatches) {
     ++more_mismatches_;
     --mismatch_count_;
   }

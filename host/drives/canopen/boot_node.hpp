@@ -16,7 +16,7 @@ namespace liana::canopen {
 // Patience, in ticks, each at least 1.
 struct BootTiming {
   std::uint32_t reset_ticks = 0;        // from the first reset of a node that does not come up to the second
-  std::uint32_t most_reset_ticks = 0;   // each wait is twice the one before, up to this one
+  std::uint32_t max_reset_ticks = 0;    // each wait is twice the one before, up to this one
   std::uint32_t boot_up_ticks = 0;      // from the first reset until it counts as missing
   std::uint32_t sdo_ticks = 0;          // for one answer
   std::uint32_t start_ticks = 0;        // between two NMT starts of a node that does not say that it is operational
@@ -45,7 +45,7 @@ enum class NodePhase : std::uint8_t {
   kFailed
 };
 
-constexpr std::size_t kMostMismatches = 32;  // kept of one node; a wrong drive refuses more than anybody reads
+constexpr std::size_t kMaxMismatches = 32;  // kept of one node; a wrong drive refuses more than anybody reads
 
 // What came of one object of the plan.
 struct BootOutcome {
@@ -56,7 +56,7 @@ struct BootOutcome {
 class BootNode {
  public:
   // With `look_only` nothing is written to the drive, and it should not be started.
-  BootNode(const DriveExpectation& drive, const BootTiming& timing, bool look_only = false);
+  BootNode(const ExpectedDrive& drive, const BootTiming& timing, bool look_only = false);
 
   int bus() const noexcept { return bus_; }
   std::uint8_t node() const noexcept { return node_; }
@@ -116,7 +116,7 @@ class BootNode {
   SdoClient sdo_;
   BootTransfer transfer_;
   NodePhase phase_ = NodePhase::kReset;
-  std::array<BootMismatch, kMostMismatches> mismatches_{};
+  std::array<BootMismatch, kMaxMismatches> mismatches_{};
   std::size_t mismatch_count_ = 0;
   std::uint32_t more_mismatches_ = 0;
   std::uint32_t waited_ticks_ = 0;     // in this phase

@@ -21,7 +21,7 @@ constexpr std::uint32_t kModeCst = 10;
 constexpr std::uint32_t kSupportsCsp = 0x80;   // 6502: bit mode - 1
 constexpr std::uint32_t kSupportsCst = 0x200;  // the same
 constexpr std::uint32_t kEverySync = 1;
-constexpr std::uint16_t kMostPdos = 32;  // of each direction; drives have 4 to 16
+constexpr std::uint16_t kMaxPdos = 32;   // of each direction; drives have 4 to 16
 constexpr std::uint16_t kUsualPdos = 4;  // among these there may be gaps
 constexpr double kSecondsPerMinute = 60.0;
 
@@ -65,7 +65,7 @@ config::InterpolationPeriod period_of(config::InterpolationPeriod period, const 
 
 }  // namespace
 
-BootPlan::BootPlan(const DriveExpectation& drive) : type_(drive.type), rpdo_deadline_ms_(drive.rpdo_deadline_ms) {
+BootPlan::BootPlan(const ExpectedDrive& drive) : type_(drive.type), rpdo_deadline_ms_(drive.rpdo_deadline_ms) {
   constexpr std::array<std::uint32_t, 2> kTargets{0x60400010, 0x607A0020};
   constexpr std::array<std::uint32_t, 3> kTorqueTargets{0x60400010, 0x60710010, 0x60B10020};
   constexpr std::array<std::uint32_t, 3> kReports{0x60410010, 0x60640020, 0x60770010};
@@ -143,7 +143,7 @@ BootObject* BootPlan::write(std::uint16_t index, std::uint8_t sub, std::uint8_t 
   return add(std::move(object));
 }
 
-void BootPlan::check_identity(const DriveExpectation& drive) {
+void BootPlan::check_identity(const ExpectedDrive& drive) {
   expect(0x1000, 0, kProfile402, "device profile", kDeviceProfileMask);
   expect(0x1018, 1, type_.vendor.value_or(drive.vendor), "vendor id");
   expect(0x1018, 2, type_.product.value_or(drive.product), "product code");
@@ -164,7 +164,7 @@ void BootPlan::keep(std::size_t at, std::uint32_t found) noexcept {
 
 // What decides how far and which way the motor turns for a count, and what a permille of torque is. Units come first:
 // all that follows is in them.
-void BootPlan::check_mechanics(const DriveExpectation& drive) {
+void BootPlan::check_mechanics(const ExpectedDrive& drive) {
   const config::DriveUnits& units = type_.units;
   const config::Factor gear = units.gear.value_or(config::Factor{drive.gear_motor_turns, drive.gear_drum_turns});
   if (type_.is_cst) {
@@ -236,7 +236,7 @@ void BootPlan::write_mapping(std::uint16_t mapping, std::size_t disabled_at, std
 // Whatever COB-ID they have, and however many there are.
 void BootPlan::disable_other_pdos() {
   for (const int page : {0x1400, 0x1800}) {
-    for (std::uint16_t number = page == 0x1800 && type_.is_cst ? 2 : 1; number < kMostPdos; ++number) {
+    for (std::uint16_t number = page == 0x1800 && type_.is_cst ? 2 : 1; number < kMaxPdos; ++number) {
       const char* const name =
           page == 0x1400 ? "COB-ID of an RPDO that is not used" : "COB-ID of a TPDO that is not used";
       BootObject* object = write(static_cast<std::uint16_t>(page + number), 1, 4, kDisabled, name);
@@ -255,7 +255,7 @@ void BootPlan::start_up_writes() {
   }
 }
 
-void BootPlan::set_motion(const DriveExpectation& drive) {
+void BootPlan::set_motion(const ExpectedDrive& drive) {
   const auto bits = [](std::int16_t value) { return static_cast<std::uint32_t>(static_cast<std::uint16_t>(value)); };
   write(0x6060, 0, 1, type_.is_cst ? kModeCst : kModeCsp, "mode of operation");
   const config::InterpolationPeriod period = period_of(drive.period, type_.rule_of({0x60C2, 2}));
@@ -270,17 +270,17 @@ void BootPlan::set_motion(const DriveExpectation& drive) {
 }
 
 // What would keep the drive from following or from stopping where the arm counts on it.
-void BootPlan::check_limits(const DriveExpectation& drive) {
-  const DriveDemand& demand = drive.demand;
+void BootPlan::check_limits(const ExpectedDrive& drive) {
+  const DriveProfile& demand = drive.demand;
   const double rpm = demand.counts_per_s * kSecondsPerMinute / std::max(1U, drive.counts_per_turn);
   const double speed = type_.units.speeds_in_rpm ? rpm : demand.counts_per_s;
-  BootObject* low = expect(0x607D, 1, signed_bits(demand.least_counts), "least position");
+  BootObject* low = expect(0x607D, 1, signed_bits(demand.min_counts), "least position");
   const bool pair = low != nullptr && type_.rule_of({0x607D, 1}).presence != Presence::kFixed;
   if (pair) low->mask = 0;
-  BootObject* high = expect(0x607D, 2, signed_bits(demand.most_counts), "most position");
+  BootObject* high = expect(0x607D, 2, signed_bits(demand.max_counts), "most position");
   if (pair && high != nullptr && type_.rule_of({0x607D, 2}).presence != Presence::kFixed) {
     high->rule = BootRule::kRange;
-    high->before = signed_bits(demand.least_counts);
+    high->before = signed_bits(demand.min_counts);
   }
   expect_at_least(0x607F, speed, "max profile velocity");
   expect_at_least(0x6080, rpm, "max motor speed");
@@ -288,7 +288,7 @@ void BootPlan::check_limits(const DriveExpectation& drive) {
   expect_at_least(0x6085, speed / type_.stop_within_s, "quick stop deceleration");
 }
 
-void BootPlan::set_heartbeats(const DriveExpectation& drive) {
+void BootPlan::set_heartbeats(const ExpectedDrive& drive) {
   write(0x1017, 0, 2, drive.heartbeat_ms, "producer heartbeat time");
   write(0x1016, 1, 4, (std::uint32_t{kMasterNode} << 16) | drive.master_timeout_ms, "consumer heartbeat time");
 }

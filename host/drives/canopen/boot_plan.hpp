@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/drives/canopen/drive_expectation.hpp"
+#include "host/drives/canopen/expected_drive.hpp"
 
 namespace liana::canopen {
 
@@ -41,7 +41,7 @@ struct BootObject {
 
 class BootPlan {
  public:
-  explicit BootPlan(const DriveExpectation& drive);
+  explicit BootPlan(const ExpectedDrive& drive);
   std::span<const BootObject> objects() const noexcept { return objects_; }
   // Whether `found` is right for object number `at`, when `before` was found in the object before it (nothing: then a
   // pair is not judged).
@@ -62,15 +62,15 @@ class BootPlan {
   void expect_at_least(std::uint16_t index, double value, const char* name);
   BootObject* write(std::uint16_t index, std::uint8_t sub, std::uint8_t bytes, std::uint32_t value, const char* name);
   BootObject* add(BootObject object);
-  void check_identity(const DriveExpectation& drive);
-  void check_mechanics(const DriveExpectation& drive);
+  void check_identity(const ExpectedDrive& drive);
+  void check_mechanics(const ExpectedDrive& drive);
   void map_pdo(std::uint16_t communication, std::uint32_t cob_id, std::span<const std::uint32_t> entries);
   void write_mapping(std::uint16_t mapping, std::size_t disabled_at, std::span<const std::uint32_t> entries);
   void disable_other_pdos();
   void start_up_writes();
-  void set_motion(const DriveExpectation& drive);
-  void check_limits(const DriveExpectation& drive);
-  void set_heartbeats(const DriveExpectation& drive);
+  void set_motion(const ExpectedDrive& drive);
+  void check_limits(const ExpectedDrive& drive);
+  void set_heartbeats(const ExpectedDrive& drive);
 
   config::DriveType type_;
   std::uint16_t rpdo_deadline_ms_ = 0;

@@ -6,14 +6,14 @@
 
 namespace liana::canopen {
 
-BootSequence::BootSequence(const std::vector<DriveExpectation>& drives, double rate_hz) {
+BootSequence::BootSequence(const std::vector<ExpectedDrive>& drives, double rate_hz) {
   nodes_.reserve(drives.size());
-  for (const DriveExpectation& drive : drives) nodes_.emplace_back(drive, boot_timing(rate_hz, drive.type.times));
+  for (const ExpectedDrive& drive : drives) nodes_.emplace_back(drive, boot_timing(rate_hz, drive.type.times));
 }
 
-BootSequence::BootSequence(const std::vector<DriveExpectation>& drives, const BootTiming& timing) {
+BootSequence::BootSequence(const std::vector<ExpectedDrive>& drives, const BootTiming& timing) {
   nodes_.reserve(drives.size());
-  for (const DriveExpectation& drive : drives) nodes_.emplace_back(drive, timing);
+  for (const ExpectedDrive& drive : drives) nodes_.emplace_back(drive, timing);
 }
 
 void BootSequence::step(bus::DriveBus& bus) noexcept {

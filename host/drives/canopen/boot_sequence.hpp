@@ -23,9 +23,9 @@ struct BootProgress {
 class BootSequence {
  public:
   // Each drive has the time that its type allows, at so many ticks a second.
-  BootSequence(const std::vector<DriveExpectation>& drives, double rate_hz);
+  BootSequence(const std::vector<ExpectedDrive>& drives, double rate_hz);
   // All have the same.
-  BootSequence(const std::vector<DriveExpectation>& drives, const BootTiming& timing);
+  BootSequence(const std::vector<ExpectedDrive>& drives, const BootTiming& timing);
 
   // Once per tick, after the received frames have been passed to on_frame(): sends what each node needs next.
   // No node is started before all are configured; when one fails, the others go on to the end of their plan and none is

@@ -34,53 +34,54 @@ void BootTransfer::request(SdoClient& sdo) noexcept {
   sdo.start_download(object_->index, object_->sub, {bytes.data(), object_->bytes});
 }
 
-TransferEnd BootTransfer::advance(const BootPlan& plan, std::optional<std::uint32_t> before, SdoClient& sdo) noexcept {
+TransferResult BootTransfer::advance(const BootPlan& plan, std::optional<std::uint32_t> before,
+                                     SdoClient& sdo) noexcept {
   switch (sdo.status()) {
     case SdoStatus::kTimeout:
-      if (++attempts_ >= kAttempts) return TransferEnd::kSilent;
+      if (++attempts_ >= kAttempts) return TransferResult::kSilent;
       request(sdo);
-      return TransferEnd::kNotYet;
+      return TransferResult::kNotYet;
     case SdoStatus::kAborted:
       return refused(sdo);
     case SdoStatus::kDone:
       if (stage_ != Stage::kWrite) return read(plan, before, sdo);
-      if (!object_->read_back) return TransferEnd::kRight;
+      if (!object_->read_back) return TransferResult::kRight;
       enter(Stage::kReadBack, sdo);
-      return TransferEnd::kNotYet;
+      return TransferResult::kNotYet;
     case SdoStatus::kIdle:
     case SdoStatus::kBusy:
       break;
   }
-  return TransferEnd::kNotYet;
+  return TransferResult::kNotYet;
 }
 
 // What cannot be written may have the value already: a constant of the drive, or set by its maker's tool.
-TransferEnd BootTransfer::refused(SdoClient& sdo) noexcept {
+TransferResult BootTransfer::refused(SdoClient& sdo) noexcept {
   const bool missing = sdo.abort_code() == kAbortNoObject || sdo.abort_code() == kAbortNoSubIndex;
-  if (missing && object_->may_be_missing) return TransferEnd::kMissing;
+  if (missing && object_->may_be_missing) return TransferResult::kMissing;
   if (stage_ != Stage::kReadRefused) abort_code_ = sdo.abort_code();
-  if (missing || stage_ != Stage::kWrite) return TransferEnd::kAborted;
+  if (missing || stage_ != Stage::kWrite) return TransferResult::kAborted;
   enter(Stage::kReadRefused, sdo);
-  return TransferEnd::kNotYet;
+  return TransferResult::kNotYet;
 }
 
-TransferEnd BootTransfer::read(const BootPlan& plan, std::optional<std::uint32_t> before, SdoClient& sdo) noexcept {
+TransferResult BootTransfer::read(const BootPlan& plan, std::optional<std::uint32_t> before, SdoClient& sdo) noexcept {
   found_ = sdo.value();
   const bool right = plan.accepts(at_, *found_, before);
   switch (stage_) {
     case Stage::kReadRefused:
-      return right ? TransferEnd::kRight : TransferEnd::kAborted;
+      return right ? TransferResult::kRight : TransferResult::kAborted;
     case Stage::kLook:
-      if (object_->write && !writes_) return TransferEnd::kRight;
+      if (object_->write && !writes_) return TransferResult::kRight;
       if (right || !writes_) break;
       value_ = object_->value | (*found_ & object_->keep);
       enter(Stage::kWrite, sdo);
-      return TransferEnd::kNotYet;
+      return TransferResult::kNotYet;
     case Stage::kReadBack:
     case Stage::kWrite:
       break;
   }
-  return right ? TransferEnd::kRight : TransferEnd::kWrong;
+  return right ? TransferResult::kRight : TransferResult::kWrong;
 }
 
 }  // namespace liana::canopen

@@ -9,7 +9,7 @@
 
 namespace liana::canopen {
 
-enum class TransferEnd : std::uint8_t {
+enum class TransferResult : std::uint8_t {
   kNotYet,
   kRight,    // found() is what the plan wants
   kMissing,  // the drive has no such object, and need not
@@ -24,7 +24,7 @@ class BootTransfer {
   // when it can be read.
   void begin(const BootPlan& plan, std::size_t at, bool look_only, SdoClient& sdo) noexcept;
   // The SDO client has finished. `before` is what was found in the object before this one, if anything was.
-  TransferEnd advance(const BootPlan& plan, std::optional<std::uint32_t> before, SdoClient& sdo) noexcept;
+  TransferResult advance(const BootPlan& plan, std::optional<std::uint32_t> before, SdoClient& sdo) noexcept;
 
   std::optional<std::uint32_t> found() const noexcept { return found_; }
   std::uint32_t abort_code() const noexcept { return abort_code_; }
@@ -33,8 +33,8 @@ class BootTransfer {
   enum class Stage : std::uint8_t { kLook, kWrite, kReadBack, kReadRefused };
   void enter(Stage stage, SdoClient& sdo) noexcept;
   void request(SdoClient& sdo) noexcept;
-  TransferEnd refused(SdoClient& sdo) noexcept;
-  TransferEnd read(const BootPlan& plan, std::optional<std::uint32_t> before, SdoClient& sdo) noexcept;
+  TransferResult refused(SdoClient& sdo) noexcept;
+  TransferResult read(const BootPlan& plan, std::optional<std::uint32_t> before, SdoClient& sdo) noexcept;
 
   BootObject const* object_ = nullptr;
   std::size_t at_ = 0;

@@ -9,7 +9,7 @@ constexpr std::int32_t kHeartbeatsMissed = 3;
 
 }  // namespace
 
-Master::Master(const std::vector<DriveExpectation>& drives, const config::BusesConfig& buses)
+Master::Master(const std::vector<ExpectedDrive>& drives, const config::BusesConfig& buses)
     : boot_(drives, buses.rate_hz),
       producer_(buses.heartbeat_ms, buses.rate_hz),
       monitor_(kHeartbeatsMissed * buses.heartbeat_ms, buses.rate_hz) {}

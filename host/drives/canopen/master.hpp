@@ -12,7 +12,7 @@ namespace liana::canopen {
 class Master {
  public:
   // Node ids, buses and rate come from the tables; setup only, may throw.
-  Master(const std::vector<DriveExpectation>& drives, const config::BusesConfig& buses);
+  Master(const std::vector<ExpectedDrive>& drives, const config::BusesConfig& buses);
 
   // True when the frame was the master's business (boot-up, heartbeat, emergency, SDO response).
   bool on_frame(int bus, const bus::CanFrame& frame, std::uint64_t tick) noexcept;

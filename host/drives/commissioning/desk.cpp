@@ -7,7 +7,7 @@
 #include "host/drives/canopen/cob_id.hpp"
 #include "host/drives/canopen/messages.hpp"
 
-namespace liana::desk {
+namespace liana::commissioning {
 namespace {
 
 constexpr double kScanAnswer_s = 0.3;
@@ -31,7 +31,7 @@ std::uint64_t Desk::ticks(double seconds) const {
 }
 
 void Desk::refuse_when_interrupted() const {
-  if (interrupt_) throw DeskInterrupted("interrupted; nothing more is asked or told");
+  if (interrupt_) throw CommissioningInterrupted("interrupted; nothing more is asked or told");
 }
 
 void Desk::tick(const OnFrame& take, const std::function<void()>& send) {
@@ -102,7 +102,7 @@ std::vector<Place> Desk::scan(std::uint8_t first, std::uint8_t last) {
   return found;
 }
 
-std::unique_ptr<canopen::BootNode> Desk::look_at_boot(const canopen::DriveExpectation& drive) {
+std::unique_ptr<canopen::BootNode> Desk::look_at_boot(const canopen::ExpectedDrive& drive) {
   const canopen::BootTiming timing = canopen::boot_timing(rate_hz_, drive.type.times);
   auto node = std::make_unique<canopen::BootNode>(drive, timing, true);
   const auto take = [&](const bus::ReceivedFrame& received) {
@@ -135,4 +135,4 @@ void Desk::wait(double seconds) {
   for (std::uint64_t left = ticks(seconds); left > 0; --left) tick([](const bus::ReceivedFrame&) {}, [] {});
 }
 
-}  // namespace liana::desk
+}  // namespace liana::commissioning

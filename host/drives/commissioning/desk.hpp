@@ -15,7 +15,7 @@
 #include "host/drives/bus/drive_bus.hpp"
 #include "host/drives/canopen/boot_node.hpp"
 
-namespace liana::desk {
+namespace liana::commissioning {
 
 // A node on a bus of the table.
 struct Place {
@@ -35,13 +35,13 @@ struct Answer {
 };
 
 // The user wants to end.
-struct DeskInterrupted : std::runtime_error {
+struct CommissioningInterrupted : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 class Desk {
  public:
-  // Throws std::runtime_error as open_drive_bus does. `interrupt` ends every wait with DeskInterrupted.
+  // Throws std::runtime_error as open_drive_bus does. `interrupt` ends every wait with CommissioningInterrupted.
   Desk(const config::BusesConfig& buses, timing::TimeMode time, const std::string& bus_socket,
        const std::atomic<bool>& interrupt);
 
@@ -51,7 +51,7 @@ class Desk {
   // The nodes from `first` to `last` of all buses that answer when asked for 0x1000, in this order; 0.3 s for a node.
   std::vector<Place> scan(std::uint8_t first, std::uint8_t last);
   // Resets communication of the node and goes through its boot, reading only. The result is kConfigured or kFailed.
-  std::unique_ptr<canopen::BootNode> look_at_boot(const canopen::DriveExpectation& drive);
+  std::unique_ptr<canopen::BootNode> look_at_boot(const canopen::ExpectedDrive& drive);
   // Whether another master's heartbeat (0x77F) is heard within 0.35 s.
   bool hears_master();
   // Lets `seconds` pass.
@@ -62,7 +62,7 @@ class Desk {
   // One tick, also when interrupted, for who has to bring a motor to rest first: what has come in goes to `take`; what
   // `send` makes goes out. Throws std::runtime_error when the bus has ended.
   void exchange(Tick kind, const OnFrame& take, const std::function<void()>& send);
-  // Throws DeskInterrupted when the user wants to end.
+  // Throws CommissioningInterrupted when the user wants to end.
   void refuse_when_interrupted() const;
   bool is_interrupted() const { return interrupt_; }
   bus::DriveBus& bus() { return *bus_; }
@@ -81,4 +81,4 @@ class Desk {
   std::atomic<std::uint64_t> tick_ = 0;
 };
 
-}  // namespace liana::desk
+}  // namespace liana::commissioning

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace liana::desk {
+namespace liana::commissioning {
 namespace {
 
 constexpr double kEnable_s = 5.0;
@@ -26,7 +26,7 @@ std::int32_t counts_at(double counts) {
 
 bool JogBounds::allows(std::int32_t before, std::int64_t target) const noexcept {
   const double step = std::fabs(static_cast<double>(target) - before);
-  return target >= low && target <= high && step <= most_step;
+  return target >= low && target <= high && step <= max_step;
 }
 
 Jog::Jog(const JogRequest& request, double rate_hz) : request_(request), rate_hz_(rate_hz) {}
@@ -39,15 +39,15 @@ void Jog::enter(Phase phase) noexcept {
 }
 
 // The first reason is the one that is told.
-void Jog::end_with(JogEnd why, Phase next) noexcept {
-  if (end_ == JogEnd::kNone) end_ = why;
+void Jog::end_with(JogResult why, Phase next) noexcept {
+  if (end_ == JogResult::kNone) end_ = why;
   enter(next);
 }
 
 void Jog::interrupt() noexcept {
   const bool moves = phase_ == Phase::kMove || phase_ == Phase::kSettle;
   if (phase_ == Phase::kDisable || phase_ == Phase::kOver) return;
-  end_with(JogEnd::kInterrupted, moves ? Phase::kStop : Phase::kDisable);
+  end_with(JogResult::kInterrupted, moves ? Phase::kStop : Phase::kDisable);
 }
 
 DriveGoal Jog::goal() const noexcept {
@@ -66,7 +66,7 @@ DriveGoal Jog::goal() const noexcept {
   }
   // A motor that turns is stopped by its ramp before the brake takes it. A drive whose 605A is none of ours may stay in
   // Quick stop active: then it is disabled.
-  const bool stops_first = has_torque(state) && end_ != JogEnd::kArrived && in_phase_ticks_ < ticks(kQuickStop_s);
+  const bool stops_first = has_torque(state) && end_ != JogResult::kArrived && in_phase_ticks_ < ticks(kQuickStop_s);
   return stops_first ? DriveGoal::kQuickStop : DriveGoal::kDisabled;
 }
 
@@ -102,8 +102,8 @@ void Jog::enable() noexcept {
   const DriveState state = decode(last_.statusword);
   if (last_.feedback_age_ticks == 0) told_.target_counts = last_.position_counts;
   if (state == DriveState::kFault && !request_.clears_fault && last_.feedback_age_ticks == 0)
-    return end_with(JogEnd::kFaultBefore, Phase::kDisable);
-  if (in_phase_ticks_ > ticks(kEnable_s)) return end_with(JogEnd::kNotEnabled, Phase::kDisable);
+    return end_with(JogResult::kFaultBefore, Phase::kDisable);
+  if (in_phase_ticks_ > ticks(kEnable_s)) return end_with(JogResult::kNotEnabled, Phase::kDisable);
   if (state != DriveState::kOperationEnabled || last_.feedback_age_ticks != 0) return;
   start_ = moved_to_ = last_.position_counts;
   was_enabled_ = true;
@@ -117,15 +117,15 @@ void Jog::enable() noexcept {
 void Jog::watch() noexcept {
   const bool left = last_.feedback_age_ticks == 0 && decode(last_.statusword) != DriveState::kOperationEnabled;
   const double away = std::fabs(static_cast<double>(last_.position_counts) - told_.target_counts);
-  if (left) return end_with(JogEnd::kFault, Phase::kDisable);
-  if (last_.emergency_code != 0) return end_with(JogEnd::kEmergency, Phase::kDisable);
-  if (last_.feedback_age_ticks > ticks(kReports_s)) return end_with(JogEnd::kReportsLost, Phase::kDisable);
+  if (left) return end_with(JogResult::kFault, Phase::kDisable);
+  if (last_.emergency_code != 0) return end_with(JogResult::kEmergency, Phase::kDisable);
+  if (last_.feedback_age_ticks > ticks(kReports_s)) return end_with(JogResult::kReportsLost, Phase::kDisable);
   if (last_.heartbeat_age_ticks > ticks(kHeartbeat_s) || last_.operational == 0)
-    return end_with(JogEnd::kHeartbeatLost, Phase::kDisable);
+    return end_with(JogResult::kHeartbeatLost, Phase::kDisable);
   const bool is_strained = std::abs(last_.torque_permille) > kStrained * request_.most_torque_permille;
   strained_ticks_ = is_strained ? strained_ticks_ + 1 : 0;
-  if (strained_ticks_ > ticks(kStrained_s)) return end_with(JogEnd::kTorque, Phase::kDisable);
-  if (away > request_.window_counts) return end_with(JogEnd::kRanAway, Phase::kDisable);
+  if (strained_ticks_ > ticks(kStrained_s)) return end_with(JogResult::kTorque, Phase::kDisable);
+  if (away > request_.window_counts) return end_with(JogResult::kRanAway, Phase::kDisable);
 }
 
 // Speed goes up and down by the ramp; it is never more than what can be braked on the way that is left.
@@ -147,16 +147,16 @@ void Jog::move() noexcept {
 
 void Jog::tell_target(double target) noexcept {
   const auto counts = static_cast<std::int64_t>(std::llround(target));
-  if (!bounds_.allows(told_.target_counts, counts)) return end_with(JogEnd::kBounds, Phase::kDisable);
+  if (!bounds_.allows(told_.target_counts, counts)) return end_with(JogResult::kBounds, Phase::kDisable);
   target_ = target;
   told_.target_counts = static_cast<std::int32_t>(counts);
 }
 
 void Jog::settle() noexcept {
-  if (in_phase_ticks_ > ticks(kSettle_s)) return end_with(JogEnd::kNotSettled, Phase::kDisable);
+  if (in_phase_ticks_ > ticks(kSettle_s)) return end_with(JogResult::kNotSettled, Phase::kDisable);
   const double away = std::fabs(static_cast<double>(last_.position_counts) - told_.target_counts);
   const bool has_settled = away <= request_.settled_counts && in_phase_ticks_ > ticks(kSettled_s);
-  if (has_settled) end_with(JogEnd::kArrived, Phase::kDisable);
+  if (has_settled) end_with(JogResult::kArrived, Phase::kDisable);
 }
 
 void Jog::disable() noexcept {
@@ -165,4 +165,4 @@ void Jog::disable() noexcept {
   if ((is_done && last_.feedback_age_ticks == 0) || in_phase_ticks_ > ticks(kDisable_s)) enter(Phase::kOver);
 }
 
-}  // namespace liana::desk
+}  // namespace liana::commissioning

@@ -7,7 +7,7 @@
 #include "firmware_like/drive/cia402.hpp"
 #include "firmware_like/drive/drive_io.hpp"
 
-namespace liana::desk {
+namespace liana::commissioning {
 
 struct JogRequest {
   double by_counts = 0.0;                // signed way, in increments of the encoder
@@ -23,11 +23,11 @@ struct JogRequest {
 struct JogBounds {
   std::int32_t low = 0;
   std::int32_t high = 0;
-  double most_step = 0.0;  // counts
+  double max_step = 0.0;  // counts
   bool allows(std::int32_t before, std::int64_t target) const noexcept;
 };
 
-enum class JogEnd : std::uint8_t {
+enum class JogResult : std::uint8_t {
   kNone,           // still on its way
   kArrived,        // it stands at its goal
   kInterrupted,    // somebody wanted it to stop
@@ -57,7 +57,7 @@ class Jog {
   bool is_over() const noexcept { return phase_ == Phase::kOver; }
   // The drive itself says that it has no power on the motor.
   bool is_off() const noexcept { return liana::is_off(decode(last_.statusword)) && last_.feedback_age_ticks == 0; }
-  JogEnd end() const noexcept { return end_; }
+  JogResult end() const noexcept { return end_; }
   // Where it stood when it was enabled; moved_counts() from there.
   std::int32_t start_counts() const noexcept { return start_; }
   std::int32_t moved_counts() const noexcept;
@@ -66,7 +66,7 @@ class Jog {
  private:
   enum class Phase : std::uint8_t { kEnable, kMove, kSettle, kStop, kDisable, kOver };
   void enter(Phase phase) noexcept;
-  void end_with(JogEnd why, Phase next) noexcept;
+  void end_with(JogResult why, Phase next) noexcept;
   void enable() noexcept;
   void watch() noexcept;
   void move() noexcept;
@@ -79,7 +79,7 @@ class Jog {
   JogRequest request_;
   double rate_hz_;
   Phase phase_ = Phase::kEnable;
-  JogEnd end_ = JogEnd::kNone;
+  JogResult end_ = JogResult::kNone;
   JogBounds bounds_;
   DriveFeedback last_;
   DriveCommand told_;
@@ -92,4 +92,4 @@ class Jog {
   std::uint32_t strained_ticks_ = 0;  // in a row with more torque than it may have
 };
 
-}  // namespace liana::desk
+}  // namespace liana::commissioning

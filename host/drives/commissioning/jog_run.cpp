@@ -7,7 +7,7 @@
 #include "firmware_like/drive/pdo.hpp"
 #include "host/drives/canopen/messages.hpp"
 
-namespace liana::desk {
+namespace liana::commissioning {
 namespace {
 
 constexpr double kTell_s = 0.1;
@@ -15,7 +15,7 @@ constexpr std::uint16_t kNeverHeard = 0xFFFF;  // ticks
 
 }  // namespace
 
-JogRun::JogRun(Desk& desk, const canopen::DriveExpectation& drive)
+JogRun::JogRun(Desk& desk, const canopen::ExpectedDrive& drive)
     : desk_(desk),
       drive_(drive),
       node_(drive, canopen::boot_timing(desk.rate_hz(), drive.type.times)),
@@ -77,7 +77,7 @@ void JogRun::on_report(const bus::CanFrame& frame) {
   seen_.position_counts = report.position_counts;
   seen_.torque_permille = report.torque_permille;
   seen_.feedback_age_ticks = 0;
-  most_torque_permille_ = std::max(most_torque_permille_, std::abs(std::int32_t{report.torque_permille}));
+  max_torque_permille_ = std::max(max_torque_permille_, std::abs(std::int32_t{report.torque_permille}));
 }
 
 void JogRun::on_emergency(const bus::CanFrame& frame) {
@@ -142,12 +142,12 @@ JogOutcome JogRun::jog(const JogRequest& request, const std::function<void(const
       tell({static_cast<double>(tick) / desk_.rate_hz(), seen_, jog.moved_counts(), current_permille_});
   }
   const bool is_off = jog.is_off();
-  const bool has_fault = jog.end() == JogEnd::kFault || jog.end() == JogEnd::kFaultBefore;
+  const bool has_fault = jog.end() == JogResult::kFault || jog.end() == JogResult::kFaultBefore;
   if (has_fault && first_emergency_ == 0) ask_error_code(jog);
   return {jog.end(),          is_off,
           jog.was_enabled(),  jog.start_counts(),
-          jog.moved_counts(), most_torque_permille_,
+          jog.moved_counts(), max_torque_permille_,
           seen_.statusword,   first_emergency_};
 }
 
-}  // namespace liana::desk
+}  // namespace liana::commissioning

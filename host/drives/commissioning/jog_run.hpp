@@ -10,7 +10,7 @@
 #include "host/drives/commissioning/desk.hpp"
 #include "host/drives/commissioning/jog.hpp"
 
-namespace liana::desk {
+namespace liana::commissioning {
 
 // How it stands, ten times a second.
 struct JogSample {
@@ -21,7 +21,7 @@ struct JogSample {
 };
 
 struct JogOutcome {
-  JogEnd end = JogEnd::kNone;
+  JogResult end = JogResult::kNone;
   bool is_off = false;  // the drive says that the motor has no power
   bool was_enabled = false;
   std::int32_t start_counts = 0;
@@ -33,14 +33,14 @@ struct JogOutcome {
 
 class JogRun {
  public:
-  JogRun(Desk& desk, const canopen::DriveExpectation& drive);
+  JogRun(Desk& desk, const canopen::ExpectedDrive& drive);
   // Tells the drive to reset communication: it forgets heartbeats and process data.
   ~JogRun();
   JogRun(const JogRun&) = delete;
   JogRun& operator=(const JogRun&) = delete;
 
   // Boots the drive, writing what its type says. The result is kOperational, or kFailed with all that it refused.
-  // Throws DeskInterrupted; nothing had torque then.
+  // Throws CommissioningInterrupted; nothing had torque then.
   const canopen::BootNode& boot();
   // After a boot that ended kOperational. An interrupt brings the motor to rest and disables it.
   JogOutcome jog(const JogRequest& request, const std::function<void(const JogSample&)>& tell);
@@ -55,15 +55,15 @@ class JogRun {
   bool is_from_drive(const bus::ReceivedFrame& received, canopen::FrameKind kind) const;
 
   Desk& desk_;
-  canopen::DriveExpectation drive_;
+  canopen::ExpectedDrive drive_;
   canopen::BootNode node_;
   canopen::HeartbeatProducer heartbeat_;
   canopen::SdoClient sdo_;
   DriveFeedback seen_;
   std::uint16_t first_emergency_ = 0;
-  std::int32_t most_torque_permille_ = 0;
+  std::int32_t max_torque_permille_ = 0;
   std::optional<std::int16_t> current_permille_;
   bool has_current_ = true;  // until it says that it has no 6078
 };
 
-}  // namespace liana::desk
+}  // namespace liana::commissioning

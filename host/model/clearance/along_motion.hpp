@@ -41,7 +41,7 @@ class MotionSearch {
  public:
   using Found = std::invoke_result_t<Look, std::int32_t>;
 
-  MotionSearch(const Motion& motion, Look& look) : motion_(motion), look_(look), least_m_(motion.enough_m) {}
+  MotionSearch(const Motion& motion, Look& look) : motion_(motion), look_(look), min_m_(motion.enough_m) {}
 
   AlongMotion<Found> run() {
     const std::int32_t last = static_cast<std::int32_t>(motion_.gone_m.size()) - 1;
@@ -67,8 +67,8 @@ class MotionSearch {
   double look_at(std::int32_t pose) {
     const Found found = look_(pose);
     const double here_m = sure(found.distance_m());
-    if (out_.pose < 0 || here_m < least_look_m_) out_.nearest = found, out_.pose = pose, least_look_m_ = here_m;
-    least_m_ = std::min(least_m_, here_m);
+    if (out_.pose < 0 || here_m < min_look_m_) out_.nearest = found, out_.pose = pose, min_look_m_ = here_m;
+    min_m_ = std::min(min_m_, here_m);
     ++out_.looks;
     return here_m;
   }
@@ -80,7 +80,7 @@ class MotionSearch {
   }
 
   void search(Piece piece) {
-    if (piece.at_least_m >= least_m_ - motion_.unseen_m || piece.to <= piece.from + 1) {
+    if (piece.at_least_m >= min_m_ - motion_.unseen_m || piece.to <= piece.from + 1) {
       out_.at_least_m = std::min(out_.at_least_m, piece.at_least_m);
       return;
     }
@@ -96,8 +96,8 @@ class MotionSearch {
   const Motion& motion_;
   Look& look_;
   AlongMotion<Found> out_;
-  double least_m_;  // of all looks and enough_m
-  double least_look_m_ = kNoObstacle_m;
+  double min_m_;  // of all looks and enough_m
+  double min_look_m_ = kNoObstacle_m;
   std::array<Piece, 64> open_;  // halving leaves one piece waiting each time, at most 32 times
   std::size_t waiting_ = 0;
 };
@@ -106,7 +106,7 @@ class MotionSearch {
 // one pose to the next, whichever is more. A travel or distance that is no number makes it -kNoObstacle_m. Cost: at
 // most one look a pose, two in all where the arm stays away by more than it moves.
 template <class Look>
-auto least_along(const Motion& motion, Look look) {
+auto min_along(const Motion& motion, Look look) {
   return MotionSearch<Look>(motion, look).run();
 }
 

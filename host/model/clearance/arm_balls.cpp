@@ -28,7 +28,7 @@ Ball ball_around(AxisPoints points) {
 
 ArmBalls::ArmBalls(AxisPoints points, double radius_m) noexcept
     : links_(std::max(static_cast<std::int32_t>(points.size()) - 1, 0)) {
-  size_ = std::max(kGroup, (links_ + kMostGroups - 1) / kMostGroups);
+  size_ = std::max(kGroup, (links_ + kMaxGroups - 1) / kMaxGroups);
   count_ = (links_ + size_ - 1) / size_;
   for (std::int32_t g = 0; g < count_; ++g) {
     const Index from = static_cast<Index>(first(g)), to = static_cast<Index>(first(g + 1));
@@ -39,11 +39,11 @@ ArmBalls::ArmBalls(AxisPoints points, double radius_m) noexcept
   }
 }
 
-double least_possible_m(const Ball& ball, const config::SceneSphere& sphere) noexcept {
+double min_possible_m(const Ball& ball, const config::SceneSphere& sphere) noexcept {
   return norm(subtract(ball.center_m, sphere.center_m)) - sphere.radius_m - ball.radius_m;
 }
 
-double least_possible_m(const Ball& ball, const config::SceneBox& box) noexcept {
+double min_possible_m(const Ball& ball, const config::SceneBox& box) noexcept {
   const Vec3 from_center = subtract(ball.center_m, box.center_m);
   double outside2 = 0.0, most = -kNoObstacle_m;
   for (Index i = 0; i < 3; ++i) {
@@ -54,7 +54,7 @@ double least_possible_m(const Ball& ball, const config::SceneBox& box) noexcept 
   return (most > 0.0 ? std::sqrt(outside2) : most) - ball.radius_m;
 }
 
-double least_possible_m(const Capsule& link, const config::SceneBox& box) noexcept {
+double min_possible_m(const Capsule& link, const config::SceneBox& box) noexcept {
   const Vec3 from = subtract(link.from_m, box.center_m), to = subtract(link.to_m, box.center_m);
   double most = -kNoObstacle_m;
   for (Index i = 0; i < 3; ++i) {
@@ -65,7 +65,7 @@ double least_possible_m(const Capsule& link, const config::SceneBox& box) noexce
 }
 
 // Inside the box around a body nothing is known of the body.
-double least_possible_m(const Ball& ball, const config::SceneConvex& body) noexcept {
+double min_possible_m(const Ball& ball, const config::SceneConvex& body) noexcept {
   double outside2 = 0.0;
   for (Index i = 0; i < 3; ++i) {
     const double beyond = std::fabs(ball.center_m[i] - body.center_m[i]) - body.half_extent_m[i];
@@ -74,7 +74,7 @@ double least_possible_m(const Ball& ball, const config::SceneConvex& body) noexc
   return outside2 > 0.0 ? std::sqrt(outside2) - ball.radius_m : -kNoObstacle_m;
 }
 
-double least_possible_m(const Capsule& link, const config::SceneConvex& body) noexcept {
+double min_possible_m(const Capsule& link, const config::SceneConvex& body) noexcept {
   double most = 0.0;
   for (Index i = 0; i < 3; ++i) {
     const double a = link.from_m[i] - body.center_m[i], b = link.to_m[i] - body.center_m[i];

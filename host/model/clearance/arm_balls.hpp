@@ -34,24 +34,24 @@ class ArmBalls {
   bool sound() const { return sound_; }
 
  private:
-  static constexpr std::int32_t kMostGroups = 32;
+  static constexpr std::int32_t kMaxGroups = 32;
 
-  std::array<Ball, kMostGroups> ball_;
+  std::array<Ball, kMaxGroups> ball_;
   std::int32_t links_ = 0, count_ = 0, size_ = kGroup;
   bool sound_ = true;
 };
 
 // No point of the ball is nearer to the obstacle's surface than this, but for a rounding; exact where the ball is
 // outside.
-double least_possible_m(const Ball& ball, const config::SceneSphere& sphere) noexcept;
-double least_possible_m(const Ball& ball, const config::SceneBox& box) noexcept;
+double min_possible_m(const Ball& ball, const config::SceneSphere& sphere) noexcept;
+double min_possible_m(const Ball& ball, const config::SceneBox& box) noexcept;
 // Of the box around the body, which is all that is looked at here.
-double least_possible_m(const Ball& ball, const config::SceneConvex& body) noexcept;
+double min_possible_m(const Ball& ball, const config::SceneConvex& body) noexcept;
 
 // The same for a link. To a sphere no bound is cheaper than the distance, so there is none; to a box it is the largest
 // gap between a pair of its faces' planes and the link, exact where the link is beyond a face.
-inline double least_possible_m(const Capsule&, const config::SceneSphere&) noexcept { return -kNoObstacle_m; }
-double least_possible_m(const Capsule& link, const config::SceneBox& box) noexcept;
-double least_possible_m(const Capsule& link, const config::SceneConvex& body) noexcept;
+inline double min_possible_m(const Capsule&, const config::SceneSphere&) noexcept { return -kNoObstacle_m; }
+double min_possible_m(const Capsule& link, const config::SceneBox& box) noexcept;
+double min_possible_m(const Capsule& link, const config::SceneConvex& body) noexcept;
 
 }  // namespace liana::clearance

@@ -30,7 +30,7 @@ class ArmSearch {
     const double enough_m = bound_m() + kRounding_m;  // nothing beyond can be the least
     each_obstacle(scene_, [&](const auto& obstacle, std::int32_t number) {
       for (std::int32_t g = 0; g < balls_.count(); ++g) {
-        if (least_possible_m(balls_.ball(g), obstacle) <= enough_m) look_at(obstacle, number, g, enough_m, out);
+        if (min_possible_m(balls_.ball(g), obstacle) <= enough_m) look_at(obstacle, number, g, enough_m, out);
       }
     });
     return out;
@@ -42,7 +42,7 @@ class ArmSearch {
                ArmClearance& out) const {
     for (std::int32_t link = balls_.first(group); link < balls_.first(group + 1); ++link) {
       const Capsule capsule = link_capsule(points_, link, radius_m_);
-      if (least_possible_m(capsule, obstacle) > enough_m) continue;
+      if (min_possible_m(capsule, obstacle) > enough_m) continue;
       const Clearance here = clearance(capsule, obstacle);
       if (here.distance_m < out.nearest.distance_m) out = {here, link, number};
     }
@@ -53,7 +53,7 @@ class ArmSearch {
     Guess guess;
     each_obstacle(scene_, [&](const auto& obstacle, std::int32_t number) {
       for (std::int32_t g = 0; g < balls_.count(); ++g) {
-        const double least_m = least_possible_m(balls_.ball(g), obstacle);
+        const double least_m = min_possible_m(balls_.ball(g), obstacle);
         if (least_m < guess.least_m) guess = {least_m, number, g};
       }
     });
@@ -77,10 +77,10 @@ void measure_links(AxisPoints points, double radius_m, const Obstacle& obstacle,
                    std::vector<Clearance>& out) {
   const ArmBalls balls(points, radius_m);
   for (std::int32_t g = 0; g < balls.count(); ++g) {
-    const double ball_m = least_possible_m(balls.ball(g), obstacle) - kRounding_m;
+    const double ball_m = min_possible_m(balls.ball(g), obstacle) - kRounding_m;
     for (std::int32_t link = balls.first(g); link < balls.first(g + 1); ++link) {
       const Capsule capsule = link_capsule(points, link, radius_m);
-      const double least_m = ball_m >= within_m ? ball_m : least_possible_m(capsule, obstacle) - kRounding_m;
+      const double least_m = ball_m >= within_m ? ball_m : min_possible_m(capsule, obstacle) - kRounding_m;
       Clearance& here = out[static_cast<Index>(link)];
       if (least_m >= within_m) {
         here = {};

@@ -47,13 +47,13 @@ Clearance clearance(const Capsule& link, const config::SceneSphere& sphere) noex
 // face, minimised over the axis.
 Clearance clearance(const Capsule& link, const config::SceneBox& box) noexcept;
 
-// Capsule to convex body by the search of Gilbert, Johnson and Keerthi (1988), at most kMostSteps of it. The distance
+// Capsule to convex body by the search of Gilbert, Johnson and Keerthi (1988), at most kMaxSteps of it. The distance
 // is that of the best pair of parallel planes found between the two, so it is never above the true one, and below it by
 // less than 1e-7 m for bodies of the scene's sizes; where no planes are found the body counts as touched (distance 0 or
 // below). Of a link whose axis is inside the body, the depth is that of the shortest way out found among fixed
 // directions and their neighbours: never less than the true one. Cost: 3,000 to 20,000 instructions.
 Clearance clearance(const Capsule& link, const config::SceneConvex& body) noexcept;
-constexpr int kMostSteps = 64;
+constexpr int kMaxSteps = 64;
 
 // Obstacles are numbered: the scene's spheres first, then its boxes, then its convex bodies.
 std::int32_t obstacle_count(const config::SceneConfig& scene) noexcept;

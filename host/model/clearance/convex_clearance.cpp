@@ -55,7 +55,7 @@ Gap largest_gap(const Pair& pair, double& share) {
   simplex.count = 1;
   reduce(simplex);
   Gap best;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const double distance_m = norm(simplex.nearest_m);
     if (!(distance_m > kClose_m)) break;
     const Vec3 normal = scale(simplex.nearest_m, 1.0 / distance_m);

@@ -13,8 +13,8 @@ double clamped_share(double part, double whole) { return whole > 0.0 ? std::clam
 
 class SelfSearch {
  public:
-  SelfSearch(AxisPoints points, double radius_m, std::int32_t least_apart)
-      : points_(points), radius_m_(radius_m), least_apart_(least_apart), balls_(points, radius_m) {
+  SelfSearch(AxisPoints points, double radius_m, std::int32_t min_apart)
+      : points_(points), radius_m_(radius_m), min_apart_(min_apart), balls_(points, radius_m) {
     for (std::size_t i = 0; i + 1 < points.size(); ++i)
       longest_m_ = std::max(longest_m_, norm(subtract(points[i + 1], points[i])));
   }
@@ -41,14 +41,14 @@ class SelfSearch {
   void each_pair(Use&& use) const {
     for (std::int32_t g = 0; g < balls_.count(); ++g) {
       for (std::int32_t h = g; h < balls_.count(); ++h) {
-        if (balls_.first(h + 1) - 1 - balls_.first(g) >= least_apart_) use(g, h);
+        if (balls_.first(h + 1) - 1 - balls_.first(g) >= min_apart_) use(g, h);
       }
     }
   }
 
   void look_at(std::int32_t g, std::int32_t h) {
     for (std::int32_t link = balls_.first(g); link < balls_.first(g + 1); ++link) {
-      const std::int32_t from = std::max(balls_.first(h), link + least_apart_);
+      const std::int32_t from = std::max(balls_.first(h), link + min_apart_);
       for (std::int32_t other = from; other < balls_.first(h + 1); ++other) {
         if (may_be_least(link, other)) measure(link, other);
       }
@@ -81,7 +81,7 @@ class SelfSearch {
 
   AxisPoints points_;
   double radius_m_;
-  std::int32_t least_apart_;
+  std::int32_t min_apart_;
   ArmBalls balls_;
   double longest_m_ = 0.0;
   SelfClearance out_;
@@ -101,12 +101,12 @@ double between_m(const Capsule& a, const Capsule& b) noexcept {
   return norm(between) - a.radius_m - b.radius_m;
 }
 
-SelfClearance self_clearance(AxisPoints points, double radius_m, std::int32_t least_apart) noexcept {
-  SelfSearch search(points, radius_m, least_apart);
+SelfClearance self_clearance(AxisPoints points, double radius_m, std::int32_t min_apart) noexcept {
+  SelfSearch search(points, radius_m, min_apart);
   return search.sound() ? search.least() : SelfClearance{-kNoObstacle_m, 0, 0};
 }
 
-std::int32_t least_apart(double joint_limit_rad) noexcept {
+std::int32_t min_apart(double joint_limit_rad) noexcept {
   return static_cast<std::int32_t>(std::ceil(std::numbers::pi / (std::numbers::sqrt2 * joint_limit_rad)));
 }
 

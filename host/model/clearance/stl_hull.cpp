@@ -78,7 +78,7 @@ std::vector<Vec3> corners_of(const std::vector<Vec3>& points) {
     for (;;) {
       const Clearance outside = clearance(Capsule{point, point, 0.0}, hull);
       if (!(outside.distance_m > kInside)) break;
-      if (hull.points_m.size() == config::kMostHullPoints)
+      if (hull.points_m.size() == config::kMaxHullPoints)
         refuse("allowed a hull of 256 corners: export it coarser, or make several bodies of it");
       hull.points_m.push_back(farthest(points, outside.normal));
       hull = config::hull_of("", std::move(hull.points_m));
@@ -92,7 +92,7 @@ std::vector<Vec3> corners_of(const std::vector<Vec3>& points) {
 std::vector<Vec3> stl_hull(const std::string& path) {
   const std::string bytes = read(path);
   const std::vector<Vec3> points = is_binary(bytes) ? binary_points(bytes) : text_points(bytes);
-  if (points.size() < 3 || points.size() > 3 * kMostTriangles)
+  if (points.size() < 3 || points.size() > 3 * kMaxTriangles)
     refuse("allowed an STL file of 1 to 200000 triangles: export it again");
   for (const Vec3& point : points) {
     if (!(norm(point) < 1e6)) refuse("allowed numbers up to 1e6: export it again");

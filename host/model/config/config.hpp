@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_params.hpp"
 #include "host/base/json/json_fwd.hpp"
 
 namespace liana::config {
@@ -81,7 +81,7 @@ struct DriveIdentity {
 // The robot: what the core needs (table) and what only the host needs.
 struct RobotConfig {
   std::string name;
-  cable::RobotTable table{};  // mu, tick and T_c included
+  cable::RobotParams table{};  // mu, tick and T_c included
   DriveIdentity identity{};
   double rated_torque_Nm = 0.0;  // 6076, at the drum
   std::uint32_t counts_per_turn = 0;
@@ -94,8 +94,8 @@ struct RobotConfig {
   Machine machine;                                             // that of the buses
   double friction_band = 0.2;                                  // share by which true friction may differ from mu
   std::map<std::string, std::vector<double>> named_poses_deg;  // theta_count angles each; "zero" always exists
-  std::string start_pose;                  // which of them a simulated arm begins with; empty: the table does not say
-  std::vector<std::string> fixture_poses;  // those with fixtures, for calibration; empty: the table does not say
+  std::string start_pose;              // which of them a simulated arm begins with; empty: the table does not say
+  std::vector<std::string> jig_poses;  // those with fixtures, for calibration; empty: the table does not say
   std::string canonical_json;
 };
 
@@ -124,14 +124,14 @@ struct SceneSphere {
 // them).
 struct SceneConvex {
   std::string name;
-  std::vector<Vec3> points_m;       // 1..kMostHullPoints
+  std::vector<Vec3> points_m;       // 1..kMaxHullPoints
   std::array<Vec3, 2> disc_axes{};  // unit, at right angles, in the plane of the disc
   double disc_radius_m = 0.0;
   double round_m = 0.0;  // of the ball
   Vec3 center_m{};       // of the box along the base axes around all of it
   Vec3 half_extent_m{};
 };
-constexpr std::size_t kMostHullPoints = 256;
+constexpr std::size_t kMaxHullPoints = 256;
 
 // The slit between two parallel plates: its plane, and where it begins and ends along u.
 struct SceneSlit {
@@ -215,7 +215,7 @@ struct SceneFixture {
   double radius_m = 0.0;      // axis: half width of the funnel at its end, x = depth_m, > 0
   double opening_deg = 30.0;  // axis: how much it widens towards x = 0, to either side
 };
-constexpr std::size_t kMostFixtures = 16;
+constexpr std::size_t kMaxFixtures = 16;
 
 // Everything around the arm.
 struct SceneConfig {

@@ -5,7 +5,7 @@
 
 namespace liana::config {
 
-// The hull of points (1..kMostHullPoints, base frame, metres).
+// The hull of points (1..kMaxHullPoints, base frame, metres).
 SceneConvex hull_of(std::string name, std::vector<Vec3> points_m);
 // A cylinder with flat ends around two points, which must differ.
 SceneConvex cylinder(std::string name, const Vec3& from_m, const Vec3& to_m, double radius_m);

@@ -24,13 +24,13 @@ double read_if_there(const Field& table, const char* key, double most) {
 
 ErrorSource read_error(const Field& field) {
   field.only({"name", "position_m", "angle_deg"});
-  return {read_text(field.at("name")), read_if_there(field, "position_m", kMostPosition_m),
-          read_if_there(field, "angle_deg", kMostAngle_deg) * kDegree};
+  return {read_text(field.at("name")), read_if_there(field, "position_m", kMaxPosition_m),
+          read_if_there(field, "angle_deg", kMaxAngle_deg) * kDegree};
 }
 
 std::vector<ErrorSource> read_errors(const Field& list) {
   std::vector<ErrorSource> errors;
-  const std::size_t count = list.size(1, kMostErrors, "name every part of the chain once");
+  const std::size_t count = list.size(1, kMaxErrors, "name every part of the chain once");
   for (std::size_t i = 0; i < count; ++i) {
     ErrorSource error = read_error(list.element(i));
     const auto same = [&](const ErrorSource& other) { return other.name == error.name; };
@@ -66,7 +66,7 @@ std::vector<std::size_t> read_names(const Field& term, const char* key, const st
 ErrorTerm read_term(const Field& field, const std::vector<ErrorSource>& errors) {
   field.only({"name", "positions", "angles", "lever_m"});
   ErrorTerm term{read_text(field.at("name")), read_names(field, "positions", errors),
-                 read_names(field, "angles", errors), read_if_there(field, "lever_m", kMostLever_m)};
+                 read_names(field, "angles", errors), read_if_there(field, "lever_m", kMaxLever_m)};
   if (term.positions.empty() && term.angles.empty())
     field.refuse("positions, or angles with lever_m, or both", "say which errors it is made of");
   if (term.angles.empty() != (term.lever_m == 0.0))
@@ -78,7 +78,7 @@ ErrorLoop read_loop(const Field& field) {
   field.only({"errors", "terms"});
   ErrorLoop loop{read_errors(field.at("errors")), {}};
   const Field list = field.at("terms");
-  const std::size_t count = list.size(1, kMostTerms, "say what the errors do to the end of the chain");
+  const std::size_t count = list.size(1, kMaxTerms, "say what the errors do to the end of the chain");
   for (std::size_t i = 0; i < count; ++i) loop.terms.push_back(read_term(list.element(i), loop.errors));
   return loop;
 }

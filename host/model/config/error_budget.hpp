@@ -9,8 +9,8 @@
 
 namespace liana::config {
 
-constexpr std::size_t kMostErrors = 32, kMostTerms = 32;  // of a loop
-constexpr double kMostPosition_m = 10.0, kMostAngle_deg = 30.0, kMostLever_m = 1000.0;
+constexpr std::size_t kMaxErrors = 32, kMaxTerms = 32;  // of a loop
+constexpr double kMaxPosition_m = 10.0, kMaxAngle_deg = 30.0, kMaxLever_m = 1000.0;
 
 // What one part of the chain does wrong, as its maker states it.
 struct ErrorSource {

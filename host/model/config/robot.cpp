@@ -22,7 +22,7 @@ RobotConfig read_robot(const Json& json, const std::string& file, const std::str
   read_limits(table.at("limits"), out.table.limits);
   read_named_poses(table.at("named_poses_deg"), out);
   out.start_pose = read_start_pose(table, out.named_poses_deg);
-  out.fixture_poses = read_fixture_poses(table, out.named_poses_deg);
+  out.jig_poses = read_fixture_poses(table, out.named_poses_deg);
   out.canonical_json = canonical_json(json);
   return out;
 }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kLongestTipLag_s = 5.0;
 
-void read_segment(const Field& field, double mass_kg, cable::SegmentTable& segment) {
+void read_segment(const Field& field, double mass_kg, cable::SegmentParams& segment) {
   field.only({"modules", "module_length_m", "theta_limit_deg"});
   segment.modules = static_cast<std::int32_t>(field.at("modules").integer(1, cable::kMaxModules));
   segment.module_length_m = field.at("module_length_m").number({0.01, 1});
@@ -27,7 +27,7 @@ bool surround(std::vector<double> phases_deg) {
   return widest < 179.0;
 }
 
-void read_phases(const Field& field, cable::SegmentTable& segment) {
+void read_phases(const Field& field, cable::SegmentParams& segment) {
   const std::size_t count = field.size(3, cable::kMaxSegmentCables, "a segment needs 3 or 4 cables");
   std::vector<double> phases_deg;
   for (std::size_t c = 0; c < count; ++c) {
@@ -43,7 +43,7 @@ void read_phases(const Field& field, cable::SegmentTable& segment) {
 }  // namespace
 
 void read_arm(const Field& table, RobotConfig& out) {
-  cable::RobotTable& robot = out.table;
+  cable::RobotParams& robot = out.table;
   const Field module = table.at("module");
   module.only({"mass_kg", "radius_m"});
   const double mass_kg = module.at("mass_kg").number({0.001, 100});
@@ -70,9 +70,9 @@ void read_arm(const Field& table, RobotConfig& out) {
 
 // A shorter lag than it takes to brake would have the tip pass a target that stops.
 double read_tip_lag_s(const Field& field, const cable::MotionLimits& limits) {
-  const double linear_s = least_lag_s({limits.tip_speed_m_s, limits.tip_accel_m_s2, limits.tip_jerk_m_s3});
+  const double linear_s = min_lag_s({limits.tip_speed_m_s, limits.tip_accel_m_s2, limits.tip_jerk_m_s3});
   const double angular_s =
-      least_lag_s({limits.tip_rate_rad_s, limits.tip_angular_accel_rad_s2, limits.tip_angular_jerk_rad_s3});
+      min_lag_s({limits.tip_rate_rad_s, limits.tip_angular_accel_rad_s2, limits.tip_angular_jerk_rad_s3});
   const Range range{std::ceil(1000.0 * std::max(linear_s, angular_s) - 1e-6) / 1000.0, kLongestTipLag_s};
   const double lag_s = field.number({0, kLongestTipLag_s, true});
   if (!range.contains(lag_s))

@@ -32,7 +32,7 @@ void read_tension(const Field& field, cable::TensionLimits& tension) {
 }
 
 // Optional: a table without it gets the defaults.
-void read_watch(const Field& cables, cable::CableWatchTable& watch) {
+void read_watch(const Field& cables, cable::CableMonitorParams& watch) {
   if (!cables.json().contains("watch")) return;
   const Field field = cables.at("watch");
   field.only({"jump_N", "contradiction_m"});
@@ -67,7 +67,7 @@ void read_cables(const Field& table, const std::string& physics, RobotConfig& ou
   out.table.friction_mu = read_friction(cables.at("friction_mu"), physics);
   if (cables.json().contains("friction_band")) out.friction_band = cables.at("friction_band").number({0, 1});
   read_tension(table.at("tension"), out.table.tension);
-  read_watch(cables, out.table.cable_watch);
+  read_watch(cables, out.table.cable_monitor);
 }
 
 void read_torque_zero(const Field& drives, cable::TorqueZeroTable& zero) {

@@ -41,7 +41,7 @@ void read_limits(const Field& field, cable::MotionLimits& limits);
 // The optional start_pose: one of the named poses; empty where the table does not say.
 std::string read_start_pose(const Field& table, const std::map<std::string, std::vector<double>>& named_poses_deg);
 
-// The optional fixture_poses: two or more of the named poses, each once; empty where the table does not say.
+// The optional jig_poses: two or more of the named poses, each once; empty where the table does not say.
 std::vector<std::string> read_fixture_poses(const Field& table,
                                             const std::map<std::string, std::vector<double>>& named_poses_deg);
 

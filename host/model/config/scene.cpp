@@ -54,9 +54,9 @@ SceneSphere read_sphere(const Field& field) {
   return {field.at("name").name(40), field.at("center_m").numbers<3>(kPlace), field.at("radius_m").number(kThickness)};
 }
 
-constexpr std::size_t kMostConvex = 64;
+constexpr std::size_t kMaxConvex = 64;
 constexpr std::size_t kMostBytes = 122880;  // as canonical JSON, all of it: a client gets it in one packet
-constexpr double kLeastThickness_m = 1e-6;
+constexpr double kMinThickness_m = 1e-6;
 
 std::vector<Vec3> read_points(const Field& field, std::size_t least, std::size_t most, const char* what_to_do) {
   std::vector<Vec3> points_m(field.size(least, most, what_to_do));
@@ -66,8 +66,8 @@ std::vector<Vec3> read_points(const Field& field, std::size_t least, std::size_t
 
 SceneConvex read_hull(const Field& field, const std::string& name) {
   const Field points = field.at("points_m");
-  SceneConvex body = hull_of(name, read_points(points, 4, kMostHullPoints, "leave out points inside the hull"));
-  if (thickness_m(body.points_m) < kLeastThickness_m)
+  SceneConvex body = hull_of(name, read_points(points, 4, kMaxHullPoints, "leave out points inside the hull"));
+  if (thickness_m(body.points_m) < kMinThickness_m)
     points.refuse("points that do not lie in one plane to 1e-6 m", "give the body its thickness");
   return body;
 }
@@ -75,7 +75,7 @@ SceneConvex read_hull(const Field& field, const std::string& name) {
 SceneConvex read_cylinder(const Field& field, const std::string& name) {
   field.only({"from_m", "to_m", "radius_m"});
   const Vec3 from_m = field.at("from_m").numbers<3>(kPlace), to_m = field.at("to_m").numbers<3>(kPlace);
-  if (near(from_m, to_m, kLeastThickness_m))
+  if (near(from_m, to_m, kMinThickness_m))
     field.at("to_m").refuse("another point than from_m, by 1e-6 m or more", "give both ends of the cylinder's axis");
   return cylinder(name, from_m, to_m, field.at("radius_m").number(kThickness));
 }
@@ -215,7 +215,7 @@ SceneConfig parse_scene(const std::string& text, const std::string& file) {
   for (std::size_t i = 0; i < sphere_count; ++i) out.spheres.push_back(read_sphere(spheres.element(i)));
   if (json.contains("convex")) {
     const Field convex = table.at("convex");
-    const std::size_t convex_count = convex.size(0, kMostConvex, "at most 64 convex bodies");
+    const std::size_t convex_count = convex.size(0, kMaxConvex, "at most 64 convex bodies");
     for (std::size_t i = 0; i < convex_count; ++i) read_convex(convex.element(i), out.convex);
   }
   check_names(table);

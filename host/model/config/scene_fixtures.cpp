@@ -63,7 +63,7 @@ SceneFixture approach(const SceneSlit& slit, const SceneRod& rod) {
 }  // namespace
 
 std::vector<SceneFixture> read_fixtures(const Field& list) {
-  std::vector<SceneFixture> fixtures(list.size(0, kMostFixtures, "at most 16 fixtures"));
+  std::vector<SceneFixture> fixtures(list.size(0, kMaxFixtures, "at most 16 fixtures"));
   std::set<std::string> names;
   for (std::size_t i = 0; i < fixtures.size(); ++i) {
     fixtures[i] = read_fixture(list.element(i));

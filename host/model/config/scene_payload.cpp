@@ -8,7 +8,7 @@ constexpr Range kMass{1, 1e5};
 constexpr Range kInertia{-1e6, 1e6};
 constexpr std::size_t kLongestName = 64;
 constexpr Range kRadius{0.01, 10};
-constexpr double kLeastLength_m = 0.05;
+constexpr double kMinLength_m = 0.05;
 
 void read_start(const Field& field, ScenePayload& payload) {
   payload.on_arm = field.at("start").choice({"mechanism", "arm"}) == "arm";
@@ -38,7 +38,7 @@ ScenePayload read_payload(const Field& field) {
   payload.center_m = field.at("center_m").numbers<3>({-20, 20});
   payload.inertia_kgm2 = field.at("inertia_kgm2").numbers<6>(kInertia);
   check_inertia(field.at("inertia_kgm2"), payload.inertia_kgm2);
-  payload.length_m = field.at("length_m").number({kLeastLength_m, 20});
+  payload.length_m = field.at("length_m").number({kMinLength_m, 20});
   payload.radius_m = field.at("radius_m").number(kRadius);
   read_start(field, payload);
   return payload;

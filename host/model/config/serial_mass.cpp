@@ -30,7 +30,7 @@ Vec3 joint_in_link(const serial::DhRow& row) {
   return {-row.a_m, -row.d_m * alpha.sin, -row.d_m * alpha.cos};
 }
 
-serial::MassTable drawn(const Field& mass, const serial::RobotTable& robot) {
+serial::MassTable drawn(const Field& mass, const serial::RobotParams& robot) {
   mass.only({"module_kg", "module_radius_m", "boom_kg", "boom_radius_m", "end_effector_kg"});
   const double module_kg = mass.at("module_kg").number(kMass_kg), boom_kg = mass.at("boom_kg").number(kMass_kg);
   const double module_radius_m = mass.at("module_radius_m").number({0.01, 5});
@@ -77,7 +77,7 @@ LinkMass read_link(const Field& field) {
 
 }  // namespace
 
-serial::MassTable read_masses(const Field& table, const serial::RobotTable& robot) {
+serial::MassTable read_masses(const Field& table, const serial::RobotParams& robot) {
   const Field joints = table.at("joints");
   const bool by_link = joints.element(0).json().contains("link");
   for (std::size_t i = 0; i < robot.joints(); ++i) {

@@ -14,24 +14,24 @@
 namespace liana::config {
 namespace {
 
-using serial::JointTable;
+using serial::JointParams;
 
 constexpr double kShortest_m = 0.01;  // of all links together
-constexpr double kMostAngle_deg = 720.0;
-constexpr double kMostCounts = 2e9;  // what fits into the 32 bits of a drive's position, with room for a target beyond
+constexpr double kMaxAngle_deg = 720.0;
+constexpr double kMaxCounts = 2e9;  // what fits into the 32 bits of a drive's position, with room for a target beyond
 
-JointTable read_joint(const Field& field) {
+JointParams read_joint(const Field& field) {
   field.only({"alpha_deg", "a_m", "d_m", "offset_deg", "low_deg", "high_deg", "rate_deg_s", "accel_deg_s2",
               "stiffness_Nm_per_rad", "link"});
-  JointTable joint;
+  JointParams joint;
   joint.dh.alpha_rad = field.at("alpha_deg").number({-180, 180}) * kRadPerDeg;
   joint.dh.a_m = field.at("a_m").number({-20, 20});
   joint.dh.d_m = field.at("d_m").number({-20, 20});
   if (field.json().contains("offset_deg"))
     joint.dh.offset_rad = field.at("offset_deg").number({-360, 360}) * kRadPerDeg;
-  const double low_deg = field.at("low_deg").number({-kMostAngle_deg, kMostAngle_deg - 1});
+  const double low_deg = field.at("low_deg").number({-kMaxAngle_deg, kMaxAngle_deg - 1});
   joint.low_rad = low_deg * kRadPerDeg;
-  joint.high_rad = field.at("high_deg").number({low_deg + 1, kMostAngle_deg}) * kRadPerDeg;
+  joint.high_rad = field.at("high_deg").number({low_deg + 1, kMaxAngle_deg}) * kRadPerDeg;
   joint.rate_rad_s = field.at("rate_deg_s").number({0.001, 360}) * kRadPerDeg;
   joint.accel_rad_s2 = field.at("accel_deg_s2").number({0.001, 10000}) * kRadPerDeg;
   return joint;
@@ -70,10 +70,10 @@ void check_friction(const Field& friction) {
 
 // Counts at both ends of every joint's range have to be numbers that a drive can hold.
 void check_counts(const Field& zero, const SerialRobotConfig& out, std::size_t i) {
-  const JointTable& joint = out.table.joint[i];
+  const JointParams& joint = out.table.joint[i];
   const double farthest_rad = std::max(std::fabs(joint.low_rad), std::fabs(joint.high_rad));
   const double most = std::fabs(out.table.drive[i].zero_counts) + farthest_rad / out.table.drive[i].rad_per_count;
-  if (most > kMostCounts) {
+  if (most > kMaxCounts) {
     zero.element(i).refuse("positions of the joint's whole range within 2000000000 counts",
                            "choose another zero, or an encoder with fewer counts per turn");
   }
@@ -129,7 +129,7 @@ void read_poses(const Field& field, SerialRobotConfig& out) {
     pose.size(joints, joints, "give every joint's angle in degrees, from the base to the tip");
     std::vector<double> joint_deg;
     for (std::size_t i = 0; i < joints; ++i) {
-      const JointTable& joint = out.table.joint[i];
+      const JointParams& joint = out.table.joint[i];
       joint_deg.push_back(pose.element(i).number({joint.low_rad / kRadPerDeg, joint.high_rad / kRadPerDeg}));
     }
     out.named_poses_deg.emplace(name, joint_deg);

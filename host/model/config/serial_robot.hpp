@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "firmware_like/serial/mass_table.hpp"
-#include "firmware_like/serial/robot_table.hpp"
+#include "firmware_like/serial/robot_params.hpp"
 #include "host/model/config/config.hpp"
 
 namespace liana::config {
@@ -17,7 +17,7 @@ namespace liana::config {
 // The arm whose tip carries this one, its joints locked: where the base of this one is, and how it gives way.
 struct LockedBase {
   std::string name;                 // of the robot that carries
-  serial::RobotTable table{};       // without drives of its own: tick and T_c stay 0
+  serial::RobotParams table{};      // without drives of its own: tick and T_c stay 0
   serial::MassTable masses{};       // of its links
   serial::JointVector joint_rad{};  // at which its joints are locked
   std::map<std::string, serial::JointVector> named_poses_rad;
@@ -29,8 +29,8 @@ struct LockedBase {
 // What the core needs (table) and what only the host needs.
 struct SerialRobotConfig {
   std::string name;
-  serial::RobotTable table{};  // tick and T_c included
-  serial::MassTable masses{};  // without a load at the tip
+  serial::RobotParams table{};  // tick and T_c included
+  serial::MassTable masses{};   // without a load at the tip
   DriveIdentity identity{};
   double link_radius_m = 0.0;            // of a capsule about every link, with all that is mounted on it
   double rated_torque_Nm = 0.0;          // 6076, at the joint
@@ -41,11 +41,11 @@ struct SerialRobotConfig {
   std::vector<std::uint32_t> drive_serials;                    // what 0x1018:4 must say; empty: anything
   std::int32_t calibration_days = 0;                           // how old a calibration may be
   std::map<std::string, std::vector<double>> named_poses_deg;  // joint_count angles each
-  std::string start_pose;          // which of them a simulated arm begins with; empty: the table does not say
-  bool has_wrist_sensor = false;   // on one of its buses
-  bool has_adapter = false;        // the same
-  serial::PushGains push_gains{};  // that a push has which says nothing of them; torque drives only
-  std::optional<LockedBase> base;  // the arm that this one stands on; none: it stands firm
+  std::string start_pose;            // which of them a simulated arm begins with; empty: the table does not say
+  bool has_wrist_sensor = false;     // on one of its buses
+  bool has_adapter = false;          // the same
+  serial::InsertGains push_gains{};  // that a push has which says nothing of them; torque drives only
+  std::optional<LockedBase> base;    // the arm that this one stands on; none: it stands firm
   std::string canonical_json;
 };
 
@@ -63,7 +63,9 @@ bool is_carried(const SerialRobotConfig& robot, const SceneConfig& scene);
 std::string why_not_carried(const SerialRobotConfig& robot, const SceneConfig& scene);
 
 // True when its drives follow torques (docs/explanation/force-control.md).
-inline bool gives_torque(const SerialRobotConfig& robot) { return robot.table.torque.gives_torque != 0; }
+inline bool is_torque_controlled(const SerialRobotConfig& robot) {
+  return robot.table.torque.is_torque_controlled != 0;
+}
 
 // Whether the file describes a serial robot; throws when it cannot be read or is no JSON.
 bool is_serial_robot(const std::string& path);

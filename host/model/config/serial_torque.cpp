@@ -14,7 +14,7 @@ constexpr Range kGain{0, 1e6, true};
 // One gain: { what a push has, least, most }.
 void read_gain(const Field& field, std::size_t gain, SerialRobotConfig& out) {
   field.size(3, 3, "give what a push has that says nothing of it, the least and the most that one may ask for");
-  serial::TorqueTable& torque = out.table.torque;
+  serial::TorqueParams& torque = out.table.torque;
   torque.gain_low[gain] = field.element(1).number(kGain);
   torque.gain_high[gain] = field.element(2).number({torque.gain_low[gain], kGain.high});
   out.push_gains[gain] = field.element(0).number({torque.gain_low[gain], torque.gain_high[gain]});
@@ -28,7 +28,7 @@ void read_gains(const Field& gains, SerialRobotConfig& out) {
 void read_force_control(const Field& field, SerialRobotConfig& out) {
   field.only({"most_force_N", "most_joint_Nm", "most_travel_m", "most_aside_m", "most_turn_deg", "wrist_still_samples",
               "gains"});
-  serial::TorqueTable& torque = out.table.torque;
+  serial::TorqueParams& torque = out.table.torque;
   torque.most_force_N = field.at("most_force_N").number({1, 1e5});
   torque.most_joint_Nm = field.at("most_joint_Nm").number({1, out.rated_torque_Nm});
   torque.most_travel_m = field.at("most_travel_m").number({0.001, 1});
@@ -50,8 +50,8 @@ void read_torque(const Field& table, SerialRobotConfig& out) {
                            "say drives.mode = \"torque\" for drives that follow torques, or leave it out");
   }
   if (!gives) return;
-  serial::TorqueTable& torque = out.table.torque;
-  torque.gives_torque = 1;
+  serial::TorqueParams& torque = out.table.torque;
+  torque.is_torque_controlled = 1;
   torque.masses = out.masses;
   const Field friction = table.at("friction");
   torque.coulomb_Nm = friction.at("coulomb_Nm").number({0, 1e5});
@@ -62,7 +62,7 @@ void read_torque(const Field& table, SerialRobotConfig& out) {
 
 void check_drive_modes(const SerialRobotConfig& robot, const std::string& file, const BusesConfig& buses) {
   const std::map<std::int32_t, DriveType> types = drive_types(buses);
-  const bool torque = gives_torque(robot);
+  const bool torque = is_torque_controlled(robot);
   for (std::int32_t node = 1; node <= robot.table.drive_count(); ++node) {
     const auto named = types.find(node);
     if ((named != types.end() && named->second.is_cst) == torque) continue;

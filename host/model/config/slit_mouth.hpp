@@ -7,7 +7,7 @@
 namespace liana::config {
 
 // Room for link axes: the gap less the module's radius on either side. A scene's slit is open along its width.
-inline solve::SlitMouth slit_mouth(const SceneSlit& slit, double module_radius_m) {
+inline inverse_kinematics::SlitMouth slit_mouth(const SceneSlit& slit, double module_radius_m) {
   constexpr double kOpen_m = 100.0;
   return {{slit.frame.position_m, slit.frame.quaternion_wxyz},
           slit.end_u_m - slit.mouth_u_m,

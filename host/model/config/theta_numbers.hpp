@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_params.hpp"
 
 namespace liana::config {
 

@@ -4,7 +4,7 @@
 
 #include "firmware_like/math/scalar.hpp"
 
-namespace liana::solve {
+namespace liana::inverse_kinematics {
 namespace {
 
 using Index = std::size_t;
@@ -17,17 +17,17 @@ Vec3 place(const Pose& frame, const Vec3& point) noexcept {
 }
 
 // Segments before S2.
-std::int32_t segments_before(const RobotTable& table, std::int32_t planar) noexcept {
+std::int32_t segments_before(const RobotParams& table, std::int32_t planar) noexcept {
   return table.segment_count - planar;
 }
 
-std::int32_t joints_before(const RobotTable& table, std::int32_t segments) noexcept {
+std::int32_t joints_before(const RobotParams& table, std::int32_t segments) noexcept {
   std::int32_t joints = 0;
   for (std::int32_t m = 0; m < segments; ++m) joints += table.segment[static_cast<Index>(m)].modules;
   return joints;
 }
 
-double arc_length_m(const RobotTable& table, std::int32_t segments) noexcept {
+double arc_length_m(const RobotParams& table, std::int32_t segments) noexcept {
   double length = 0.0;
   for (std::int32_t m = 0; m < segments; ++m) {
     length += table.segment[static_cast<Index>(m)].modules * table.segment[static_cast<Index>(m)].module_length_m;
@@ -64,7 +64,7 @@ bool is_near(const SlitMouth& mouth, const Vec3& p, double look_ahead_m) noexcep
 }
 
 // Segments from the first with a link that ends near the slit to the last.
-std::int32_t segments_near(const RobotTable& table, const LinkPoints& links, const SlitMouth& mouth,
+std::int32_t segments_near(const RobotParams& table, const LinkPoints& links, const SlitMouth& mouth,
                            double look_ahead_m) noexcept {
   const Pose base_in_mouth = inverse(mouth.frame_in_base);
   std::int32_t point = 1;
@@ -79,7 +79,7 @@ std::int32_t segments_near(const RobotTable& table, const LinkPoints& links, con
 
 // The yaw of one segment, tried at other values.
 struct YawTrial {
-  const RobotTable& table;
+  const RobotParams& table;
   const SlitMouth& mouth;
   PlanarPart part;
   Index yaw;
@@ -106,19 +106,19 @@ struct YawTrial {
 
 }  // namespace
 
-std::uint32_t planar_pitches(const RobotTable& table, std::int32_t segments) noexcept {
+std::uint32_t planar_pitches(const RobotParams& table, std::int32_t segments) noexcept {
   std::uint32_t mask = 0;
   for (std::int32_t m = segments_before(table, segments); m < table.segment_count; ++m) mask |= 1u << (2 * m);
   return mask;
 }
 
-Pose root_of(const RobotTable& table, const PlanarPart& part) noexcept {
+Pose root_of(const RobotParams& table, const PlanarPart& part) noexcept {
   const ArmKinematics arm = forward_kinematics(table, part.theta_rad);
   const Pose& root = arm.node_in_base[static_cast<Index>(segments_before(table, part.segments))];
   return compose(part.tip_in_base, compose(inverse(arm.tip_in_base), root));
 }
 
-bool fits(const RobotTable& table, const PlanarPart& part, const SlitMouth& mouth) noexcept {
+bool fits(const RobotParams& table, const PlanarPart& part, const SlitMouth& mouth) noexcept {
   const LinkPoints links = link_points(table, part.theta_rad);
   const std::int32_t first = joints_before(table, segments_before(table, part.segments));
   const Pose tip = forward_kinematics(table, part.theta_rad).tip_in_base;
@@ -133,7 +133,7 @@ bool fits(const RobotTable& table, const PlanarPart& part, const SlitMouth& mout
   return true;
 }
 
-YawInterval feasible_yaw(const RobotTable& table, const PlanarPart& part, const SlitMouth& mouth,
+YawInterval feasible_yaw(const RobotParams& table, const PlanarPart& part, const SlitMouth& mouth,
                          std::int32_t segment) noexcept {
   if (segment <= segments_before(table, part.segments) || segment > table.segment_count) return {};
   YawTrial trial{table, mouth, part, static_cast<Index>(2 * segment - 1)};
@@ -149,7 +149,7 @@ YawInterval feasible_yaw(const RobotTable& table, const PlanarPart& part, const 
   return {};
 }
 
-bool some_yaw_fits(const RobotTable& table, const PlanarPart& part, const SlitMouth& mouth) noexcept {
+bool some_yaw_fits(const RobotParams& table, const PlanarPart& part, const SlitMouth& mouth) noexcept {
   constexpr std::int32_t kSteps = 8;
   YawTrial trial{table, mouth, part, static_cast<Index>(2 * table.segment_count - 1)};
   const double limit = table.segment[static_cast<Index>(table.segment_count - 1)].theta_limit_rad;
@@ -163,11 +163,11 @@ bool some_yaw_fits(const RobotTable& table, const PlanarPart& part, const SlitMo
   return false;
 }
 
-std::int32_t planar_segments(const RobotTable& table, const LinkPoints& links, const SlitMouth& mouth,
+std::int32_t planar_segments(const RobotParams& table, const LinkPoints& links, const SlitMouth& mouth,
                              const PlanarSwitch& when, std::int32_t before) noexcept {
   const std::int32_t at_least = segments_near(table, links, mouth, when.look_ahead_m);
   const std::int32_t at_most = segments_near(table, links, mouth, when.look_ahead_m + when.hysteresis_m);
   return before < at_least ? at_least : (before > at_most ? at_most : before);
 }
 
-}  // namespace liana::solve
+}  // namespace liana::inverse_kinematics

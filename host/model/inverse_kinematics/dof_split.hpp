@@ -11,7 +11,7 @@
 
 #include "firmware_like/cable/arm/kinematics.hpp"
 
-namespace liana::solve {
+namespace liana::inverse_kinematics {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -33,16 +33,16 @@ struct SlitMouth {
 };
 
 // Bits of the pitches of the last `segments` segments, for held_mask: 1 gives X5 of five segments, 2 gives X4 and X5.
-std::uint32_t planar_pitches(const RobotTable& table, std::int32_t segments) noexcept;
+std::uint32_t planar_pitches(const RobotParams& table, std::int32_t segments) noexcept;
 
 // Pose of S2's root in the base frame, T_M = T_end f_S2^-1(theta_S2) (equation 13): the end that S1 has to reach. Exact
 // to rounding; one forward kinematics.
-Pose root_of(const RobotTable& table, const PlanarPart& part) noexcept;
+Pose root_of(const RobotParams& table, const PlanarPart& part) noexcept;
 
 // True when S2 may lie as `part` says: its root is no farther from the base than S1 is long (necessary, not sufficient:
 // S1 may still fail to turn that way), and every piece of its link axes between x = 0 and x = depth of the mouth is
 // inside gap and width. Exact for straight links; one forward kinematics and the links.
-bool fits(const RobotTable& table, const PlanarPart& part, const SlitMouth& mouth) noexcept;
+bool fits(const RobotParams& table, const PlanarPart& part, const SlitMouth& mouth) noexcept;
 
 // Angles of one yaw for which S2 fits, all other angles and the tip as they are.
 struct YawInterval {
@@ -56,12 +56,12 @@ struct YawInterval {
 // rad of where fitting ends. Looked for in steps of 1/64 of the joint limit: gaps narrower than a step are not seen;
 // between two fitting steps a point of S2 leaves the mouth by 0.5 mm at most (links of 0.1 m, S2 up to 1.6 m). At most
 // 300 calls of fits().
-YawInterval feasible_yaw(const RobotTable& table, const PlanarPart& part, const SlitMouth& mouth,
+YawInterval feasible_yaw(const RobotParams& table, const PlanarPart& part, const SlitMouth& mouth,
                          std::int32_t segment) noexcept;
 
 // Whether any yaw of the last segment lets S2 fit with this tip, all other angles as they are: looked for in steps of
 // 1/8 of the joint limit, the one given first. One call of fits() where that one does, at most 17.
-bool some_yaw_fits(const RobotTable& table, const PlanarPart& part, const SlitMouth& mouth) noexcept;
+bool some_yaw_fits(const RobotParams& table, const PlanarPart& part, const SlitMouth& mouth) noexcept;
 
 // When a segment has to be planar.
 struct PlanarSwitch {
@@ -76,7 +76,7 @@ struct PlanarSwitch {
 // inside the slit (in its depth, and off the opening's sides by no more than |look_ahead_m|) to the last one: 0, 1, 2
 // are the source's 10+0, 9+1, 8+2. `before` is the answer of the last call, 0 at first: an arm that goes in and out
 // past the same point changes its answer at two places hysteresis_m apart. Cost: one rotation per link at most.
-std::int32_t planar_segments(const RobotTable& table, const LinkPoints& links, const SlitMouth& mouth,
+std::int32_t planar_segments(const RobotParams& table, const LinkPoints& links, const SlitMouth& mouth,
                              const PlanarSwitch& when, std::int32_t before) noexcept;
 
-}  // namespace liana::solve
+}  // namespace liana::inverse_kinematics

@@ -4,7 +4,7 @@
 
 #include "firmware_like/math/scalar.hpp"
 
-namespace liana::solve {
+namespace liana::inverse_kinematics {
 namespace {
 
 using Index = std::size_t;
@@ -20,7 +20,7 @@ double next_random(std::uint64_t& state) noexcept {
 
 bool is_held(const GoalIkProblem& problem, Index k) noexcept { return ((problem.held_mask >> k) & 1u) != 0; }
 
-ThetaVector first_start(const RobotTable& table, const GoalIkProblem& problem) noexcept {
+ThetaVector first_start(const RobotParams& table, const GoalIkProblem& problem) noexcept {
   ThetaVector theta{};
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
     const double limit = table.segment[k / 2].theta_limit_rad;
@@ -29,7 +29,7 @@ ThetaVector first_start(const RobotTable& table, const GoalIkProblem& problem) n
   return theta;
 }
 
-ThetaVector random_pose(const RobotTable& table, const GoalIkProblem& problem, std::uint64_t& random) noexcept {
+ThetaVector random_pose(const RobotParams& table, const GoalIkProblem& problem, std::uint64_t& random) noexcept {
   ThetaVector theta{};
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k)
     theta[k] =
@@ -38,7 +38,7 @@ ThetaVector random_pose(const RobotTable& table, const GoalIkProblem& problem, s
 }
 
 // The random pose whose tip is nearest to the goal.
-ThetaVector next_start(const RobotTable& table, const GoalIkProblem& problem, std::uint64_t& random) noexcept {
+ThetaVector next_start(const RobotParams& table, const GoalIkProblem& problem, std::uint64_t& random) noexcept {
   ThetaVector best{};
   double least = 1e300;
   for (std::int32_t i = 0; i < kGoalSeeds; ++i) {
@@ -51,12 +51,12 @@ ThetaVector next_start(const RobotTable& table, const GoalIkProblem& problem, st
   return best;
 }
 
-bool is_node(const RobotTable& table, const NodeTarget& target) noexcept {
+bool is_node(const RobotParams& table, const NodeTarget& target) noexcept {
   return target.node >= 1 && target.node <= table.segment_count;
 }
 
 // How far each node alone could go from the first solution.
-void find_reach(const RobotTable& table, const GoalIkProblem& problem, const IkGoal& goal, const ThetaVector& theta,
+void find_reach(const RobotParams& table, const GoalIkProblem& problem, const IkGoal& goal, const ThetaVector& theta,
                 GoalIkResult& result) noexcept {
   for (Index i = 0; i < kMaxNodeTargets; ++i) {
     const NodeTarget& target = problem.node[i];
@@ -64,7 +64,7 @@ void find_reach(const RobotTable& table, const GoalIkProblem& problem, const IkG
   }
 }
 
-void report_pose(const RobotTable& table, const GoalIkProblem& problem, GoalIkResult& result) noexcept {
+void report_pose(const RobotParams& table, const GoalIkProblem& problem, GoalIkResult& result) noexcept {
   const ArmKinematics arm = forward_kinematics(table, result.theta_rad);
   const TipError error = tip_error(problem.tip_in_base, arm.tip_in_base);
   result.converged = error.converged();
@@ -81,11 +81,11 @@ void report_pose(const RobotTable& table, const GoalIkProblem& problem, GoalIkRe
 
 }  // namespace
 
-GoalIkResult solve_goal(const RobotTable& table, const GoalIkProblem& problem) noexcept {
+GoalIkResult solve_goal(const RobotParams& table, const GoalIkProblem& problem) noexcept {
   const ShapeProblem shape{{problem.tip_in_base, problem.held_mask}, problem.node, problem.clear};
   const std::int32_t wanted = wants_shape(table, shape) ? kGoalShapeStarts : 1;
   GoalIkResult result;
-  double least_error2 = 1e300, least_sum_m = 1e300;
+  double min_error2 = 1e300, min_sum_m = 1e300;
   std::uint64_t random = 0x9E3779B97F4A7C15ULL;
   std::int32_t found = 0;
   for (std::int32_t attempt = 0; attempt < kGoalAttempts && found < wanted; ++attempt) {
@@ -93,16 +93,16 @@ GoalIkResult solve_goal(const RobotTable& table, const GoalIkProblem& problem) n
     const TipError error =
         approach_tip(table, shape.goal, kGoalIterations, kGoalMostIterations, theta, result.iterations);
     if (!error.converged()) {
-      if (found == 0 && (attempt == 0 || error.size2() < least_error2))
-        least_error2 = error.size2(), result.theta_rad = theta;
+      if (found == 0 && (attempt == 0 || error.size2() < min_error2))
+        min_error2 = error.size2(), result.theta_rad = theta;
       continue;
     }
     if (++found == 1) find_reach(table, problem, shape.goal, theta, result);
     const double sum_m = wanted > 1 ? improve_shape(table, shape, theta, result.iterations) : 0.0;
-    if (found == 1 || sum_m < least_sum_m) least_sum_m = sum_m, result.theta_rad = theta;
+    if (found == 1 || sum_m < min_sum_m) min_sum_m = sum_m, result.theta_rad = theta;
   }
   report_pose(table, problem, result);
   return result;
 }
 
-}  // namespace liana::solve
+}  // namespace liana::inverse_kinematics

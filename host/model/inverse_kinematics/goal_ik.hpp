@@ -12,7 +12,7 @@
 
 #include "host/model/inverse_kinematics/improve_shape.hpp"
 
-namespace liana::solve {
+namespace liana::inverse_kinematics {
 
 constexpr std::int32_t kGoalAttempts = 100;
 constexpr std::int32_t kGoalIterations = 10;      // per attempt, more only while the error halves with each
@@ -42,6 +42,6 @@ struct GoalIkResult {
 
 // Solves; when no attempt converges, the result holds the best one. Angles respect the limits, held ones are exact.
 // At most kGoalAttempts * kGoalMostIterations iterations for the tip.
-GoalIkResult solve_goal(const RobotTable& table, const GoalIkProblem& problem) noexcept;
+GoalIkResult solve_goal(const RobotParams& table, const GoalIkProblem& problem) noexcept;
 
-}  // namespace liana::solve
+}  // namespace liana::inverse_kinematics

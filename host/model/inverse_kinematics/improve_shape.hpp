@@ -8,7 +8,7 @@
 #include "firmware_like/cable/shape/keep_clear.hpp"
 #include "firmware_like/cable/shape/shape.hpp"
 
-namespace liana::solve {
+namespace liana::inverse_kinematics {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -33,19 +33,19 @@ TipError tip_error(const Pose& goal, const Pose& tip) noexcept;
 
 // Iterates the servo IK until the tip is there, `most` iterations are done, or the error no longer halves with each
 // after `patience` of them. Returns the error reached; adds to `iterations`.
-TipError approach_tip(const RobotTable& table, const IkGoal& goal, std::int32_t patience, std::int32_t most,
+TipError approach_tip(const RobotParams& table, const IkGoal& goal, std::int32_t patience, std::int32_t most,
                       ThetaVector& theta_rad, std::int32_t& iterations) noexcept;
 
 // True when something is wanted of the shape.
-bool wants_shape(const RobotTable& table, const ShapeProblem& problem) noexcept;
+bool wants_shape(const RobotParams& table, const ShapeProblem& problem) noexcept;
 
 // Sum [m] of weighted excesses of nodes and missing clearances.
-double shape_sum_m(const RobotTable& table, const ShapeProblem& problem, const ThetaVector& theta_rad) noexcept;
+double shape_sum_m(const RobotParams& table, const ShapeProblem& problem, const ThetaVector& theta_rad) noexcept;
 
 // Steps of the shape model, each corrected to the tip pose, kept when the sum falls and halved when it does not.
 // `theta_rad` has to be at the goal already and stays there; limits and held thetas are respected. Returns the sum
 // reached; adds to `iterations`.
-double improve_shape(const RobotTable& table, const ShapeProblem& problem, ThetaVector& theta_rad,
+double improve_shape(const RobotParams& table, const ShapeProblem& problem, ThetaVector& theta_rad,
                      std::int32_t& iterations) noexcept;
 
 // How far a node can go for the current tip: its distance to `target_m` now, and the least one along the null space
@@ -54,7 +54,7 @@ struct NodeReach {
   double now_m = 0.0;
   double least_m = 0.0;
 };
-NodeReach node_reach(const RobotTable& table, const IkGoal& goal, const ThetaVector& theta_rad, std::int32_t node,
+NodeReach node_reach(const RobotParams& table, const IkGoal& goal, const ThetaVector& theta_rad, std::int32_t node,
                      const Vec3& target_m) noexcept;
 
-}  // namespace liana::solve
+}  // namespace liana::inverse_kinematics

@@ -7,16 +7,16 @@
 #include "firmware_like/math/trig.hpp"
 #include "firmware_like/serial/servo_ik.hpp"
 
-namespace liana::solve {
+namespace liana::inverse_kinematics {
 namespace {
 
-using serial::JointTable;
+using serial::JointParams;
 using serial::JointVector;
-using serial::RobotTable;
+using serial::RobotParams;
 
 constexpr double kNear = 1e-3;  // m and rad: from here an attempt goes on while each step brings it nearer
 
-JointVector random_pose(const RobotTable& table, std::mt19937_64& random) {
+JointVector random_pose(const RobotParams& table, std::mt19937_64& random) {
   JointVector joint{};
   for (std::size_t i = 0; i < table.joints(); ++i) {
     const double share = static_cast<double>(random() >> 11) / 9007199254740992.0;  // the same on every machine
@@ -32,7 +32,7 @@ double distance2(const Pose& a, const Pose& b) {
 }
 
 // The random pose whose tip is nearest to the goal.
-JointVector next_start(const RobotTable& table, const SerialGoal& goal, std::mt19937_64& random) {
+JointVector next_start(const RobotParams& table, const SerialGoal& goal, std::mt19937_64& random) {
   JointVector best{};
   double least = 1e300;
   for (std::int32_t i = 0; i < kSerialGoalSeeds; ++i) {
@@ -45,14 +45,14 @@ JointVector next_start(const RobotTable& table, const SerialGoal& goal, std::mt1
   return best;
 }
 
-JointVector inside_ranges(const RobotTable& table, JointVector joint_rad) {
+JointVector inside_ranges(const RobotParams& table, JointVector joint_rad) {
   for (std::size_t i = 0; i < table.joints(); ++i)
     joint_rad[i] = std::clamp(joint_rad[i], table.joint[i].low_rad, table.joint[i].high_rad);
   return joint_rad;
 }
 
 // One attempt; counts its iterations.
-void approach(const RobotTable& table, const SerialGoal& goal, JointVector& joint_rad, std::int32_t& iterations) {
+void approach(const RobotParams& table, const SerialGoal& goal, JointVector& joint_rad, std::int32_t& iterations) {
   double before = 1e300;
   for (std::int32_t i = 0; i < kSerialGoalIterations; ++i, ++iterations) {
     const double error = far_step(table, goal.tip_in_base, joint_rad);
@@ -62,7 +62,7 @@ void approach(const RobotTable& table, const SerialGoal& goal, JointVector& join
 }
 
 // The same pose of the arm with whole turns added, as near to `from` as the range allows.
-double nearest_turn(const JointTable& joint, double angle_rad, double from_rad) {
+double nearest_turn(const JointParams& joint, double angle_rad, double from_rad) {
   double best = angle_rad;
   for (const double turned : {angle_rad - 2.0 * kPi, angle_rad + 2.0 * kPi}) {
     if (turned >= joint.low_rad && turned <= joint.high_rad &&
@@ -72,7 +72,7 @@ double nearest_turn(const JointTable& joint, double angle_rad, double from_rad) 
   return best;
 }
 
-double move_s(const RobotTable& table, const JointVector& from_rad, const JointVector& to_rad) {
+double move_s(const RobotParams& table, const JointVector& from_rad, const JointVector& to_rad) {
   double longest = 0.0;
   for (std::size_t i = 0; i < table.joints(); ++i) {
     longest = std::max(longest, std::fabs(to_rad[i] - from_rad[i]) / table.joint[i].rate_rad_s);
@@ -80,10 +80,10 @@ double move_s(const RobotTable& table, const JointVector& from_rad, const JointV
   return longest;
 }
 
-SerialGoalResult result_at(const RobotTable& table, const SerialGoal& goal, JointVector joint_rad) {
+SerialGoalResult result_at(const RobotParams& table, const SerialGoal& goal, JointVector joint_rad) {
   for (std::size_t i = 0; i < table.joints(); ++i)
     joint_rad[i] = nearest_turn(table.joint[i], joint_rad[i], goal.from_rad[i]);
-  const serial::IkReport report = report_ik(table, goal.tip_in_base, forward_kinematics(table, joint_rad).tip_in_base);
+  const serial::IkResult report = report_ik(table, goal.tip_in_base, forward_kinematics(table, joint_rad).tip_in_base);
   return {joint_rad,
           report.outcome == IkOutcome::kConverged,
           0,
@@ -100,7 +100,7 @@ bool is_better(const SerialGoalResult& a, const SerialGoalResult& b) {
 
 }  // namespace
 
-SerialGoalResult solve_goal(const RobotTable& table, const SerialGoal& goal) noexcept {
+SerialGoalResult solve_goal(const RobotParams& table, const SerialGoal& goal) noexcept {
   SerialGoalResult best;
   std::mt19937_64 random(1);
   std::int32_t iterations = 0, found = 0;
@@ -115,4 +115,4 @@ SerialGoalResult solve_goal(const RobotTable& table, const SerialGoal& goal) noe
   return best;
 }
 
-}  // namespace liana::solve
+}  // namespace liana::inverse_kinematics

@@ -9,7 +9,7 @@
 
 #include "firmware_like/serial/kinematics.hpp"
 
-namespace liana::solve {
+namespace liana::inverse_kinematics {
 
 constexpr std::int32_t kSerialGoalAttempts = 100;
 constexpr std::int32_t kSerialGoalIterations = 60;  // per attempt, at most
@@ -31,6 +31,6 @@ struct SerialGoalResult {
 };
 
 // Cost: at most kSerialGoalAttempts * kSerialGoalIterations steps, about 20 ms when there is no solution.
-SerialGoalResult solve_goal(const serial::RobotTable& table, const SerialGoal& goal) noexcept;
+SerialGoalResult solve_goal(const serial::RobotParams& table, const SerialGoal& goal) noexcept;
 
-}  // namespace liana::solve
+}  // namespace liana::inverse_kinematics

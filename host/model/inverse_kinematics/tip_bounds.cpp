@@ -5,7 +5,7 @@
 
 #include "firmware_like/math/trig.hpp"
 
-namespace liana::solve {
+namespace liana::inverse_kinematics {
 namespace {
 
 constexpr double kHalfTurn_rad = 180.0 * kDegree;
@@ -29,11 +29,11 @@ bool is_convex(double turned_rad, double x_m, double y_m) {
 // Each link points at most as far off the base's x axis as all joints before it turn it. And no chain has its ends
 // nearer together than the flat one that is bent by the most at each joint in one sense, while it is convex (Schur's
 // comparison theorem; the first joint brings nothing nearer).
-TipBounds tip_bounds(const cable::RobotTable& table) noexcept {
+TipBounds tip_bounds(const cable::RobotParams& table) noexcept {
   TipBounds bounds;
   double flat_rad = 0.0, along_m = 0.0, across_m = 0.0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(table.theta_count()) / 2; ++k) {
-    const cable::SegmentTable& segment = table.segment[k];
+    const cable::SegmentParams& segment = table.segment[k];
     for (std::int32_t module = 0; module < segment.modules; ++module) {
       const double turn_rad = most_turn_rad(segment.theta_limit_rad);
       if (bounds.turn_rad > 0.0) flat_rad += turn_rad;
@@ -47,4 +47,4 @@ TipBounds tip_bounds(const cable::RobotTable& table) noexcept {
   return bounds;
 }
 
-}  // namespace liana::solve
+}  // namespace liana::inverse_kinematics

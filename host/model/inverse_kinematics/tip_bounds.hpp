@@ -2,9 +2,9 @@
 // exclude. The arm may be in less than they leave, never in more.
 #pragma once
 
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_params.hpp"
 
-namespace liana::solve {
+namespace liana::inverse_kinematics {
 
 // What every pose within the limits keeps to.
 struct TipBounds {
@@ -13,6 +13,6 @@ struct TipBounds {
   double nearest_m = 0.0;  // of the tip from the base, at least
 };
 
-TipBounds tip_bounds(const cable::RobotTable& table) noexcept;
+TipBounds tip_bounds(const cable::RobotParams& table) noexcept;
 
-}  // namespace liana::solve
+}  // namespace liana::inverse_kinematics

@@ -3,7 +3,7 @@
 
 #include "host/model/config/config.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 using namespace cable;  // what is a serial arm's says so in this room (serial_model.hpp)
 
@@ -12,7 +12,7 @@ using namespace cable;  // what is a serial arm's says so in this room (serial_m
 constexpr double kSwingDamping_1_s = 1.0;
 // Links are solid cylinders: mass and length of the table, centre of mass half way.
 struct ArmModel {
-  RobotTable table{};
+  RobotParams table{};
   double link_radius_m = 0.0;
   double viscous_Nms_per_rad = 0.0;  // per theta
   double friction_band = 0.0;        // share by which friction may differ from the table's mu
@@ -30,4 +30,4 @@ inline ArmModel arm_model(const config::RobotConfig& robot) {
   return {robot.table, robot.module_radius_m, robot.joint_viscous_Nms_per_rad, robot.friction_band};
 }
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 namespace {
 
-using algebra::ThetaColumn;
-using algebra::view;
+using eigen::ThetaColumn;
+using eigen::view;
 
 constexpr double kGap_s = 0.1;      // longer ago: it begins anew
 constexpr double kFar_rad = 0.035;  // measured beside predicted: the model does not hold, it begins anew
@@ -36,4 +36,4 @@ void ArmObserver::watch(const ThetaVector& measured_rad, const CableVector& tens
   view(now_.ahead_rad, thetas_) = arm_.swing().drums_rad - arm_.swing().theta_rad;
 }
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

@@ -3,7 +3,7 @@
 
 #include "host/model/simulation/swinging_arm.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 // Of the observer's correction by measured less predicted angles. With stiffness K and mass M every mode of the error
 // has s^3 + p s^2 + (w^2 + r) s + h w^2: stable for h < p, whatever its frequency w.
@@ -15,7 +15,7 @@ class ArmObserver {
  public:
   explicit ArmObserver(const ArmModel& model)
       : arm_(model),
-        thetas_(algebra::theta_count(model.table)),
+        thetas_(eigen::theta_count(model.table)),
         step_s_(0.5 * model.table.tick_s * model.table.interval_ticks) {}
 
   // What was measured, and what the drives have been told, `since_s` after the last call: measured angles and tensions
@@ -34,4 +34,4 @@ class ArmObserver {
   StartState now_;
 };
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 namespace {
 
@@ -12,7 +12,7 @@ using Index = std::size_t;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr int kMostTurns = 50;
+constexpr int kMaxTurns = 50;
 constexpr double kFloorRounding_N = 1e-6;
 
 // A joint's turn, pitch first, and its derivatives. With yaw first the distances are the same, by reflection in the
@@ -48,7 +48,7 @@ Gap gap_of(const Turn& turn, double face_m, double y_m, double z_m) {
 }  // namespace
 
 CablePaths cable_paths(const ArmModel& model, const ThetaVector& theta_rad) {
-  const RobotTable& table = model.table;
+  const RobotParams& table = model.table;
   const Eigen::Index cables = table.cable_count(), thetas = table.theta_count();
   CablePaths paths;
   paths.jacobian_m_rad.setZero(cables, thetas);
@@ -64,7 +64,7 @@ CablePaths cable_paths(const ArmModel& model, const ThetaVector& theta_rad) {
       const double phase_rad = table.segment[anchor].cable_phase_rad[c];
       const double y_m = table.hole_radius_m * std::cos(phase_rad), z_m = table.hole_radius_m * std::sin(phase_rad);
       for (Index m = 0; m <= anchor; ++m) {
-        const SegmentTable& segment = table.segment[m];
+        const SegmentParams& segment = table.segment[m];
         const Gap gap = gap_of(turns[m], table.face_offset_m, y_m, z_m);
         const auto pitch = static_cast<Eigen::Index>(2 * m);
         const double inside_links_m =
@@ -83,25 +83,25 @@ CablePaths cable_paths(const ArmModel& model, const ThetaVector& theta_rad) {
 }
 
 CableColumn balanced_tensions(const CablePaths& paths, const CableColumn& wanted_N, double floor_N,
-                              const algebra::ThetaColumn& load_Nm) {
+                              const eigen::ThetaColumn& load_Nm) {
   const CableMatrix& jacobian = paths.jacobian_m_rad;
-  const algebra::ThetaMatrix normal = jacobian.transpose().lazyProduct(jacobian);
-  const Eigen::LLT<algebra::ThetaMatrix> solver(normal);
+  const eigen::ThetaMatrix normal = jacobian.transpose().lazyProduct(jacobian);
+  const Eigen::LLT<eigen::ThetaMatrix> solver(normal);
   CableColumn tension_N = wanted_N;
-  for (int turn = 0; turn < kMostTurns; ++turn) {
-    const algebra::ThetaColumn torque = load_Nm + jacobian.transpose().lazyProduct(tension_N);
-    tension_N -= jacobian.lazyProduct(algebra::ThetaColumn(solver.solve(torque)));
+  for (int turn = 0; turn < kMaxTurns; ++turn) {
+    const eigen::ThetaColumn torque = load_Nm + jacobian.transpose().lazyProduct(tension_N);
+    tension_N -= jacobian.lazyProduct(eigen::ThetaColumn(solver.solve(torque)));
     if (tension_N.minCoeff() >= floor_N - kFloorRounding_N) break;
-    if (turn + 1 < kMostTurns) tension_N = tension_N.cwiseMax(floor_N + 1.0);
+    if (turn + 1 < kMaxTurns) tension_N = tension_N.cwiseMax(floor_N + 1.0);
   }
   return tension_N;
 }
 
-algebra::ThetaColumn friction_torque(const ArmModel& model, const CablePaths& paths, const CableColumn& tension_N) {
+eigen::ThetaColumn friction_torque(const ArmModel& model, const CablePaths& paths, const CableColumn& tension_N) {
   const double spread = model.friction_band * model.table.friction_mu;
   const auto share = (spread * paths.wrap_to_rad).array().exp() - 1.0;
   const CableMatrix torque = (paths.jacobian_m_rad.array().abs() * share).matrix();
   return torque.transpose().lazyProduct(tension_N.cwiseMax(0.0));
 }
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

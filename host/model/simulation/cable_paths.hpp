@@ -6,7 +6,7 @@
 #include "host/base/eigen/thetas.hpp"
 #include "host/model/simulation/arm_model.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 // A number per cable, and a row per cable with a column per theta.
 using CableColumn = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxCables, 1>;
@@ -25,13 +25,13 @@ CablePaths cable_paths(const ArmModel& model, const ThetaVector& theta_rad);
 // turns projected on balance and raised to the floor. They are balanced to rounding; the floor is kept where 50 turns
 // reach it.
 CableColumn balanced_tensions(const CablePaths& paths, const CableColumn& wanted_N, double floor_N,
-                              const algebra::ThetaColumn& load_Nm);
+                              const eigen::ThetaColumn& load_Nm);
 inline CableColumn balanced_tensions(const CablePaths& paths, const CableColumn& wanted_N, double floor_N) {
-  return balanced_tensions(paths, wanted_N, floor_N, algebra::ThetaColumn::Zero(paths.jacobian_m_rad.cols()));
+  return balanced_tensions(paths, wanted_N, floor_N, eigen::ThetaColumn::Zero(paths.jacobian_m_rad.cols()));
 }
 
 // Most that friction may turn every angle by [N m]: what cables of these tensions would hold at one end of the band
 // more than at its middle, all the same way.
-algebra::ThetaColumn friction_torque(const ArmModel& model, const CablePaths& paths, const CableColumn& tension_N);
+eigen::ThetaColumn friction_torque(const ArmModel& model, const CablePaths& paths, const CableColumn& tension_N);
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 namespace {
 
@@ -28,7 +28,7 @@ bool is_pitch_first(std::int32_t module) { return module % 2 == 0; }
 
 // Per theta what all its joints so far do to a point p: sum of axes x (p - joint) = axes x p - moments.
 struct JointSums {
-  algebra::SpaceColumns axes, moments;
+  eigen::SpaceColumns axes, moments;
 
   void add(Eigen::Index theta, const Vector3d& axis, const Vector3d& joint_m) {
     axes.col(theta) += axis;
@@ -39,7 +39,7 @@ struct JointSums {
 // Six rows a link: velocity of its centre and rate of turn about its own axes, each times the root of what resists it.
 using LinkRows = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, kMaxTheta>;
 
-LinkRows link_rows(const ArmModel& model, const SegmentTable& segment, const JointSums& sums, Eigen::Index thetas,
+LinkRows link_rows(const ArmModel& model, const SegmentParams& segment, const JointSums& sums, Eigen::Index thetas,
                    const Matrix3d& rotation, const Vector3d& centre_m) {
   const double m_kg = segment.module_mass_kg, r_m = model.link_radius_m, l_m = segment.module_length_m;
   const double along = std::sqrt(0.5 * m_kg * r_m * r_m);
@@ -60,7 +60,7 @@ void place(const ArmModel& model, const ThetaVector& theta_rad, Chain& chain) {
   chain.point_m[0].setZero();
   chain.rotation[0].setIdentity();
   for (Index m = 0; m < static_cast<Index>(model.table.segment_count); ++m) {
-    const SegmentTable& segment = model.table.segment[m];
+    const SegmentParams& segment = model.table.segment[m];
     const Turns turns = turns_of(theta_rad[2 * m], theta_rad[2 * m + 1]);
     for (std::int32_t k = 0; k < segment.modules; ++k, ++link) {
       chain.rotation[link + 1] = chain.rotation[link] * (is_pitch_first(k) ? turns.pitch_first : turns.yaw_first);
@@ -70,13 +70,13 @@ void place(const ArmModel& model, const ThetaVector& theta_rad, Chain& chain) {
   chain.links = static_cast<std::int32_t>(link);
 }
 
-algebra::ThetaMatrix mass_matrix(const ArmModel& model, const Chain& chain) {
-  const Eigen::Index thetas = algebra::theta_count(model.table);
-  algebra::ThetaMatrix mass = algebra::ThetaMatrix::Zero(thetas, thetas);
-  JointSums sums{algebra::SpaceColumns::Zero(3, thetas), algebra::SpaceColumns::Zero(3, thetas)};
+eigen::ThetaMatrix mass_matrix(const ArmModel& model, const Chain& chain) {
+  const Eigen::Index thetas = eigen::theta_count(model.table);
+  eigen::ThetaMatrix mass = eigen::ThetaMatrix::Zero(thetas, thetas);
+  JointSums sums{eigen::SpaceColumns::Zero(3, thetas), eigen::SpaceColumns::Zero(3, thetas)};
   Index link = 0;
   for (Index m = 0; m < static_cast<Index>(model.table.segment_count); ++m) {
-    const SegmentTable& segment = model.table.segment[m];
+    const SegmentParams& segment = model.table.segment[m];
     const Eigen::Index pitch = static_cast<Eigen::Index>(2 * m), moved = pitch + 2;
     for (std::int32_t k = 0; k < segment.modules; ++k, ++link) {
       // The first axis is the parent's, the second one the link's own.
@@ -92,4 +92,4 @@ algebra::ThetaMatrix mass_matrix(const ArmModel& model, const Chain& chain) {
   return mass;
 }
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

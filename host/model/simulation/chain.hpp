@@ -8,7 +8,7 @@
 #include "host/base/eigen/thetas.hpp"
 #include "host/model/simulation/arm_model.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 constexpr std::int32_t kMaxLinks = kMaxSegments * kMaxModules;
 
@@ -25,6 +25,6 @@ struct Chain {
 void place(const ArmModel& model, const ThetaVector& theta_rad, Chain& chain);
 
 // Reduced mass matrix [kg m2] of the placed links: for each link its mass at its centre and its inertia about it.
-algebra::ThetaMatrix mass_matrix(const ArmModel& model, const Chain& chain);
+eigen::ThetaMatrix mass_matrix(const ArmModel& model, const Chain& chain);
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

@@ -7,11 +7,11 @@
 #include "host/model/clearance/arm_clearance.hpp"
 #include "host/model/clearance/obstacles.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 namespace {
 
-constexpr std::size_t kMostPoints = 64;  // of an axis: more than any arm's
+constexpr std::size_t kMaxPoints = 64;  // of an axis: more than any arm's
 
 // Bodies stay as they are drawn, and the arm's axis goes to them.
 class AxisInDrawing {
@@ -24,7 +24,7 @@ class AxisInDrawing {
   clearance::AxisPoints points_m() const { return {point_m_.data(), count_}; }
 
  private:
-  std::array<Vec3, kMostPoints> point_m_;
+  std::array<Vec3, kMaxPoints> point_m_;
   std::size_t count_;
 };
 
@@ -71,14 +71,14 @@ struct OfScene {
   double at_start_m, at_end_m;
 };
 
-OfScene least_of(const config::SceneConfig& scene, const Pieces& pieces, const Pose& drawing_in_base, const Way& way,
-                 double enough_m, double step_s) {
+OfScene min_of(const config::SceneConfig& scene, const Pieces& pieces, const Pose& drawing_in_base, const Way& way,
+               double enough_m, double step_s) {
   const auto look = [&](std::size_t pose) {
     const AxisInDrawing axis(way.axis(pose).subspan(pieces.first_point, pieces.points), drawing_in_base);
     return clearance::arm_clearance(axis.points_m(), pieces.radius_m, scene);
   };
-  const auto along = clearance::least_along({way.gone_m(), 1.0, enough_m, kUnseen_m},
-                                            [&](std::int32_t pose) { return look(static_cast<std::size_t>(pose)); });
+  const auto along = clearance::min_along({way.gone_m(), 1.0, enough_m, kUnseen_m},
+                                          [&](std::int32_t pose) { return look(static_cast<std::size_t>(pose)); });
   const std::int32_t link = along.nearest.link;
   return {{along.at_least_m, link < 0 ? link : link + static_cast<std::int32_t>(pieces.first_point),
            along.nearest.obstacle, along.pose * step_s},
@@ -86,7 +86,7 @@ OfScene least_of(const config::SceneConfig& scene, const Pieces& pieces, const P
           look(way.size() - 1).distance_m()};
 }
 
-OfScene least_of_all(const OfScene& a, const OfScene& b) {
+OfScene min_of_all(const OfScene& a, const OfScene& b) {
   return {b.nearest.distance_m < a.nearest.distance_m ? b.nearest : a.nearest, std::min(a.at_start_m, b.at_start_m),
           std::min(a.at_end_m, b.at_end_m)};
 }
@@ -97,9 +97,9 @@ OfScene least_of_all(const OfScene& a, const OfScene& b) {
 void measure_to_scene(std::span<const Pieces> arm, const StandingScene& standing, const Way& way, double enough_m,
                       double step_s, Distances& out) {
   const auto of = [&](const config::SceneConfig& scene) {
-    OfScene least = least_of(scene, arm.front(), standing.drawing_in_base, way, enough_m, step_s);
+    OfScene least = min_of(scene, arm.front(), standing.drawing_in_base, way, enough_m, step_s);
     for (const Pieces& pieces : arm.subspan(1))
-      least = least_of_all(least, least_of(scene, pieces, standing.drawing_in_base, way, enough_m, step_s));
+      least = min_of_all(least, min_of(scene, pieces, standing.drawing_in_base, way, enough_m, step_s));
     return least;
   };
   const OfScene all = of(standing.scene);
@@ -115,4 +115,4 @@ void measure_to_scene(std::span<const Pieces> arm, const StandingScene& standing
   }
 }
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

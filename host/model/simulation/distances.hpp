@@ -8,7 +8,7 @@
 #include "host/model/clearance/clearance.hpp"
 #include "host/model/simulation/motion.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 constexpr double kUnseen_m = 5e-4;      // what a least distance may be told too small, so that fewer poses are measured
 constexpr double kEnoughSelf_m = 0.05;  // distances of the arm from itself beyond need not be told apart
@@ -55,11 +55,11 @@ void measure_to_scene(std::span<const Pieces> arm, const StandingScene& standing
 // The same of an arm from itself; `look(pose)` finds the least at one pose (clearance::SelfClearance).
 template <class Look>
 void measure_to_itself(const Way& way, double step_s, Look look, Distances& out) {
-  const auto along = clearance::least_along({way.gone_m(), 2.0, kEnoughSelf_m, kUnseen_m}, look);
+  const auto along = clearance::min_along({way.gone_m(), 2.0, kEnoughSelf_m, kUnseen_m}, look);
   out.self = {along.at_least_m, along.nearest.link, along.nearest.other, along.pose * step_s};
   if (out.self.distance_m > 0.0) return;
   out.self_at_start_m = look(0).distance_m();
   out.self_at_end_m = look(static_cast<std::int32_t>(way.size()) - 1).distance_m();
 }
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 template <class Column>
 class DrumLag {
@@ -30,4 +30,4 @@ class DrumLag {
   Column told_, now_;
 };
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

@@ -2,10 +2,10 @@
 
 #include <Eigen/Cholesky>
 
-namespace liana::simulate {
+namespace liana::simulation {
 
-using algebra::ThetaColumn;
-using algebra::ThetaMatrix;
+using eigen::ThetaColumn;
+using eigen::ThetaMatrix;
 using Solver = Eigen::LLT<ThetaMatrix>;
 
 bool LinearArm::solve(const ArmModel& model, const ThetaVector& about_rad, double step_s) {
@@ -40,4 +40,4 @@ void LinearArm::step(const ThetaColumn& drums_rad, const ThetaColumn& told_rad, 
   swing.drums_rad = drums_rad;
 }
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

@@ -10,11 +10,11 @@
 #include "host/model/simulation/cable_paths.hpp"
 #include "host/model/simulation/chain.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 // Angles and rates of the arm, and where the drums want the angles.
 struct Swing {
-  algebra::ThetaColumn theta_rad, rate_rad_s, drums_rad;
+  eigen::ThetaColumn theta_rad, rate_rad_s, drums_rad;
 };
 
 class LinearArm {
@@ -25,29 +25,29 @@ class LinearArm {
 
   // One step while the drums go on to `drums_rad` and the arm is told to turn by `told_rad`, which it is damped about:
   // the rule of the middle point, which neither adds energy nor takes any and is stable for steps of any length.
-  void step(const algebra::ThetaColumn& drums_rad, const algebra::ThetaColumn& told_rad, Swing& swing) const;
+  void step(const eigen::ThetaColumn& drums_rad, const eigen::ThetaColumn& told_rad, Swing& swing) const;
 
   // By how much the drums want the angles beyond where they are to be, for cables that give this torque there.
-  algebra::ThetaColumn beyond_rad(const algebra::ThetaColumn& load_Nm) const { return by_torque_rad_Nm_ * load_Nm; }
+  eigen::ThetaColumn beyond_rad(const eigen::ThetaColumn& load_Nm) const { return by_torque_rad_Nm_ * load_Nm; }
   // How much tighter every cable is [N] when the arm is that far from where they were planned for.
-  CableColumn stretch_N(const algebra::ThetaColumn& off_rad) const { return pull_N_rad_ * off_rad; }
+  CableColumn stretch_N(const eigen::ThetaColumn& off_rad) const { return pull_N_rad_ * off_rad; }
   // By how much torques that do not tell their sign may turn every angle.
-  algebra::ThetaColumn band_rad(const algebra::ThetaColumn& torque_Nm) const {
+  eigen::ThetaColumn band_rad(const eigen::ThetaColumn& torque_Nm) const {
     return by_torque_rad_Nm_.cwiseAbs() * torque_Nm;
   }
 
   const CablePaths& paths() const { return paths_; }
-  const algebra::ThetaMatrix& mass() const { return mass_; }
-  const algebra::ThetaMatrix& stiffness() const { return stiffness_; }
+  const eigen::ThetaMatrix& mass() const { return mass_; }
+  const eigen::ThetaMatrix& stiffness() const { return stiffness_; }
 
  private:
   double step_s_ = 0.0;
   double damping_1_s_ = 0.0;
   CablePaths paths_;
-  algebra::ThetaMatrix mass_, stiffness_;
-  algebra::ThetaMatrix keep_, follow_;     // v_middle = keep (v + h c / 2 w') + follow (w_middle - x)
-  algebra::ThetaMatrix by_torque_rad_Nm_;  // K^-1
+  eigen::ThetaMatrix mass_, stiffness_;
+  eigen::ThetaMatrix keep_, follow_;     // v_middle = keep (v + h c / 2 w') + follow (w_middle - x)
+  eigen::ThetaMatrix by_torque_rad_Nm_;  // K^-1
   CableMatrix pull_N_rad_;
 };
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

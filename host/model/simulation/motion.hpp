@@ -5,7 +5,7 @@
 
 #include "host/model/simulation/arm_model.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 // Where the arm is found when the sequence begins.
 struct StartState {
@@ -70,8 +70,8 @@ struct Motion {
   std::vector<Moment> moments;
   std::vector<Vec3> told_tip_in_base_m;  // where the tip would be at every row of the sequence if all followed at once
   ThetaVector friction_band_rad{};       // friction at either end of its band moves every angle by at most this
-  CableVector least_passed_share{};      // tension at the anchor over tension at the motor, friction at its upper end
+  CableVector min_passed_share{};        // tension at the anchor over tension at the motor, friction at its upper end
   Distances distances;
 };
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

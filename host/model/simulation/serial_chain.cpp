@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 namespace {
 
@@ -15,7 +15,7 @@ Vec3 vec3(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
 
-SerialAxis serial_axis(const serial::RobotTable& table, const serial::JointVector& joint_rad) {
+SerialAxis serial_axis(const serial::RobotParams& table, const serial::JointVector& joint_rad) {
   SerialAxis axis;
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   axis.point_m[axis.count++] = vec3(frame.translation());
@@ -32,7 +32,7 @@ SerialAxis serial_axis(const serial::RobotTable& table, const serial::JointVecto
   return axis;
 }
 
-double axis_length_m(const serial::RobotTable& table) {
+double axis_length_m(const serial::RobotParams& table) {
   double sum_m = 0.0;
   for (std::size_t i = 0; i < table.joints(); ++i)
     sum_m += std::fabs(table.joint[i].dh.d_m) + std::fabs(table.joint[i].dh.a_m);
@@ -87,4 +87,4 @@ CarriedBody carried_body(const config::ScenePayload& payload) {
   return {end_m, payload.length_m - end_m, payload.radius_m};
 }
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

@@ -6,17 +6,17 @@
 
 #include "host/model/simulation/serial_model.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 // A link is two straight pieces, along the joint's axis (d) and along the link (a); either may have no length.
 constexpr std::int32_t kPiecesPerLink = 2;
-constexpr std::size_t kMostSerialPoints = kPiecesPerLink * serial::kMaxJoints + 1;
+constexpr std::size_t kMaxSerialPoints = kPiecesPerLink * serial::kMaxJoints + 1;
 
 // The axis of a serial arm: point 0 is its base, points 2 i - 1 and 2 i are the ends of the pieces of link i, counted
 // from 1. Base frame [m].
 struct SerialAxis {
   std::size_t count = 0;
-  std::array<Vec3, kMostSerialPoints> point_m{};
+  std::array<Vec3, kMaxSerialPoints> point_m{};
   std::array<Vec3, 3> tip_axis{};  // directions of the tip's x, y and z
 
   clearance::AxisPoints points() const { return {point_m.data(), count}; }
@@ -25,9 +25,9 @@ struct SerialAxis {
 };
 
 // The axis at these joint angles [rad]. About 2,000 instructions.
-SerialAxis serial_axis(const serial::RobotTable& table, const serial::JointVector& joint_rad);
+SerialAxis serial_axis(const serial::RobotParams& table, const serial::JointVector& joint_rad);
 
 // Length [m] of the whole axis, which is that of all pieces.
-double axis_length_m(const serial::RobotTable& table);
+double axis_length_m(const serial::RobotParams& table);
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

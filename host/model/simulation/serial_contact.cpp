@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 namespace {
 
@@ -80,4 +80,4 @@ std::string SerialContact::link_name(std::int32_t link) const {
   return "link " + number + (of_base ? " of " + model_.base_name : "");
 }
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

@@ -7,7 +7,7 @@
 #include "host/model/clearance/self_clearance.hpp"
 #include "host/model/simulation/serial_chain.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 // Pieces with less axis between them than twice their thickness are as near as the joints between them are: what ranges
 // of joints allow there is not looked at. All others count, with those of the arm that this one stands on.
@@ -46,4 +46,4 @@ class SerialContact {
   std::vector<Pair> pairs_, pairs_carrying_;  // the second: of what is carried
 };
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

@@ -7,10 +7,10 @@
 #include "host/model/clearance/clearance.hpp"
 #include "host/model/config/serial_robot.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 struct SerialModel {
-  serial::RobotTable table{};
+  serial::RobotParams table{};
   double link_radius_m = 0.0;  // of the capsules of every link
   // Links of the arm that it stands on, from the root on; frame of this arm's base. A link may be two of them:
   // `base_of_link` says which one (0-based). Where its joints are locked, then, where it carries this arm there from
@@ -32,4 +32,4 @@ CarriedBody carried_body(const config::ScenePayload& payload);
 // The model of a robot's table in a scene. Throws std::runtime_error where config::why_not_carried says why.
 SerialModel serial_model(const config::SerialRobotConfig& robot, const config::SceneConfig& scene = {});
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 using serial::JointVector;
 
@@ -59,7 +59,7 @@ void SerialSimulation::measure_to_bodies(bool carries, double interval_s) {
 }
 
 void SerialSimulation::add_to_way(const SerialAxis& axis, bool carries, double turned_rad) {
-  std::array<Vec3, kMostSerialPoints + 1> point_m;
+  std::array<Vec3, kMaxSerialPoints + 1> point_m;
   const clearance::AxisPoints moving = axis.points().subspan(1);
   auto end = std::copy(moving.begin(), moving.end(), point_m.begin());
   if (carries)
@@ -90,4 +90,4 @@ const SerialMotion& SerialSimulation::run(const JointVector& start_rad, const To
   return motion_;
 }
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

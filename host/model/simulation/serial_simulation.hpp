@@ -4,7 +4,7 @@
 #include "host/model/simulation/distances.hpp"
 #include "host/model/simulation/serial_contact.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 // The way that a serial arm goes, a pose at every row of the sequence.
 struct SerialMotion {
@@ -45,4 +45,4 @@ class SerialSimulation {
   SerialMotion motion_;
 };
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

@@ -6,22 +6,22 @@
 
 #include "host/model/clearance/self_clearance.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 namespace {
 
-using algebra::ThetaColumn;
-using algebra::view;
+using eigen::ThetaColumn;
+using eigen::view;
 using Index = std::size_t;
 
-double length_m(const RobotTable& table) {
+double length_m(const RobotParams& table) {
   double sum_m = 0.0;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m)
     sum_m += table.segment[m].modules * table.segment[m].module_length_m;
   return sum_m;
 }
 
-double largest_joint_limit_rad(const RobotTable& table) {
+double largest_joint_limit_rad(const RobotParams& table) {
   double largest_rad = 0.0;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m)
     largest_rad = std::max(largest_rad, table.segment[m].theta_limit_rad);
@@ -43,7 +43,7 @@ double turn_between_rad(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 }  // namespace
 
 ToldNow Simulation::told(const JointSequence& sequence, std::size_t row) const {
-  const Eigen::Index thetas = algebra::theta_count(model_.table);
+  const Eigen::Index thetas = eigen::theta_count(model_.table);
   return {view(sequence.rows_rad[row], thetas), view(sequence.loads_Nm[row], thetas),
           Eigen::Map<const CableColumn>(sequence.tensions_N[row].data(), model_.table.cable_count())};
 }
@@ -51,11 +51,11 @@ ToldNow Simulation::told(const JointSequence& sequence, std::size_t row) const {
 void Simulation::look_at_friction(const CableColumn& tension_N) {
   const CablePaths& paths = arm_.equations().paths();
   const ThetaColumn band_rad = arm_.equations().band_rad(friction_torque(model_, paths, tension_N));
-  auto most_rad = view(motion_.friction_band_rad, band_rad.size());
-  most_rad = most_rad.cwiseMax(band_rad);
+  auto max_rad = view(motion_.friction_band_rad, band_rad.size());
+  max_rad = max_rad.cwiseMax(band_rad);
   const double mu = (1.0 + model_.friction_band) * model_.table.friction_mu;
   for (Eigen::Index c = 0; c < tension_N.size(); ++c) {
-    double& least = motion_.least_passed_share[static_cast<Index>(c)];
+    double& least = motion_.min_passed_share[static_cast<Index>(c)];
     least = std::min(least, std::exp(-mu * paths.wrap_rad[c]));
   }
 }
@@ -104,7 +104,7 @@ void Simulation::place_told(const JointSequence& sequence) {
 void Simulation::measure_distances(const Pose& drawing_in_base) {
   const Pieces arm{model_.link_radius_m, 0, way_.axis(0).size()};
   measure_to_scene({&arm, 1}, {scene_, drawing_in_base}, way_, enough_m_, step_s_, motion_.distances);
-  const std::int32_t apart = clearance::least_apart(largest_joint_limit_rad(model_.table));
+  const std::int32_t apart = clearance::min_apart(largest_joint_limit_rad(model_.table));
   const auto look = [&](std::int32_t pose) {
     return clearance::self_clearance(way_.axis(static_cast<std::size_t>(pose)), model_.link_radius_m, apart);
   };
@@ -135,7 +135,7 @@ const Motion& Simulation::run(const StartState& start, const JointSequence& aske
   motion_.moments.clear();
   place_told(sequence);
   motion_.friction_band_rad.fill(0.0);
-  motion_.least_passed_share.fill(1.0);
+  motion_.min_passed_share.fill(1.0);
   way_.begin(length_m(model_.table));
   // The drives have followed an even motion to the first row, as it goes on from there.
   const ToldNow now = told(sequence, 0), next = told(sequence, 1);
@@ -148,4 +148,4 @@ const Motion& Simulation::run(const StartState& start, const JointSequence& aske
   return motion_;
 }
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

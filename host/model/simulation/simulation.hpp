@@ -6,7 +6,7 @@
 #include "host/model/simulation/distances.hpp"
 #include "host/model/simulation/swinging_arm.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 constexpr int kStepsPerInterval = 2;  // T_d = T_c / 2
 constexpr double kSwingOut_s = 0.1;   // how long the arm is followed after the sequence
@@ -40,4 +40,4 @@ class Simulation {
   Motion motion_;
 };
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

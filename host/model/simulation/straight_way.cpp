@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 namespace {
 
@@ -38,7 +38,7 @@ ToldRows<Joints> way_between(const Joints& from_rad, const Joints& to_rad, doubl
 
 }  // namespace
 
-JointSequence straight_way(const RobotTable& table, const ThetaVector& from_rad, const ThetaVector& to_rad,
+JointSequence straight_way(const RobotParams& table, const ThetaVector& from_rad, const ThetaVector& to_rad,
                            double duration_s, double interval_s) {
   double way_rad = 0.0;
   for (std::size_t k = 0; k < from_rad.size(); ++k) way_rad = std::max(way_rad, std::fabs(to_rad[k] - from_rad[k]));
@@ -46,7 +46,7 @@ JointSequence straight_way(const RobotTable& table, const ThetaVector& from_rad,
   return {way_between(from_rad, to_rad, ends_s, duration_s, interval_s), {}, {}};
 }
 
-ToldRows<serial::JointVector> straight_way(const serial::RobotTable& table, const serial::JointVector& from_rad,
+ToldRows<serial::JointVector> straight_way(const serial::RobotParams& table, const serial::JointVector& from_rad,
                                            const serial::JointVector& to_rad, double duration_s, double interval_s) {
   double ends_s = 0.0;
   for (std::size_t i = 0; i < table.joints(); ++i)
@@ -54,4 +54,4 @@ ToldRows<serial::JointVector> straight_way(const serial::RobotTable& table, cons
   return way_between(from_rad, to_rad, ends_s, duration_s, interval_s);
 }
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

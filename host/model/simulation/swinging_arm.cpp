@@ -1,11 +1,11 @@
 #include "host/model/simulation/swinging_arm.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 namespace {
 
-using algebra::ThetaColumn;
-using algebra::view;
+using eigen::ThetaColumn;
+using eigen::view;
 
 // Assumed, times the table's floor: where tensions are planned without measured ones.
 constexpr double kPlannedFloor = 1.5;
@@ -32,7 +32,7 @@ CableColumn SwingingArm::modelled_N() const { return planned_.now() + arm_.stret
 
 bool SwingingArm::begin(const StartState& start, const ToldNow& before, const ToldNow& now, double since_s,
                         double step_s) {
-  const Eigen::Index thetas = algebra::theta_count(model_.table), cables = model_.table.cable_count();
+  const Eigen::Index thetas = eigen::theta_count(model_.table), cables = model_.table.cable_count();
   step_s_ = step_s;
   if (!solve(start.theta_rad)) return false;
   const double tau_s = model_.table.servo_time_constant_s;
@@ -64,7 +64,7 @@ void SwingingArm::correct(const ThetaColumn& theta_rad, const ThetaColumn& rate_
 }
 
 JointSequence planned_with(const ArmModel& model, const ToldRows<ThetaVector>& rows) {
-  const Eigen::Index thetas = algebra::theta_count(model.table), cables = model.table.cable_count();
+  const Eigen::Index thetas = eigen::theta_count(model.table), cables = model.table.cable_count();
   const auto row = [&](std::size_t i) { return view(rows.rows_rad[i], thetas); };
   JointSequence out{rows, {}, {}};
   for (std::size_t i = 0; i < rows.rows_rad.size(); ++i) {
@@ -83,4 +83,4 @@ JointSequence planned_with(const ArmModel& model, const ToldRows<ThetaVector>& r
   return out;
 }
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

@@ -6,19 +6,19 @@
 #include "host/model/simulation/linear_arm.hpp"
 #include "host/model/simulation/motion.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 constexpr double kNewPose_rad = 0.06;  // an angle that has moved further (3.4 deg): the equations are solved anew
 
-inline ThetaVector vector(const algebra::ThetaColumn& theta) {
+inline ThetaVector vector(const eigen::ThetaColumn& theta) {
   ThetaVector out{};
-  algebra::view(out, theta.size()) = theta;
+  eigen::view(out, theta.size()) = theta;
   return out;
 }
 
 // What the drives' lengths are made of at one moment: angles, and tensions that give a load there.
 struct ToldNow {
-  algebra::ThetaColumn theta_rad, load_Nm;
+  eigen::ThetaColumn theta_rad, load_Nm;
   CableColumn tension_N;
 
   ToldNow to(const ToldNow& other, double share) const {
@@ -39,8 +39,8 @@ class SwingingArm {
 
   const Swing& swing() const { return swing_; }
   // Angle and rate are measured to be so much more; `held_rad` more of what the drums want is held by friction.
-  void correct(const algebra::ThetaColumn& theta_rad, const algebra::ThetaColumn& rate_rad_s,
-               const algebra::ThetaColumn& held_rad);
+  void correct(const eigen::ThetaColumn& theta_rad, const eigen::ThetaColumn& rate_rad_s,
+               const eigen::ThetaColumn& held_rad);
   // At the motor: as planned, and stretched by what the arm is off where it was planned for; what was measured beside
   // that at the start (friction, zeros, gains) stays.
   CableColumn tension_N() const { return modelled_N() + beside_N_; }
@@ -57,7 +57,7 @@ class SwingingArm {
   ThetaVector about_rad_{};
   int times_solved_ = 0;
   Swing swing_;
-  DrumLag<algebra::ThetaColumn> theta_, load_;
+  DrumLag<eigen::ThetaColumn> theta_, load_;
   DrumLag<CableColumn> planned_;
   CableColumn beside_N_;
 };
@@ -65,4 +65,4 @@ class SwingingArm {
 // The rows with loads and tensions as a controller plans them for the arm's mass.
 JointSequence planned_with(const ArmModel& model, const ToldRows<ThetaVector>& rows);
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 Worker::Worker(const ArmModel& model, const config::SceneConfig& scene, double enough_m)
     : simulation_(model, scene, enough_m), thread_([this] { work(); }) {}
@@ -54,4 +54,4 @@ void Worker::work() {
   }
 }
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

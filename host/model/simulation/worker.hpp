@@ -7,7 +7,7 @@
 
 #include "host/model/simulation/simulation.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 
 class Worker {
  public:
@@ -35,4 +35,4 @@ class Worker {
   std::thread thread_;  // last: it uses all the others
 };
 
-}  // namespace liana::simulate
+}  // namespace liana::simulation

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <numbers>
 
-namespace liana::haptic {
+namespace liana::haptics {
 namespace {
 
 constexpr double kHalfRoot3 = std::numbers::sqrt3 / 2.0;
@@ -72,4 +72,4 @@ std::optional<std::array<Vec3, 3>> delta_jacobian(const DeltaTable& table, const
   return columns;
 }
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

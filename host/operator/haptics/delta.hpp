@@ -12,7 +12,7 @@
 
 #include "firmware_like/math/pose.hpp"
 
-namespace liana::haptic {
+namespace liana::haptics {
 
 using JointAngles = std::array<double, 3>;  // q_i [rad]
 
@@ -38,4 +38,4 @@ inline std::array<double, 3> delta_torques(const std::array<Vec3, 3>& jacobian, 
   return {dot(jacobian[0], force_N), dot(jacobian[1], force_N), dot(jacobian[2], force_N)};
 }
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace liana::haptic {
+namespace liana::haptics {
 
 double EnergyTank::allowed_N(const Vec3& wanted_N, double length_N, const Vec3& moved_m) const noexcept {
   const double along_m = dot(moved_m, wanted_N) / length_N;
@@ -23,4 +23,4 @@ Vec3 EnergyTank::pass(const Vec3& wanted_N, const Vec3& position_m) noexcept {
   return force_N_;
 }
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

@@ -9,10 +9,10 @@
 
 #include "host/control/virtual_fixtures/hand_motion.hpp"
 
-namespace liana::haptic {
+namespace liana::haptics {
 
 // Tanks: M. Franken et al., IEEE T-RO 27(4), 2011.
-struct TankTable {
+struct TankParams {
   double start_J = 0.1;      // also the most that the port can ever give beyond what it took
   double most_J = 1.0;       // what the hand brings in beyond it is forgotten
   double reserve_J = 0.002;  // never spent: what errors of the encoders may add up to (measured: 0.02 mJ in 43 s)
@@ -25,7 +25,7 @@ struct TankTable {
 
 class EnergyTank {
  public:
-  explicit EnergyTank(const TankTable& table) : table_(table), store_J_(table.start_J) {}
+  explicit EnergyTank(const TankParams& table) : table_(table), store_J_(table.start_J) {}
 
   // Once a millisecond, the last thing before the motors: books what the last force did on the way to `position_m`,
   // and gives back the force that may act now: `wanted_N` or a part of it.
@@ -38,7 +38,7 @@ class EnergyTank {
  private:
   double allowed_N(const Vec3& wanted_N, double length_N, const Vec3& moved_m) const noexcept;
 
-  TankTable table_;
+  TankParams table_;
   double store_J_;
   double passed_ = 1.0;
   Vec3 force_N_{};
@@ -46,4 +46,4 @@ class EnergyTank {
   bool begun_ = false;
 };
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

@@ -1,6 +1,6 @@
 #include "host/operator/haptics/feedback_law.hpp"
 
-namespace liana::haptic {
+namespace liana::haptics {
 namespace {
 
 Vec3 spring_damper(const LawGains& gains, double damping_N_s_m, const Motion& robot, const Motion& other) {
@@ -31,4 +31,4 @@ Vec3 law_force(Law law, const LawGains& gains, const LawInputs& inputs) noexcept
   return {};
 }
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

@@ -9,7 +9,7 @@
 
 #include "host/control/virtual_fixtures/hand_motion.hpp"
 
-namespace liana::haptic {
+namespace liana::haptics {
 
 // Source C (patent CN103722554A) has two, the third is the second with its delays taken out.
 enum class Law : std::uint8_t {
@@ -43,4 +43,4 @@ struct LawInputs {
 // contact, and its rate would be the noise of two delays.
 Vec3 law_force(Law law, const LawGains& gains, const LawInputs& inputs) noexcept;
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

@@ -6,20 +6,20 @@
 
 #include "host/control/virtual_fixtures/hand_motion.hpp"
 
-namespace liana::haptic {
+namespace liana::haptics {
 namespace {
 
 constexpr std::uint64_t kTremorPurpose = 31;
 constexpr double kTremor_rad_s = 2.0 * std::numbers::pi * 10.0;  // middle of 8 to 12 Hz
 
-double damping_of(const HandTable& table, double moved_kg) {
+double damping_of(const HandParams& table, double moved_kg) {
   const double critical = 2.0 * std::sqrt(table.stiffness_N_m * (table.mass_kg + moved_kg));
-  return std::max(table.damping_ratio * critical, table.least_damping_N_s_m);
+  return std::max(table.damping_ratio * critical, table.min_damping_N_s_m);
 }
 
 }  // namespace
 
-Hand::Hand(const HandTable& table, double moved_kg, std::uint64_t seed)
+Hand::Hand(const HandParams& table, double moved_kg, std::uint64_t seed)
     : table_(table),
       tremor_(1.0, 0.0, seed, kTremorPurpose),
       damping_N_s_m_(damping_of(table, moved_kg)),
@@ -48,4 +48,4 @@ Vec3 Hand::force(const Vec3& position_m, const Vec3& velocity_m_s) const noexcep
   return add(add(spring, damper), trembling_N_);
 }
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

@@ -8,7 +8,7 @@
 #include "firmware_like/math/pose.hpp"
 #include "host/operator/simulated/tremor.hpp"
 
-namespace liana::haptic {
+namespace liana::haptics {
 
 // What the person wants, given from outside once a millisecond.
 struct Intent {
@@ -19,20 +19,20 @@ struct Intent {
 
 // Assumed; the stiffness of arms that F. Mussa-Ivaldi, N. Hogan and E. Bizzi measured (J. Neurosci. 5, 1985) lies
 // within the range.
-struct HandTable {
+struct HandParams {
   double mass_kg = 0.5;          // that moves with the device; 0.5 wrist only .. 2 whole forearm
   double stiffness_N_m = 300.0;  // 0 lets go .. 1000 clenched
   double damping_ratio = 0.3;
-  double least_damping_N_s_m = 2.0;  // also of a hand that has let go
-  double tremor_m = 0.0001;  // RMS of each axis, of a hand that only bears its own mass (as HandGains::tremor_m)
-  double reaction_s = 0.15;  // 0 .. 0.5 (as HandGains::reaction_s)
+  double min_damping_N_s_m = 2.0;  // also of a hand that has let go
+  double tremor_m = 0.0001;        // RMS of each axis, of a hand that only bears its own mass (as HandGains::tremor_m)
+  double reaction_s = 0.15;        // 0 .. 0.5 (as HandGains::reaction_s)
 };
 
 // Deterministic: the same calls give the same hand. No heap.
 class Hand {
  public:
   // `moved_kg`: what moves with the hand besides its own mass; it enters damping and tremor.
-  Hand(const HandTable& table, double moved_kg, std::uint64_t seed);
+  Hand(const HandParams& table, double moved_kg, std::uint64_t seed);
 
   // The next millisecond's intent; it is acted on after the reaction time. Before the first one has come through, the
   // first one of all counts.
@@ -49,8 +49,8 @@ class Hand {
  private:
   static constexpr std::size_t kLongest = 501;  // [ms] of reaction time
 
-  HandTable table_;
-  operator_side::Tremor tremor_;  // of one unit
+  HandParams table_;
+  simulated::Tremor tremor_;  // of one unit
   double damping_N_s_m_;
   double tremor_N_;
   std::size_t reaction_;  // [ms]
@@ -62,4 +62,4 @@ class Hand {
   Vec3 trembling_N_{};
 };
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

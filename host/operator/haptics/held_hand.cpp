@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::haptic {
+namespace liana::haptics {
 namespace {
 
 // From the device's own axes to those parallel to the base: its x is the base's y.
@@ -24,7 +24,7 @@ Intent intent_of(const device::Sample& wish) {
 
 }  // namespace
 
-HeldHand::HeldHand(const HandLoopTable& loop, const HandTable& hand, std::uint64_t seed)
+HeldHand::HeldHand(const HandLoopTable& loop, const HandParams& hand, std::uint64_t seed)
     : omega_(OmegaTable{}, hand, {}, seed), loop_(loop) {}
 
 device::Sample HeldHand::step(const device::Sample& wish, const Vec3& commanded_m) noexcept {
@@ -34,8 +34,8 @@ device::Sample HeldHand::step(const device::Sample& wish, const Vec3& commanded_
   force_ = loop_.step(sensed, commanded_m);
   omega_.step(rotate(conjugate(kMounted), force_.force_N), intent_of(wish));
   peak_force_N_ = std::max(peak_force_N_, norm(force_.force_N));
-  least_energy_J_ = std::min(least_energy_J_, omega_.absorbed_J());
+  min_energy_J_ = std::min(min_energy_J_, omega_.absorbed_J());
   return sensed;
 }
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

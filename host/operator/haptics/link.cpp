@@ -5,10 +5,10 @@
 
 #include "host/operator/haptics/range.hpp"
 
-namespace liana::haptic {
+namespace liana::haptics {
 namespace {
 
-constexpr double kMostDelay_s = 2.0;  // the gains of people are good for
+constexpr double kMaxDelay_s = 2.0;  // the gains of people are good for
 
 }  // namespace
 
@@ -23,9 +23,9 @@ Delays delays_of(const std::string& text) {
   std::istringstream stream(text);
   char comma = 0, rest = 0;
   const bool numbers = stream >> delays.forward_s >> comma >> delays.back_s && comma == ',' && !(stream >> rest);
-  const auto in_range = [](double delay_s) { return delay_s >= 0.0 && delay_s <= kMostDelay_s; };
+  const auto in_range = [](double delay_s) { return delay_s >= 0.0 && delay_s <= kMaxDelay_s; };
   if (numbers && in_range(delays.forward_s) && in_range(delays.back_s)) return delays;
   throw std::invalid_argument("'" + text + "': allowed FORWARD_S,RETURN_S, two numbers from 0 to 2, e.g. 0.5,0.5");
 }
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

@@ -11,7 +11,7 @@
 
 #include "host/base/random/random.hpp"
 
-namespace liana::haptic {
+namespace liana::haptics {
 
 struct LinkTable {
   double delay_s = 0.0;  // 0 .. 5
@@ -78,10 +78,10 @@ class Link {
   };
 
   LinkTable table_;
-  operator_side::RandomStream random_;
+  simulated::RandomStream random_;
   std::array<Flight, kMost> under_way_{};
   std::size_t count_ = 0;
   std::int64_t lost_ = 0;
 };
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::haptic {
+namespace liana::haptics {
 namespace {
 
 constexpr int kParts = 10;  // of a millisecond: the stiffest spring here, 20 kN/m on 0.25 kg, turns 0.03 rad in one
@@ -15,7 +15,7 @@ Quat attitude(const Vec3& wrist_rad) {  // assumed order: about x, then the turn
 
 }  // namespace
 
-HeldOmega::HeldOmega(const OmegaTable& omega, const HandTable& hand, const Vec3& start_m, std::uint64_t seed)
+HeldOmega::HeldOmega(const OmegaTable& omega, const HandParams& hand, const Vec3& start_m, std::uint64_t seed)
     : table_(omega), hand_(hand, omega.mass_kg, seed), truth_{start_m, {}}, sensed_m_(start_m) {}
 
 // Beyond the workspace, towards it; a stop never pulls.
@@ -66,4 +66,4 @@ device::Sample HeldOmega::sample() noexcept {
           .pose = {sensed_m_, attitude(wrist_rad_)}};
 }
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

@@ -10,7 +10,7 @@
 #include "host/operator/haptics/delta.hpp"
 #include "host/operator/haptics/hand.hpp"
 
-namespace liana::haptic {
+namespace liana::haptics {
 
 // Published by Force Dimension for the omega.6: workspace, wrist, force, resolution. Assumed: everything else.
 struct OmegaTable {
@@ -31,7 +31,7 @@ struct OmegaTable {
 class HeldOmega {
  public:
   // Starts at rest at `start_m`, within the workspace.
-  HeldOmega(const OmegaTable& omega, const HandTable& hand, const Vec3& start_m, std::uint64_t seed);
+  HeldOmega(const OmegaTable& omega, const HandParams& hand, const Vec3& start_m, std::uint64_t seed);
 
   // One millisecond: the motors hold a force, at most what they can; the hand goes after its intent.
   void step(const Vec3& force_N, const Intent& intent) noexcept;
@@ -59,4 +59,4 @@ class HeldOmega {
   std::int64_t t_us_ = 0;
 };
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

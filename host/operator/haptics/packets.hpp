@@ -6,7 +6,7 @@
 
 #include "host/control/virtual_fixtures/hand_motion.hpp"
 
-namespace liana::haptic {
+namespace liana::haptics {
 
 // To the arm.
 struct CommandPacket {
@@ -41,4 +41,4 @@ class Newest {
   std::int64_t dropped_ = 0;
 };
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace liana::haptic {
+namespace liana::haptics {
 namespace {
 
 Vec3 between(const Vec3& from, const Vec3& to, double share) { return add(from, scale(subtract(to, from), share)); }
@@ -34,4 +34,4 @@ std::optional<Motion> PredictionTrack::at(std::int64_t t_us) const noexcept {
   return std::nullopt;
 }
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

@@ -7,7 +7,7 @@
 
 #include "host/control/virtual_fixtures/hand_motion.hpp"
 
-namespace liana::haptic {
+namespace liana::haptics {
 
 class PredictionTrack {
  public:
@@ -30,4 +30,4 @@ class PredictionTrack {
   std::size_t count_ = 0;  // ever put
 };
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

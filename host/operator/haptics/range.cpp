@@ -3,7 +3,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace liana::haptic {
+namespace liana::haptics {
 
 void check_range(const char* table, const char* field, double value, double least, double most) {
   if (value >= least && value <= most) return;
@@ -12,4 +12,4 @@ void check_range(const char* table, const char* field, double value, double leas
   throw std::invalid_argument(text.str());
 }
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

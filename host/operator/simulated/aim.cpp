@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::operator_side {
+namespace liana::simulated {
 namespace {
 
 constexpr double kStep_s = 0.001;
@@ -56,4 +56,4 @@ void Aim::see(const Pose& seen_tip, double since_last_s, const PoseStep& ignored
   learned_.turn_rad = add(learned_.turn_rad, scale(limited(turn, gains_.correction_rate_rad_s), since_last_s));
 }
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

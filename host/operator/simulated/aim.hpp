@@ -6,7 +6,7 @@
 #include "host/operator/simulated/hand_gains.hpp"
 #include "host/operator/simulated/slit_view.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 // Poses in the slit frame. Corrections integrate what is seen against what the hand should have done by the time of the
 // picture, so the arm's lag and the picture's age do not turn into overshoot.
@@ -38,4 +38,4 @@ class Aim {
   std::size_t head_ = 0;
 };
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

@@ -5,16 +5,16 @@
 #include "firmware_like/cable/arm/kinematics.hpp"
 #include "firmware_like/math/trig.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 namespace {
 
-std::size_t links_before(const cable::RobotTable& table, std::size_t node) {
+std::size_t links_before(const cable::RobotParams& table, std::size_t node) {
   std::size_t links = 0;
   for (std::size_t m = 0; m < node; ++m) links += static_cast<std::size_t>(table.segment[m].modules);
   return links;
 }
 
-void check(std::size_t given, std::size_t node, const cable::RobotTable& table) {
+void check(std::size_t given, std::size_t node, const cable::RobotParams& table) {
   const auto angles = static_cast<std::size_t>(table.theta_count());
   if (given != angles)
     throw std::runtime_error("state message: measured_js_deg: " + std::to_string(given) + " angles: allowed " +
@@ -26,7 +26,7 @@ void check(std::size_t given, std::size_t node, const cable::RobotTable& table) 
 
 }  // namespace
 
-ArmSight ArmDisplay::picture(const std::vector<double>& measured_deg, std::size_t node) const {
+ArmObservation ArmDisplay::picture(const std::vector<double>& measured_deg, std::size_t node) const {
   check(measured_deg.size(), node, table_);
   cable::ThetaVector theta_rad{};
   for (std::size_t i = 0; i < measured_deg.size(); ++i) theta_rad[i] = measured_deg[i] * kDegree;
@@ -38,4 +38,4 @@ ArmSight ArmDisplay::picture(const std::vector<double>& measured_deg, std::size_
           radius_m_};
 }
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

@@ -6,7 +6,7 @@
 
 #include "host/base/json/json.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 namespace {
 
 std::optional<Pose> pose_of(const Json& message, const char* key) {
@@ -27,6 +27,6 @@ std::optional<Pose> pose_of(const Json& message, const char* key) {
 
 }  // namespace
 
-TipSighting sighting_of(const Json& message) { return {pose_of(message, "slit"), pose_of(message, "rod")}; }
+TipObservation sighting_of(const Json& message) { return {pose_of(message, "slit"), pose_of(message, "rod")}; }
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

@@ -4,10 +4,10 @@
 #include "host/base/json/json_fwd.hpp"
 #include "host/operator/simulated/slit_view.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 // Picture in a `camera` message; throws std::runtime_error when a pose is neither null nor seven numbers with a unit
 // quaternion.
-TipSighting sighting_of(const Json& message);
+TipObservation sighting_of(const Json& message);
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

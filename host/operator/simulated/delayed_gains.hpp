@@ -6,7 +6,7 @@
 #include "host/operator/simulated/hand_gains.hpp"
 #include "host/operator/simulated/vr_gains.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 // `there_and_back_s` >= 0: from a movement of the hand to its picture, beyond what there always is.
 inline HandGains under_delay(HandGains gains, double there_and_back_s) {
@@ -32,4 +32,4 @@ inline VrGains under_delay(VrGains gains, double there_and_back_s) {
   return gains;
 }
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

@@ -1,7 +1,7 @@
 // The simulated person at the hand controller: every number that shapes how they see, decide and move.
 #pragma once
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 // Defaults are a calm, practised operator. Positions at the arm's tip unless the name says hand.
 struct HandGains {
@@ -64,4 +64,4 @@ struct HandGains {
   double align_relent_most = 1.15;  // the same before the mouth, where going in corrects it further
 };
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::operator_side {
+namespace liana::simulated {
 namespace {
 
-constexpr double kLeastReturn_s = 0.3;
+constexpr double kMinReturn_s = 0.3;
 constexpr double kPeakOfMinimumJerk = 1.875;  // peak speed over mean speed
 
 double minimum_jerk(double s) { return s * s * s * (10.0 + s * (6.0 * s - 15.0)); }
@@ -33,7 +33,7 @@ void HandGrip::start_return(const PoseStep& ahead) {
   return_from_ = pose_;
   return_step_ = step_between(pose_, target);
   return_s_ = 0.0;
-  return_time_s_ = std::max(kLeastReturn_s, kPeakOfMinimumJerk * norm(return_step_.shift_m) / gains_.return_speed_m_s);
+  return_time_s_ = std::max(kMinReturn_s, kPeakOfMinimumJerk * norm(return_step_.shift_m) / gains_.return_speed_m_s);
 }
 
 bool HandGrip::advance_return(double dt_s) {
@@ -63,4 +63,4 @@ bool HandGrip::out_of_reach(const PoseStep& ahead, double stop_m) const {
   return (outward && norm(stop_at) > gains_.reach_m) || (turning_on && turned > gains_.reach_rad);
 }
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

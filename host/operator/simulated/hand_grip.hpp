@@ -5,7 +5,7 @@
 #include "host/operator/simulated/hand_gains.hpp"
 #include "host/operator/simulated/slit_view.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 // How hand motion maps to the tip: P_r = a P_m from the clutch pose (docs/reference/api.md).
 struct HandMapping {
@@ -49,4 +49,4 @@ class HandGrip {
   double return_time_s_ = 1.0;
 };
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

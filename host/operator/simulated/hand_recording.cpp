@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace liana::operator_side {
+namespace liana::simulated {
 namespace {
 
 constexpr double kUnitTolerance = 1e-4;  // quaternions are written with six decimals
@@ -169,4 +169,4 @@ HandRecording read_hand_controller_recording(const std::string& path) {
       path + ": holds VR handles: allowed a hand controller (liana-hand 1 hand); choose another recording");
 }
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

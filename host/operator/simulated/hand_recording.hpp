@@ -8,7 +8,7 @@
 
 #include "host/operator/simulated/samples.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 using VrRecording = std::vector<BothHands>;
 using HandRecording = std::vector<device::Sample>;
@@ -24,4 +24,4 @@ std::variant<VrRecording, HandRecording> parse_hand_recording(std::istream& stre
 VrRecording read_vr_recording(const std::string& path);
 HandRecording read_hand_controller_recording(const std::string& path);
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

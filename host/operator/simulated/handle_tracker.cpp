@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 HandleTracker::HandleTracker(const TrackingTable& table, std::uint64_t seed, std::uint64_t purpose)
     : table_(table),
@@ -29,4 +29,4 @@ device::Sample HandleTracker::track(const Pose& pose, bool held, double now_s) {
   return sample;
 }
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

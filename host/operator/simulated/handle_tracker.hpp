@@ -7,7 +7,7 @@
 #include "host/base/random/random.hpp"
 #include "host/operator/simulated/tremor.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 struct TrackingTable {
   double tremor_m = 0.0002;       // RMS of each axis, of the hand
@@ -39,4 +39,4 @@ class HandleTracker {
   Pose last_{};
 };
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

@@ -7,7 +7,7 @@
 #include "host/model/clearance/arm_clearance.hpp"
 #include "host/operator/simulated/slit_view.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 namespace {
 
 constexpr double kLook_m = 0.08;  // of way between two imagined arms
@@ -31,7 +31,7 @@ std::vector<Vec3> sides_of(const Vec3& v) {
   return sides;
 }
 
-double length_beyond_node_m(const ArmSight& seen) {
+double length_beyond_node_m(const ArmObservation& seen) {
   double length_m = 0.0;
   for (std::size_t i = seen.node_point + 1; i < seen.axis_m.size(); ++i)
     length_m += norm(subtract(seen.axis_m[i], seen.axis_m[i - 1]));
@@ -39,7 +39,7 @@ double length_beyond_node_m(const ArmSight& seen) {
 }
 
 // Places for the node: straight behind the tip, and tilted to every side.
-std::vector<Vec3> places_of_node(const VrGains& gains, const ArmSight& seen, const Pose& tip_goal) {
+std::vector<Vec3> places_of_node(const VrGains& gains, const ArmObservation& seen, const Pose& tip_goal) {
   const Vec3 heading = rotate(tip_goal.quaternion, {1.0, 0.0, 0.0});
   const double behind_m = gains.trail * length_beyond_node_m(seen);
   std::vector<Vec3> places{subtract(tip_goal.position_m, scale(heading, behind_m))};
@@ -51,13 +51,13 @@ std::vector<Vec3> places_of_node(const VrGains& gains, const ArmSight& seen, con
 }
 
 // Half way, moved aside.
-HandsGoal detour(const ArmSight& seen, const HandsGoal& goal, const Vec3& aside_m) {
+HandsGoal detour(const ArmObservation& seen, const HandsGoal& goal, const Vec3& aside_m) {
   const PoseStep turn = step_between(seen.tip, goal.tip);
   const Pose half = moved(seen.tip, {scale(turn.shift_m, 0.5), scale(turn.turn_rad, 0.5)});
   return {{add(half.position_m, aside_m), half.quaternion}, add(scale(add(seen.node_m(), goal.node_m), 0.5), aside_m)};
 }
 
-std::vector<std::vector<HandsGoal>> ways_to(const VrGains& gains, const ArmSight& seen, const HandsGoal& goal) {
+std::vector<std::vector<HandsGoal>> ways_to(const VrGains& gains, const ArmObservation& seen, const HandsGoal& goal) {
   std::vector<std::vector<HandsGoal>> ways{{goal}};
   const Vec3 ahead = subtract(goal.tip.position_m, seen.tip.position_m);
   if (norm(ahead) < gains.detour_m) return ways;
@@ -68,7 +68,7 @@ std::vector<std::vector<HandsGoal>> ways_to(const VrGains& gains, const ArmSight
   return ways;
 }
 
-double length_m(const ArmSight& seen, const std::vector<HandsGoal>& way) {
+double length_m(const ArmObservation& seen, const std::vector<HandsGoal>& way) {
   double length = 0.0;
   Vec3 tip = seen.tip.position_m, node = seen.node_m();
   for (const HandsGoal& goal : way) {
@@ -80,7 +80,7 @@ double length_m(const ArmSight& seen, const std::vector<HandsGoal>& way) {
 
 }  // namespace
 
-std::vector<Vec3> imagined_axis(const ArmSight& seen, const Vec3& tip_shift_m, const Vec3& node_shift_m) {
+std::vector<Vec3> imagined_axis(const ArmObservation& seen, const Vec3& tip_shift_m, const Vec3& node_shift_m) {
   std::vector<Vec3> axis = seen.axis_m;
   const auto part = [](std::size_t i, std::size_t from, std::size_t to) {
     return to > from ? static_cast<double>(i - from) / static_cast<double>(to - from) : 1.0;
@@ -94,8 +94,8 @@ std::vector<Vec3> imagined_axis(const ArmSight& seen, const Vec3& tip_shift_m, c
   return axis;
 }
 
-double imagined_room_m(const ArmSight& seen, const config::SceneConfig& drawing, const std::vector<HandsGoal>& way,
-                       double within_m) {
+double imagined_room_m(const ArmObservation& seen, const config::SceneConfig& drawing,
+                       const std::vector<HandsGoal>& way, double within_m) {
   double room_m = clearance::kNoObstacle_m, gone_m = 0.0;
   Vec3 tip{}, node{};  // moved so far
   for (const HandsGoal& goal : way) {
@@ -114,7 +114,7 @@ double imagined_room_m(const ArmSight& seen, const config::SceneConfig& drawing,
   return room_m;
 }
 
-std::vector<HandsGoal> plan_hands(const VrGains& gains, const ArmSight& seen, const config::SceneConfig& drawing,
+std::vector<HandsGoal> plan_hands(const VrGains& gains, const ArmObservation& seen, const config::SceneConfig& drawing,
                                   const Pose& tip_goal) {
   std::vector<HandsGoal> best;
   double most = -1e9;
@@ -130,4 +130,4 @@ std::vector<HandsGoal> plan_hands(const VrGains& gains, const ArmSight& seen, co
   return best;
 }
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

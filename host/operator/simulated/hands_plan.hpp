@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "host/model/config/config.hpp"
-#include "host/operator/simulated/arm_sight.hpp"
+#include "host/operator/simulated/arm_observation.hpp"
 #include "host/operator/simulated/vr_gains.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 // Where both hands lead the arm, base frame.
 struct HandsGoal {
@@ -17,16 +17,16 @@ struct HandsGoal {
 };
 
 // The seen axis when its tip and its node have moved by so much: in between evenly, from the root on ever more.
-std::vector<Vec3> imagined_axis(const ArmSight& seen, const Vec3& tip_shift_m, const Vec3& node_shift_m);
+std::vector<Vec3> imagined_axis(const ArmObservation& seen, const Vec3& tip_shift_m, const Vec3& node_shift_m);
 
 // Least room that is imagined between the arm and the drawing's bodies while both hands go straight from where they are
 // seen to be through `way`, in order; at most `within_m` of the tip's way, all of it where that is not said.
-double imagined_room_m(const ArmSight& seen, const config::SceneConfig& drawing, const std::vector<HandsGoal>& way,
-                       double within_m = 1e9);
+double imagined_room_m(const ArmObservation& seen, const config::SceneConfig& drawing,
+                       const std::vector<HandsGoal>& way, double within_m = 1e9);
 
 // A way to `tip_goal`: the node is led behind the tip against its heading (x), a little to one side where that leaves
 // more room; both hands go round what is in the way. One or two places. About 1,500 imagined arms.
-std::vector<HandsGoal> plan_hands(const VrGains& gains, const ArmSight& seen, const config::SceneConfig& drawing,
+std::vector<HandsGoal> plan_hands(const VrGains& gains, const ArmObservation& seen, const config::SceneConfig& drawing,
                                   const Pose& tip_goal);
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

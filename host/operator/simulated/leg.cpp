@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 namespace {
 constexpr double kArrived_m = 1e-5;  // closer than this a leg ends, or braking would creep for ever
@@ -40,4 +40,4 @@ Pose Leg::pose() const { return moved(start_, {scale(whole_.shift_m, share()), s
 
 PoseStep Leg::remaining() const { return step_between(pose(), goal_); }
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

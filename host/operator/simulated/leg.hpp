@@ -3,7 +3,7 @@
 
 #include "host/operator/simulated/slit_view.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 // How fast a leg is walked.
 struct LegPace {
@@ -49,4 +49,4 @@ class Leg {
   double speed_m_s_ = 0.0;
 };
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

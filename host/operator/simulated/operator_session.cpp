@@ -6,7 +6,7 @@
 
 #include "host/operator/simulated/camera_message.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 namespace {
 
 constexpr double kSamplePeriod_s = 0.001;
@@ -32,7 +32,7 @@ long milliseconds(double from_s, double to_s) { return std::lround((to_s - from_
 }  // namespace
 
 device::Kind other_of(device::Kind kind) {
-  return kind == device::Kind::kHandles ? device::Kind::kHandController : device::Kind::kHandles;
+  return kind == device::Kind::kVrControllers ? device::Kind::kHandController : device::Kind::kVrControllers;
 }
 
 HandTask hand_task(const AnnouncedStep& step) {
@@ -54,8 +54,8 @@ HandMapping announced_mapping(const Json& state) {
   return {positive(*found, "scale", 1.0), positive(*found, "rotation_scale", 1.0), positive(*found, "speed_m_s", 0.0)};
 }
 
-OperatorSession::OperatorSession(std::vector<std::string> recordings, const SlitDrawing& drawing,
-                                 const HandGains& gains, std::uint64_t seed, Temper temper)
+OperatorSession::OperatorSession(std::vector<std::string> recordings, const SlitModel& drawing, const HandGains& gains,
+                                 std::uint64_t seed, Temper temper)
     : recordings_(std::move(recordings)), person_(gains, drawing, seed, temper), seed_(seed), temper_(temper) {}
 
 // The first there is; where there is none the last, for the message.
@@ -96,7 +96,7 @@ OperatorAnswer OperatorSession::on_state(const Json& state) {
 
 OperatorAnswer OperatorSession::steer_vr(double from_s, double to_s, bool engaged) {
   vr_->feel(engaged, to_s);
-  OperatorAnswer answer{.kind = device::Kind::kHandles};
+  OperatorAnswer answer{.kind = device::Kind::kVrControllers};
   for (const BothHands& hands : vr_->advance(from_s, to_s - from_s))
     answer.samples.insert(answer.samples.end(), {hands.right, hands.left});
   for (long i = 1; i <= milliseconds(from_s, to_s); ++i) {
@@ -134,4 +134,4 @@ void OperatorSession::report_arrival(std::vector<Json>& messages, bool arrived, 
 
 void OperatorSession::on_camera(const Json& message) { person_.look(sighting_of(message), std::max(now_s_, 0.0)); }
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

@@ -9,10 +9,10 @@
 
 #include "host/api/device/capability.hpp"
 #include "host/base/json/json.hpp"
-#include "host/operator/simulated/hand_person.hpp"
+#include "host/operator/simulated/haptic_operator_model.hpp"
 #include "host/operator/simulated/recorded_vr.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 // The step the mission has announced, as far as the person is concerned.
 struct AnnouncedStep {
@@ -39,7 +39,7 @@ struct OperatorAnswer {
 class OperatorSession {
  public:
   // `recordings` are the folders of the `.hand` files, searched in turn.
-  OperatorSession(std::vector<std::string> recordings, const SlitDrawing& drawing, const HandGains& gains,
+  OperatorSession(std::vector<std::string> recordings, const SlitModel& drawing, const HandGains& gains,
                   std::uint64_t seed, Temper temper = Temper::kGentle);
 
   // What to send in answer to one state. Throws std::runtime_error when a recording cannot be read.
@@ -57,7 +57,7 @@ class OperatorSession {
   std::string recording_called(const std::string& name) const;
 
   std::vector<std::string> recordings_;
-  HandPerson person_;
+  HapticOperatorModel person_;
   std::uint64_t seed_;
   Temper temper_;
   std::optional<RecordedVr> vr_;
@@ -75,4 +75,4 @@ HandTask hand_task(const AnnouncedStep& step);
 // Mapping of the device in use; 1:1 where the state does not say.
 HandMapping announced_mapping(const Json& state);
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 namespace {
 
@@ -29,7 +29,7 @@ void require_open(const device::Driver& driver) {
 
 device::Capability recorded_handles() {
   const liana_hand arm_length = hand_within(1.0, 1.0, 1.0);
-  return {"operator-handles", device::Kind::kHandles, 2, 90.0, 0.1, {arm_length, arm_length}};
+  return {"operator-handles", device::Kind::kVrControllers, 2, 90.0, 0.1, {arm_length, arm_length}};
 }
 
 device::Capability simulated_controller() {
@@ -41,7 +41,7 @@ OwnDevices::OwnDevices(const std::string& path, double timeout_s)
       controller_(device::Driver::connect(path, simulated_controller(), 0, timeout_s)) {}
 
 void OwnDevices::send(device::Kind kind, const std::vector<device::Sample>& samples) {
-  device::Driver& driver = kind == device::Kind::kHandles ? handles_ : controller_;
+  device::Driver& driver = kind == device::Kind::kVrControllers ? handles_ : controller_;
   for (const device::Sample& sample : samples) driver.send(resolved(sample));
   require_open(driver);
 }
@@ -57,4 +57,4 @@ void OwnDevices::leave() {
   for (device::Driver* driver : {&handles_, &controller_}) driver->leave();
 }
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

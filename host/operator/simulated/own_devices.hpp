@@ -7,7 +7,7 @@
 
 #include "host/api/device/driver.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 // As a pair of handles is tracked: positions to 1 um.
 device::Capability recorded_handles();
@@ -33,4 +33,4 @@ class OwnDevices {
   device::Driver handles_, controller_;
 };
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

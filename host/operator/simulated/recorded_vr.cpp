@@ -6,7 +6,7 @@
 
 #include "host/base/random/random.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 namespace {
 constexpr std::uint64_t kRightTremorPurpose = 11;
@@ -117,4 +117,4 @@ void RecordedVr::feel(bool engaged, double now_s) {
   }
 }
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

@@ -10,7 +10,7 @@
 #include "host/operator/simulated/temper.hpp"
 #include "host/operator/simulated/tremor.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 // What the seed adds to a recording.
 struct VrDisturbance {
@@ -64,4 +64,4 @@ class RecordedVr {
   bool gripping_ = false;
 };
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

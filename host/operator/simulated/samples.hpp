@@ -3,7 +3,7 @@
 
 #include "host/api/device/sample.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 constexpr double kGripped = 0.5;  // of a trigger: from here on the deadman is held
 
@@ -13,4 +13,4 @@ struct BothHands {
   device::Sample left{.hand = 1};  // steers a node
 };
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

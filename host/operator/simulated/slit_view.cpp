@@ -1,12 +1,12 @@
 #include "host/operator/simulated/slit_view.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
-SlitDrawing slit_drawing(const Pose& slit_in_base, const Pose& rod_in_base) {
+SlitModel slit_drawing(const Pose& slit_in_base, const Pose& rod_in_base) {
   return {slit_in_base, compose(inverse(slit_in_base), rod_in_base)};
 }
 
-std::optional<Pose> tip_in_slit(const SlitDrawing& drawing, const TipSighting& sighting, bool by_rod) {
+std::optional<Pose> tip_in_slit(const SlitModel& drawing, const TipObservation& sighting, bool by_rod) {
   if (by_rod && sighting.rod) return compose(drawing.rod_in_slit, inverse(*sighting.rod));
   if (sighting.slit) return inverse(*sighting.slit);
   return std::nullopt;
@@ -21,4 +21,4 @@ Pose moved(const Pose& pose, const PoseStep& step) {
   return {add(pose.position_m, step.shift_m), normalize(multiply(quaternion_of(step.turn_rad), pose.quaternion))};
 }
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

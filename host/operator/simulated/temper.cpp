@@ -5,15 +5,15 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace liana::operator_side {
+namespace liana::simulated {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kBurst = 0.4;         // of the gestures: out, and after a while back; the others go to and fro
-constexpr double kAgainst = 0.35;      // of those of two hands: one against the other
-constexpr double kLeftAlone = 0.15;    // of those of two hands
-constexpr double kLeastPause_s = 0.2;  // of a burst before it goes back
-constexpr double kMostPause_s = 1.0;
+constexpr double kBurst = 0.4;       // of the gestures: out, and after a while back; the others go to and fro
+constexpr double kAgainst = 0.35;    // of those of two hands: one against the other
+constexpr double kLeftAlone = 0.15;  // of those of two hands
+constexpr double kMinPause_s = 0.2;  // of a burst before it goes back
+constexpr double kMaxPause_s = 1.0;
 constexpr double kSlowestDrift_hz = 1.0 / 120.0, kFastestDrift_hz = 1.0 / 30.0;
 
 // In any direction.
@@ -103,7 +103,7 @@ void LivelyHands::choose_places(double from_s, bool loses_grip) {
   const double speed_m_s = random_.uniform(table_.speed_m_s.least, speed_m_s_);
   const double accel_m_s2 = random_.uniform(table_.accel_m_s2.least, accel_m_s2_);
   const bool is_burst = random_.uniform(0.0, 1.0) < kBurst && !loses_grip;
-  const auto most = static_cast<double>(kMostStrokes);
+  const auto most = static_cast<double>(kMaxStrokes);
   gesture_.strokes = is_burst ? 3 : static_cast<std::size_t>(random_.uniform(3.0, most + 1.0));
   gesture_.at_s[0] = from_s;
   for (std::size_t i = 0; i < gesture_.strokes; ++i) {
@@ -113,7 +113,7 @@ void LivelyHands::choose_places(double from_s, bool loses_grip) {
     const double way_s =
         std::max(stroke_s(share * norm(gesture_.reach.shift_m), speed_m_s, accel_m_s2),
                  stroke_s(share * norm(gesture_.reach.turn_rad), table_.turn_rate_rad_s, table_.turn_accel_rad_s2));
-    gesture_.at_s[i + 1] = gesture_.at_s[i] + (share > 0.0 ? way_s : random_.uniform(kLeastPause_s, kMostPause_s));
+    gesture_.at_s[i + 1] = gesture_.at_s[i] + (share > 0.0 ? way_s : random_.uniform(kMinPause_s, kMaxPause_s));
   }
 }
 
@@ -160,4 +160,4 @@ Pose LivelyHands::left(const Pose& meant) const {
   return moved_by(meant, gesture_.left_share, left_drift_, left_tremor_);
 }
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

@@ -12,7 +12,7 @@
 #include "host/operator/simulated/slit_view.hpp"
 #include "host/operator/simulated/tremor.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 enum class Temper : std::uint8_t { kGentle, kLively };
 
@@ -68,13 +68,13 @@ class LivelyHands {
   bool is_taken_up() const { return now_s_ >= other_from_s_ && now_s_ < other_to_s_; }
 
  private:
-  static constexpr std::size_t kMostStrokes = 5;
+  static constexpr std::size_t kMaxStrokes = 5;
   // Strokes from place to place, each half a cosine; places as shares of the reach, the first and the last one 0.
   struct Gesture {
     PoseStep reach{};
     double right_share = 1.0, left_share = 0.0;
     std::size_t strokes = 0;
-    std::array<double, kMostStrokes + 1> place{}, at_s{};
+    std::array<double, kMaxStrokes + 1> place{}, at_s{};
     double lost_from_s = 0.0, lost_to_s = 0.0;
 
     double end_s() const { return at_s[strokes]; }
@@ -100,4 +100,4 @@ class LivelyHands {
   bool has_begun_ = false, is_left_out_ = false;
 };
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

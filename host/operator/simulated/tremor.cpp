@@ -5,7 +5,7 @@
 
 #include "host/base/random/random.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 Tremor::Tremor(double position_m, double rotation_rad, std::uint64_t seed, std::uint64_t purpose, double lowest_hz,
                double highest_hz)
@@ -32,4 +32,4 @@ Pose Tremor::apply(const Pose& pose, double t_s) const {
           multiply(quaternion_of(scale(turn, rotation_rad_)), pose.quaternion)};
 }
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

@@ -6,7 +6,7 @@
 
 #include "firmware_like/math/pose.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 // Three sinusoids an axis with seeded frequencies and phases; a pure function of time, so it does not depend on when it
 // is asked.
@@ -32,4 +32,4 @@ class Tremor {
   std::array<std::array<Wave, kWaves>, 6> waves_{};
 };
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

@@ -3,7 +3,7 @@
 
 #include "host/operator/simulated/hand_gains.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 
 // Defaults are a calm, practised operator. Positions at the arm unless the name says hand.
 struct VrGains {
@@ -53,4 +53,4 @@ struct VrGains {
   double there_dwell_s = 0.5;
 };
 
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

@@ -96,8 +96,7 @@ int run(SpacemouseOptions options) {
 
 int main(int argc, char** argv) {
   liana::spacemouse::SpacemouseOptions options;
-  liana::command_line::CommandLine line(
-      "liana-spacemouse: a SpaceMouse, through spacenavd, as an input device of lianad");
+  liana::options::CommandLine line("liana-spacemouse: a SpaceMouse, through spacenavd, as an input device of lianad");
   line.option("--api", options.api, "API socket of lianad, beside which its socket of devices is");
   line.option("--devices", options.devices, "in place of --api: the socket of devices");
   line.option("--name", options.name, "of the device at lianad").with_default_shown();

@@ -10,7 +10,7 @@
 #include "host/operator/haptics/link.hpp"
 #include "host/operator/haptics/packets.hpp"
 
-namespace liana::hand_side {
+namespace liana::station {
 
 template <class Load>
 class DelayLine {
@@ -20,7 +20,7 @@ class DelayLine {
     bool is_newest = true;  // nothing that was sent later has come before
   };
 
-  DelayLine(const haptic::LinkTable& table, std::uint64_t seed, std::uint64_t purpose) : link_(table, seed, purpose) {}
+  DelayLine(const haptics::LinkTable& table, std::uint64_t seed, std::uint64_t purpose) : link_(table, seed, purpose) {}
 
   void send(Load load, std::int64_t now_us) {
     link_.send({sequence_++, std::make_shared<const Load>(std::move(load))}, now_us);
@@ -38,9 +38,9 @@ class DelayLine {
     std::shared_ptr<const Load> load;
   };
 
-  haptic::Link<Parcel> link_;
-  haptic::Newest newest_;
+  haptics::Link<Parcel> link_;
+  haptics::Newest newest_;
   std::uint32_t sequence_ = 0;
 };
 
-}  // namespace liana::hand_side
+}  // namespace liana::station

@@ -9,7 +9,7 @@
 #include "host/operator/simulated/camera_message.hpp"
 #include "host/operator/simulated/delayed_gains.hpp"
 
-namespace liana::hand_side {
+namespace liana::station {
 namespace {
 
 constexpr double kMillisecond_s = 0.001;
@@ -23,8 +23,8 @@ constexpr double kFirm_N_m = 500.0;  // a grip for fine work
 constexpr double kSlowBeforeMouth_m = 0.09;
 constexpr double kSlitSpeed_m_s = 0.0205;
 
-operator_side::HandGains hand_gains(const HumanTable& table) {
-  operator_side::HandGains gains = under_delay(operator_side::HandGains{}, table.there_and_back_s);
+simulated::HandGains hand_gains(const HumanTable& table) {
+  simulated::HandGains gains = under_delay(simulated::HandGains{}, table.there_and_back_s);
   gains.tremor_m = 0.0;  // the muscles' own, in the hand on the device
   gains.slow_before_mouth_m = kSlowBeforeMouth_m;
   gains.slit_speed_m_s = std::min(gains.slit_speed_m_s, kSlitSpeed_m_s);
@@ -32,15 +32,15 @@ operator_side::HandGains hand_gains(const HumanTable& table) {
 }
 
 // The person's reaction time is their own, not the muscles'.
-haptic::HandTable hand_on_device() {
-  haptic::HandTable hand;
+haptics::HandParams hand_on_device() {
+  haptics::HandParams hand;
   hand.stiffness_N_m = kFirm_N_m;
   hand.reaction_s = 0.0;
   return hand;
 }
 
-haptic::HandLoopTable loop_of(const HumanTable& table) {
-  haptic::HandLoopTable loop;
+haptics::HandLoopTable loop_of(const HumanTable& table) {
+  haptics::HandLoopTable loop;
   loop.gains.unsure_m = kUnsure_m;
   if (table.passivity) return loop;
   loop.tank.start_J = loop.tank.most_J = std::numeric_limits<double>::infinity();
@@ -48,10 +48,10 @@ haptic::HandLoopTable loop_of(const HumanTable& table) {
   return loop;
 }
 
-operator_side::SlitDrawing drawing_of(const config::SceneConfig& scene) {
+simulated::SlitModel drawing_of(const config::SceneConfig& scene) {
   if (!scene.slit || !scene.rod) return {};
   const auto pose = [](const config::ScenePose& p) { return Pose{p.position_m, p.quaternion_wxyz}; };
-  return operator_side::slit_drawing(pose(scene.slit->frame), pose(scene.rod->pose));
+  return simulated::slit_drawing(pose(scene.slit->frame), pose(scene.rod->pose));
 }
 
 Pose pose_in(const Json& state, const char* key) {
@@ -71,9 +71,9 @@ std::int64_t microseconds(double time_s) { return std::llround(time_s * 1e6); }
 
 }  // namespace
 
-std::optional<operator_side::TipSighting> sighting_in(const Json& picture) {
+std::optional<simulated::TipObservation> sighting_in(const Json& picture) {
   try {
-    return operator_side::sighting_of(picture);
+    return simulated::sighting_of(picture);
   } catch (const std::runtime_error& error) {
     std::fprintf(stderr, "liana-operator: %s\n", error.what());
     return std::nullopt;
@@ -84,18 +84,18 @@ HumanSession::HumanSession(const HumanTable& table, const config::RobotConfig& r
     : table_(table),
       node_(static_cast<std::size_t>(robot.table.segment_count + 1) / 2),
       display_(robot.table, robot.module_radius_m),
-      vr_person_(under_delay(operator_side::VrGains{}, table.there_and_back_s), scene, table.seed, table.temper),
+      vr_person_(under_delay(simulated::VrGains{}, table.there_and_back_s), scene, table.seed, table.temper),
       hand_person_(hand_gains(table), drawing_of(scene), table.seed, table.temper),
       held_(loop_of(table), hand_on_device(), table.seed),
       prediction_(robot.table, arbiter::SpeedZone(scene.slit, robot.table.limits.tip_speed_slit_m_s)) {}
 
 void HumanSession::begin_step(const Json& state, double now_s) {
-  const operator_side::HandMapping mapping = operator_side::announced_mapping(state);
+  const simulated::HandMapping mapping = simulated::announced_mapping(state);
   steering_ = true;
   reported_ = false;
   acted_s_ = handles_s_ = now_s;
   if (step_.device == "vr") return vr_person_.begin(mapping, now_s);
-  hand_person_.begin(operator_side::hand_task(step_), mapping, now_s);
+  hand_person_.begin(simulated::hand_task(step_), mapping, now_s);
   held_.loop().scale_by(mapping.scale);
   choose_law(state);
   prediction_.begin(
@@ -106,14 +106,14 @@ void HumanSession::begin_step(const Json& state, double now_s) {
 void HumanSession::choose_law(const Json& state) {
   const Json& told = state.member_or_null("mapping").member_or_null("feedback");
   const std::string of_step = told.is_string() ? told.get<std::string>() : "aligned";
-  const auto law = haptic::law_of(table_.feedback.empty() ? of_step : table_.feedback);
+  const auto law = haptics::law_of(table_.feedback.empty() ? of_step : table_.feedback);
   feels_arm_ = law.has_value();
   if (law) held_.loop().choose(*law);
 }
 
 void HumanSession::hear(const News& news, double now_s) {
   const Json& state = news.state;
-  const operator_side::AnnouncedStep step = operator_side::announced_step(state);
+  const simulated::AnnouncedStep step = simulated::announced_step(state);
   if (step.index != step_.index || step.entry != step_.entry || step.device != step_.device) steering_ = false;
   step_ = step;
   const bool ours = (step.device == "vr" || step.device == "hand") && state.value("device", "") == step.device;
@@ -142,7 +142,7 @@ void HumanSession::hear_of_hand(const News& news, bool engaged, double now_s) {
 }
 
 void HumanSession::feel(const liana_state& told) {
-  const haptic::Motion tip{place(told.measured_cp.position_m), place(told.measured_cv.linear_m_s)};
+  const haptics::Motion tip{place(told.measured_cp.position_m), place(told.measured_cv.linear_m_s)};
   const bool answers = told.answers_us >= 0 && (told.flags & LIANA_ENGAGED) != 0;
   const std::int64_t of_us = told.answers_us + told.held_us;
   if (const auto then = predicted_.at(of_us); answers && then)
@@ -154,22 +154,22 @@ void HumanSession::feel(const liana_state& told) {
 
 // A wall that is not told any more has no stiffness.
 void HumanSession::feel_walls(const liana_state* told) {
-  static_assert(haptic::kMostWalls == LIANA_MOST_PLANES);
+  static_assert(haptics::kMaxWalls == LIANA_MOST_PLANES);
   const std::uint32_t count = table_.walls && told != nullptr ? told->planes : 0;
-  for (std::size_t slot = 0; slot < haptic::kMostWalls; ++slot) {
+  for (std::size_t slot = 0; slot < haptics::kMaxWalls; ++slot) {
     const liana_plane none{{1.0, 0.0, 0.0}, 0.0, 0.0, 0.0};
     const liana_plane& plane = slot < count ? told->plane[slot] : none;
     held_.loop().take({place(plane.normal), plane.offset_m, plane.stiffness_N_m, plane.damping_N_s_m}, slot);
   }
 }
 
-operator_side::OperatorAnswer HumanSession::act(double now_s) {
-  operator_side::OperatorAnswer answer;
+simulated::OperatorAnswer HumanSession::act(double now_s) {
+  simulated::OperatorAnswer answer;
   if (!steering_) return answer;
   const double from_s = std::max(acted_s_, now_s - kLongestGap_s);
   acted_s_ = now_s;
   const bool handles = step_.device == "vr";
-  answer.kind = handles ? device::Kind::kHandles : device::Kind::kHandController;
+  answer.kind = handles ? device::Kind::kVrControllers : device::Kind::kHandController;
   answer.samples = handles ? lead(now_s) : steer(from_s, now_s);
   hold_other_too(answer.aside, from_s, now_s);
   if (!has_arrived() || reported_) return answer;
@@ -180,7 +180,7 @@ operator_side::OperatorAnswer HumanSession::act(double now_s) {
 
 // A lively person has the other device in hand as well, at times.
 void HumanSession::hold_other_too(std::vector<device::Sample>& aside, double from_s, double now_s) {
-  const double period_s = step_.device == "vr" ? kMillisecond_s : operator_side::VrPerson::kSample_s;
+  const double period_s = step_.device == "vr" ? kMillisecond_s : simulated::VrOperatorModel::kSample_s;
   const auto count = std::lround((now_s - from_s) / period_s);
   for (long i = 1; i <= count; ++i) {
     const double t_s = from_s + (now_s - from_s) * static_cast<double>(i) / static_cast<double>(count);
@@ -196,8 +196,9 @@ bool HumanSession::has_arrived() const { return step_.device == "vr" ? vr_person
 
 std::vector<device::Sample> HumanSession::lead(double now_s) {
   std::vector<device::Sample> samples;
-  for (; handles_s_ + operator_side::VrPerson::kSample_s <= now_s; handles_s_ += operator_side::VrPerson::kSample_s) {
-    const operator_side::BothHands hands = vr_person_.sample(handles_s_ + operator_side::VrPerson::kSample_s);
+  for (; handles_s_ + simulated::VrOperatorModel::kSample_s <= now_s;
+       handles_s_ += simulated::VrOperatorModel::kSample_s) {
+    const simulated::BothHands hands = vr_person_.sample(handles_s_ + simulated::VrOperatorModel::kSample_s);
     samples.push_back(hands.right);
     samples.push_back(hands.left);
   }
@@ -206,8 +207,8 @@ std::vector<device::Sample> HumanSession::lead(double now_s) {
 
 // The arm does what the filter says, unless a limit of its joints slows it down: how far, the newest state tells.
 void HumanSession::predict(double now_s) {
-  const haptic::Motion tip = prediction_.motion();
-  const haptic::Motion mended{add(add(tip.position_m, slowed_m_), beside_m_), tip.velocity_m_s};
+  const haptics::Motion tip = prediction_.motion();
+  const haptics::Motion mended{add(add(tip.position_m, slowed_m_), beside_m_), tip.velocity_m_s};
   unmended_.put(microseconds(now_s), tip);
   predicted_.put(microseconds(now_s), mended);
   held_.loop().predict(microseconds(now_s), mended);
@@ -226,6 +227,6 @@ std::vector<device::Sample> HumanSession::steer(double from_s, double now_s) {
   return samples;
 }
 
-HandFigures HumanSession::figures() const { return {held_.peak_force_N(), held_.least_energy_J(), errors_m_}; }
+HandMotionParams HumanSession::figures() const { return {held_.peak_force_N(), held_.min_energy_J(), errors_m_}; }
 
-}  // namespace liana::hand_side
+}  // namespace liana::station

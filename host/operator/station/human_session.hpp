@@ -14,10 +14,10 @@
 #include "host/operator/haptics/prediction_track.hpp"
 #include "host/operator/simulated/arm_display.hpp"
 #include "host/operator/simulated/operator_session.hpp"
-#include "host/operator/simulated/vr_person.hpp"
+#include "host/operator/simulated/vr_operator_model.hpp"
 #include "host/operator/station/tip_prediction.hpp"
 
-namespace liana::hand_side {
+namespace liana::station {
 
 struct HumanTable {
   std::string feedback{};         // a law's name, or off; empty: as every step of the mission says
@@ -25,13 +25,13 @@ struct HumanTable {
   bool walls = true;              // those that the device is told are felt
   double there_and_back_s = 0.0;  // delay of the link, known to the person
   std::uint64_t seed = 1;
-  operator_side::Temper temper = operator_side::Temper::kGentle;
+  simulated::Temper temper = simulated::Temper::kGentle;
 };
 
 // What only the hand's side knows of a run.
-struct HandFigures {
+struct HandMotionParams {
   double peak_force_N = 0.0;       // of the device's motors
-  double least_energy_J = 0.0;     // at its port; negative: given to the hand
+  double min_energy_J = 0.0;       // at its port; negative: given to the hand
   std::vector<double> errors_m{};  // prediction of the tip against what was measured then, while steered by hand
 };
 
@@ -43,7 +43,7 @@ struct News {
 };
 
 // What a picture shows; nothing, and a line on standard error, for one that cannot be a picture.
-std::optional<operator_side::TipSighting> sighting_in(const Json& picture);
+std::optional<simulated::TipObservation> sighting_in(const Json& picture);
 
 // Deterministic: the same calls give the same messages. Times are by the hand's clock [s] and rise.
 class HumanSession {
@@ -53,9 +53,9 @@ class HumanSession {
   // News has come. Throws std::runtime_error when the state is not one of this robot.
   void hear(const News& news, double now_s);
   // A command interval is over: what the devices sensed in it, and what the person says.
-  operator_side::OperatorAnswer act(double now_s);
+  simulated::OperatorAnswer act(double now_s);
 
-  HandFigures figures() const;
+  HandMotionParams figures() const;
 
  private:
   void begin_step(const Json& state, double now_s);
@@ -71,14 +71,14 @@ class HumanSession {
 
   HumanTable table_;
   std::size_t node_;
-  operator_side::ArmDisplay display_;
-  operator_side::VrPerson vr_person_;
-  operator_side::HandPerson hand_person_;
-  haptic::HeldHand held_;
+  simulated::ArmDisplay display_;
+  simulated::VrOperatorModel vr_person_;
+  simulated::HapticOperatorModel hand_person_;
+  haptics::HeldHand held_;
   TipPrediction prediction_;
-  haptic::PredictionTrack unmended_;   // by the filter alone
-  haptic::PredictionTrack predicted_;  // the same, mended by what was heard
-  operator_side::AnnouncedStep step_{};
+  haptics::PredictionTrack unmended_;   // by the filter alone
+  haptics::PredictionTrack predicted_;  // the same, mended by what was heard
+  simulated::AnnouncedStep step_{};
   bool feels_arm_ = true;
   bool steering_ = false;
   bool reported_ = false;
@@ -89,4 +89,4 @@ class HumanSession {
   std::vector<double> errors_m_;
 };
 
-}  // namespace liana::hand_side
+}  // namespace liana::station

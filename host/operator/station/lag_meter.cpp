@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::hand_side {
+namespace liana::station {
 namespace {
 
 constexpr double kWindow_s = 2.0;
@@ -75,10 +75,10 @@ std::optional<double> LagMeter::lag_of(const Way& tip, double from_s) const {
   return explained ? std::optional(best_s) : std::nullopt;
 }
 
-LagFigures LagMeter::figures_of(std::vector<double> lags_s) {
+LagStatistics LagMeter::figures_of(std::vector<double> lags_s) {
   if (lags_s.empty()) return {};
   std::sort(lags_s.begin(), lags_s.end());
   return {lags_s[lags_s.size() / 2], lags_s.back()};
 }
 
-}  // namespace liana::hand_side
+}  // namespace liana::station

@@ -11,10 +11,10 @@
 
 #include "firmware_like/math/pose.hpp"
 
-namespace liana::hand_side {
+namespace liana::station {
 
 // In seconds; nothing where no window told.
-struct LagFigures {
+struct LagStatistics {
   std::optional<double> median_s;
   std::optional<double> worst_s;
 };
@@ -27,8 +27,8 @@ class LagMeter {
   // The arm at `t_s`.
   void arm(double t_s, bool engaged, const Vec3& commanded_m, const Vec3& measured_m);
 
-  LagFigures commanded() const { return figures_of(commanded_lags_s_); }
-  LagFigures measured() const { return figures_of(measured_lags_s_); }
+  LagStatistics commanded() const { return figures_of(commanded_lags_s_); }
+  LagStatistics measured() const { return figures_of(measured_lags_s_); }
 
  private:
   struct Place {
@@ -37,7 +37,7 @@ class LagMeter {
   };
   using Way = std::vector<Place>;
 
-  static LagFigures figures_of(std::vector<double> lags_s);
+  static LagStatistics figures_of(std::vector<double> lags_s);
   static Vec3 way_at(const Way& way, double t_s);
   std::optional<double> lag_of(const Way& tip, double from_s) const;
   void close_window(double t_s);
@@ -50,4 +50,4 @@ class LagMeter {
   std::vector<double> commanded_lags_s_, measured_lags_s_;
 };
 
-}  // namespace liana::hand_side
+}  // namespace liana::station

@@ -11,10 +11,10 @@
 #include "host/base/options/command_line.hpp"
 #include "host/model/config/config.hpp"
 #include "host/operator/simulated/own_devices.hpp"
-#include "host/operator/station/run_figures.hpp"
+#include "host/operator/station/run_statistics.hpp"
 #include "host/operator/station/steering.hpp"
 
-namespace liana::hand_side {
+namespace liana::station {
 namespace {
 
 constexpr double kWelcomeTimeout_s = 30.0;
@@ -40,9 +40,9 @@ struct OperatorOptions {
 Pose pose_of(const config::ScenePose& pose) { return {pose.position_m, pose.quaternion_wxyz}; }
 
 // Without a slit or a rod there is nothing to steer into by hand: the camera never shows it, and the person waits.
-operator_side::SlitDrawing drawing_of(const config::SceneConfig& scene) {
+simulated::SlitModel drawing_of(const config::SceneConfig& scene) {
   if (!scene.slit || !scene.rod) return {};
-  return operator_side::slit_drawing(pose_of(scene.slit->frame), pose_of(scene.rod->pose));
+  return simulated::slit_drawing(pose_of(scene.slit->frame), pose_of(scene.rod->pose));
 }
 
 std::vector<std::string> folders_in(const std::string& list) {
@@ -76,22 +76,22 @@ config::SceneConfig scene_of(const OperatorOptions& options, const Json& welcome
 std::unique_ptr<Steering> human(const OperatorOptions& options, const Json& welcome) {
   const auto buses = config::parse_buses(welcome.at("buses").dump(), "buses of " + options.api);
   const auto robot = config::parse_robot(welcome.at("robot").dump(), "robot of " + options.api, "nominal", buses);
-  const haptic::Delays delays = haptic::delays_of(options.delay);
+  const haptics::Delays delays = haptics::delays_of(options.delay);
   HumanTable table;
   table.feedback = options.feedback;
   table.passivity = options.passivity == "on";
   table.walls = options.fixtures == "on";
   table.there_and_back_s = delays.forward_s + delays.back_s;
   table.seed = options.seed;
-  table.temper = operator_side::temper_called(options.temper);
+  table.temper = simulated::temper_called(options.temper);
   return std::make_unique<HumanSteering>(HumanSession(table, robot, scene_of(options, welcome)), delays, options.seed);
 }
 
 std::unique_ptr<Steering> steering_of(const OperatorOptions& options, const Json& welcome) {
   if (options.who == "human") return human(options, welcome);
-  return std::make_unique<RecordedSteering>(operator_side::OperatorSession(
-      folders_in(options.recordings), drawing_of(scene_of(options, welcome)), operator_side::HandGains{}, options.seed,
-      operator_side::temper_called(options.temper)));
+  return std::make_unique<RecordedSteering>(
+      simulated::OperatorSession(folders_in(options.recordings), drawing_of(scene_of(options, welcome)),
+                                 simulated::HandGains{}, options.seed, simulated::temper_called(options.temper)));
 }
 
 // The devices' clock is the arm's.
@@ -100,9 +100,9 @@ std::int64_t time_us(const Json& state) { return std::llround(state.at("time_s")
 // One run of the people at their devices.
 struct Run {
   api::ApiClient& client;
-  operator_side::OwnDevices& devices;
+  simulated::OwnDevices& devices;
   Steering& steering;
-  RunFigures figures{};
+  RunStatistics figures{};
   std::vector<Json> pictures{};  // since the last state
 };
 
@@ -112,10 +112,10 @@ void act(Run& run, const Json& state) {
   News news{state, std::exchange(run.pictures, {}), std::nullopt};
   if (const liana_state* told = run.devices.controller_state(time_us(state))) news.for_device = *told;
   run.figures.arm(state);
-  for (const operator_side::OperatorAnswer& answer : run.steering.on_news(news)) {
+  for (const simulated::OperatorAnswer& answer : run.steering.on_news(news)) {
     run.figures.sent(answer);
     run.devices.send(answer.kind, answer.samples);
-    run.devices.send(operator_side::other_of(answer.kind), answer.aside);
+    run.devices.send(simulated::other_of(answer.kind), answer.aside);
     for (const Json& out : answer.messages) run.client.send(out);
   }
 }
@@ -143,8 +143,8 @@ void write_figures(const std::string& path, const Json& figures) {
 int operate(const OperatorOptions& options) {
   api::ApiClient client = api::ApiClient::connect(options.api, kWelcomeTimeout_s);
   // Known before the role is taken: missions begin as soon as lianad has its operator.
-  operator_side::OwnDevices devices(options.devices.empty() ? device::devices_path(options.api) : options.devices,
-                                    kWelcomeTimeout_s);
+  simulated::OwnDevices devices(options.devices.empty() ? device::devices_path(options.api) : options.devices,
+                                kWelcomeTimeout_s);
   const Json welcome = greet(client, options);
   const std::unique_ptr<Steering> steering = steering_of(options, welcome);
   Run run{client, devices, *steering};
@@ -157,11 +157,11 @@ int operate(const OperatorOptions& options) {
 }
 
 }  // namespace
-}  // namespace liana::hand_side
+}  // namespace liana::station
 
 int main(int argc, char** argv) {
-  liana::hand_side::OperatorOptions options;
-  liana::command_line::CommandLine line(
+  liana::station::OperatorOptions options;
+  liana::options::CommandLine line(
       "The operator as data and as a model that looks: recorded VR handles, simulated handles and hand controller");
   line.option("--api", options.api, "API socket of lianad").required();
   line.option("--devices", options.devices, "socket of lianad for devices; .devices behind that of --api without");
@@ -187,7 +187,7 @@ int main(int argc, char** argv) {
   line.flag("--lockstep", options.lockstep, "answer every state, so that fast runs repeat");
   if (const auto code = line.parse(argc, argv)) return *code;
   try {
-    return liana::hand_side::operate(options);
+    return liana::station::operate(options);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "liana-operator: %s\n", error.what());
     return 1;

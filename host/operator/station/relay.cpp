@@ -5,13 +5,13 @@
 
 #include "host/api/device/packets.hpp"
 
-namespace liana::hand_side {
+namespace liana::station {
 namespace {
 
 constexpr std::uint64_t kRelayForwardPurpose = 71;  // and 72
 constexpr std::uint64_t kRelayBackPurpose = 73;     // and 74
 
-haptic::LinkTable without_luck(const haptic::LinkTable& table) { return {table.delay_s, 0.0, 0.0}; }
+haptics::LinkTable without_luck(const haptics::LinkTable& table) { return {table.delay_s, 0.0, 0.0}; }
 
 // What is no packet of the protocol goes on like one that has to come: the end that gets it says what is wrong.
 bool may_be_lost(const std::string& packet) {
@@ -21,7 +21,7 @@ bool may_be_lost(const std::string& packet) {
 
 }  // namespace
 
-RelayLine::RelayLine(const haptic::LinkTable& table, std::uint64_t seed, std::uint64_t purpose)
+RelayLine::RelayLine(const haptics::LinkTable& table, std::uint64_t seed, std::uint64_t purpose)
     : table_(table), hurried_(table, seed, purpose), sure_(without_luck(table), seed, purpose + 1) {}
 
 void RelayLine::read(int from, std::int64_t now_us) {
@@ -62,7 +62,7 @@ bool RelayLine::is_over(std::int64_t now_us) const {
   return closed_us_ >= 0 && now_us > closed_us_ + longest_us;
 }
 
-Relay::Relay(api::UniqueFd device, api::UniqueFd arm, const haptic::LinkTable& forward, const haptic::LinkTable& back,
+Relay::Relay(api::UniqueFd device, api::UniqueFd arm, const haptics::LinkTable& forward, const haptics::LinkTable& back,
              std::uint64_t seed)
     : device_(std::move(device)),
       arm_(std::move(arm)),
@@ -77,4 +77,4 @@ bool Relay::carry(std::int64_t now_us) {
   return !forward_.is_over(now_us) && !back_.is_over(now_us);
 }
 
-}  // namespace liana::hand_side
+}  // namespace liana::station

@@ -10,13 +10,13 @@
 #include "host/operator/haptics/link.hpp"
 #include "host/operator/haptics/packets.hpp"
 
-namespace liana::hand_side {
+namespace liana::station {
 
 // One direction. Samples and states may be lost, and those that were overtaken are dropped; what opens and closes a
 // connection (hello, welcome, refused, bye) comes in any case, by the delay without jitter, and nothing before it.
 class RelayLine {
  public:
-  RelayLine(const haptic::LinkTable& table, std::uint64_t seed, std::uint64_t purpose);
+  RelayLine(const haptics::LinkTable& table, std::uint64_t seed, std::uint64_t purpose);
 
   // Takes all that `from` has sent by now.
   void read(int from, std::int64_t now_us);
@@ -34,10 +34,10 @@ class RelayLine {
 
   void take(std::string packet, std::int64_t now_us);
 
-  haptic::LinkTable table_;
-  haptic::Link<Parcel, kUnderWay> hurried_;  // samples and states
-  haptic::Link<Parcel> sure_;
-  haptic::Newest newest_;
+  haptics::LinkTable table_;
+  haptics::Link<Parcel, kUnderWay> hurried_;  // samples and states
+  haptics::Link<Parcel> sure_;
+  haptics::Newest newest_;
   std::uint32_t sequence_ = 0;
   bool is_open_ = false;  // something sure has come: a hello, or a welcome
   std::int64_t closed_us_ = -1;
@@ -46,7 +46,7 @@ class RelayLine {
 class Relay {
  public:
   // `device` and `arm`: sockets that never block.
-  Relay(api::UniqueFd device, api::UniqueFd arm, const haptic::LinkTable& forward, const haptic::LinkTable& back,
+  Relay(api::UniqueFd device, api::UniqueFd arm, const haptics::LinkTable& forward, const haptics::LinkTable& back,
         std::uint64_t seed);
 
   // Carries what has come and what is due; false once an end is gone and the other one has had all of it.
@@ -60,4 +60,4 @@ class Relay {
   RelayLine forward_, back_;
 };
 
-}  // namespace liana::hand_side
+}  // namespace liana::station

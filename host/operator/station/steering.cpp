@@ -2,31 +2,31 @@
 
 #include <cmath>
 
-namespace liana::hand_side {
+namespace liana::station {
 namespace {
 
 constexpr double kJitter = 0.05;  // share of a delay
 constexpr std::uint64_t kForwardPurpose = 61;
 constexpr std::uint64_t kBackPurpose = 62;
 
-haptic::LinkTable link(double delay_s) { return {delay_s, kJitter, 0.0}; }
+haptics::LinkTable link(double delay_s) { return {delay_s, kJitter, 0.0}; }
 
 }  // namespace
 
-std::vector<operator_side::OperatorAnswer> RecordedSteering::on_news(const News& news) {
+std::vector<simulated::OperatorAnswer> RecordedSteering::on_news(const News& news) {
   for (const Json& picture : news.pictures) {
     if (const auto seen = sighting_in(picture)) session_.on_camera(picture);
   }
   return {session_.on_state(news.state)};
 }
 
-HumanSteering::HumanSteering(HumanSession session, const haptic::Delays& delays, std::uint64_t seed)
+HumanSteering::HumanSteering(HumanSession session, const haptics::Delays& delays, std::uint64_t seed)
     : session_(std::move(session)),
       to_arm_(link(delays.forward_s), seed, kForwardPurpose),
       from_arm_(link(delays.back_s), seed, kBackPurpose) {}
 
 // Of a state that a later one has overtaken nothing counts; of samples neither, but what was said is heard.
-std::vector<operator_side::OperatorAnswer> HumanSteering::on_news(const News& news) {
+std::vector<simulated::OperatorAnswer> HumanSteering::on_news(const News& news) {
   const double now_s = news.state.at("time_s").get<double>();
   const std::int64_t now_us = std::llround(1e6 * now_s);
   from_arm_.send(news, now_us);
@@ -34,7 +34,7 @@ std::vector<operator_side::OperatorAnswer> HumanSteering::on_news(const News& ne
     if (come->is_newest) session_.hear(*come->load, now_s);
   }
   to_arm_.send(session_.act(now_s), now_us);
-  std::vector<operator_side::OperatorAnswer> come;
+  std::vector<simulated::OperatorAnswer> come;
   while (const auto answer = to_arm_.receive(now_us)) {
     come.push_back(*answer->load);
     if (answer->is_newest) continue;
@@ -44,4 +44,4 @@ std::vector<operator_side::OperatorAnswer> HumanSteering::on_news(const News& ne
   return come;
 }
 
-}  // namespace liana::hand_side
+}  // namespace liana::station

@@ -9,38 +9,38 @@
 #include "host/operator/station/delay_line.hpp"
 #include "host/operator/station/human_session.hpp"
 
-namespace liana::hand_side {
+namespace liana::station {
 
 class Steering {
  public:
   virtual ~Steering() = default;
   // What is sent in answer to the news of one command interval, oldest first. Throws std::runtime_error when a state,
   // or a recording, cannot be used.
-  virtual std::vector<operator_side::OperatorAnswer> on_news(const News& news) = 0;
+  virtual std::vector<simulated::OperatorAnswer> on_news(const News& news) = 0;
   // Of a hand with force; nothing where there is none.
-  virtual std::optional<HandFigures> figures() const { return std::nullopt; }
+  virtual std::optional<HandMotionParams> figures() const { return std::nullopt; }
 };
 
 // The pair that `liana run` has without being asked for another.
 class RecordedSteering final : public Steering {
  public:
-  explicit RecordedSteering(operator_side::OperatorSession session) : session_(std::move(session)) {}
-  std::vector<operator_side::OperatorAnswer> on_news(const News& news) override;
+  explicit RecordedSteering(simulated::OperatorSession session) : session_(std::move(session)) {}
+  std::vector<simulated::OperatorAnswer> on_news(const News& news) override;
 
  private:
-  operator_side::OperatorSession session_;
+  simulated::OperatorSession session_;
 };
 
 class HumanSteering final : public Steering {
  public:
-  HumanSteering(HumanSession session, const haptic::Delays& delays, std::uint64_t seed);
-  std::vector<operator_side::OperatorAnswer> on_news(const News& news) override;
-  std::optional<HandFigures> figures() const override { return session_.figures(); }
+  HumanSteering(HumanSession session, const haptics::Delays& delays, std::uint64_t seed);
+  std::vector<simulated::OperatorAnswer> on_news(const News& news) override;
+  std::optional<HandMotionParams> figures() const override { return session_.figures(); }
 
  private:
   HumanSession session_;
-  DelayLine<operator_side::OperatorAnswer> to_arm_;
+  DelayLine<simulated::OperatorAnswer> to_arm_;
   DelayLine<News> from_arm_;
 };
 
-}  // namespace liana::hand_side
+}  // namespace liana::station

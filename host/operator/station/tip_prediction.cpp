@@ -2,9 +2,9 @@
 
 #include "firmware_like/operator_input/tip_interval.hpp"
 
-namespace liana::hand_side {
+namespace liana::station {
 
-TipPrediction::TipPrediction(const cable::RobotTable& table, const arbiter::SpeedZone& zone)
+TipPrediction::TipPrediction(const cable::RobotParams& table, const arbiter::SpeedZone& zone)
     : table_(table), zone_(zone), asked_m_s_(table.limits.tip_speed_m_s) {}
 
 void TipPrediction::begin(const arbiter::DeviceUse& use, const Pose& tip_in_base) {
@@ -43,4 +43,4 @@ void TipPrediction::advance(const Pose& from, const Pose& to, bool steered) {
   }
 }
 
-}  // namespace liana::hand_side
+}  // namespace liana::station

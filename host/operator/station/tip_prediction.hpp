@@ -4,15 +4,15 @@
 
 #include "firmware_like/cable/motion/motion.hpp"
 #include "host/api/device/sample.hpp"
-#include "host/control/arbiter/device_steer.hpp"
 #include "host/control/arbiter/speed_zone.hpp"
+#include "host/control/arbiter/teleop_input.hpp"
 #include "host/control/virtual_fixtures/hand_motion.hpp"
 
-namespace liana::hand_side {
+namespace liana::station {
 
 class TipPrediction {
  public:
-  TipPrediction(const cable::RobotTable& table, const arbiter::SpeedZone& zone);
+  TipPrediction(const cable::RobotParams& table, const arbiter::SpeedZone& zone);
 
   // Another device or mapping; the tip stands.
   void begin(const arbiter::DeviceUse& use, const Pose& tip_in_base);
@@ -25,19 +25,19 @@ class TipPrediction {
 
   bool engaged() const { return steer_.engaged(); }
   const Pose& tip() const { return filter_.pose; }
-  haptic::Motion motion() const { return {filter_.pose.position_m, filter_.linear.velocity}; }
+  haptics::Motion motion() const { return {filter_.pose.position_m, filter_.linear.velocity}; }
   // Where the hand asks the tip to be.
   const Pose& goal() const { return goal_; }
 
  private:
   void advance(const Pose& from, const Pose& to, bool steered);
 
-  cable::RobotTable table_;
+  cable::RobotParams table_;
   arbiter::SpeedZone zone_;
-  arbiter::DeviceSteer steer_;
+  arbiter::TeleopInput steer_;
   double asked_m_s_ = 0.0;
   TipFilterState filter_{};
   Pose goal_{};
 };
 
-}  // namespace liana::hand_side
+}  // namespace liana::station

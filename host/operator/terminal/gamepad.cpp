@@ -12,13 +12,13 @@
 #include <stdexcept>
 #include <utility>
 
-namespace liana::teleop {
+namespace liana::terminal {
 namespace {
 
 enum Axis : std::uint8_t { kLeftX = 0, kLeftY = 1, kRightX = 3, kRightY = 4, kCrossX = 6, kCrossY = 7 };
 constexpr std::uint8_t kRightShoulder = 5;
 constexpr double kFullWay = 32767.0;
-constexpr std::size_t kMostEvents = 64;  // in one read; what is left comes with the next
+constexpr std::size_t kMaxEvents = 64;  // in one read; what is left comes with the next
 
 constexpr char kFrame = 'f';
 constexpr std::array<std::pair<std::uint8_t, char>, 7> kButtons{{
@@ -77,7 +77,7 @@ Gamepad::~Gamepad() { close(fd_); }
 
 std::vector<Key> Gamepad::read(double now_s) {
   std::vector<Key> keys;
-  std::array<js_event, kMostEvents> events{};
+  std::array<js_event, kMaxEvents> events{};
   const ssize_t bytes = is_gone_ ? 0 : ::read(fd_, events.data(), sizeof events);
   if (bytes <= 0) {
     is_gone_ = is_gone_ || bytes == 0 || (errno != EAGAIN && errno != EINTR);
@@ -96,4 +96,4 @@ std::vector<Key> Gamepad::read(double now_s) {
   return keys;
 }
 
-}  // namespace liana::teleop
+}  // namespace liana::terminal

@@ -10,7 +10,7 @@
 
 #include "host/operator/terminal/keys.hpp"
 
-namespace liana::teleop {
+namespace liana::terminal {
 
 // What sticks and buttons say, in the layout of the kernel's xpad driver; docs/how-to/teleoperate.md has it as a table.
 class Sticks {
@@ -62,4 +62,4 @@ class Gamepad {
   Sticks sticks_;
 };
 
-}  // namespace liana::teleop
+}  // namespace liana::terminal

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace liana::teleop {
+namespace liana::terminal {
 namespace {
 
 constexpr double kLead_s = 0.3;
@@ -59,4 +59,4 @@ Direction HeldKeys::direction(double now_s) const {
   return sum;
 }
 
-}  // namespace liana::teleop
+}  // namespace liana::terminal

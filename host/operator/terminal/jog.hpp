@@ -5,7 +5,7 @@
 
 #include "host/operator/terminal/keys.hpp"
 
-namespace liana::teleop {
+namespace liana::terminal {
 
 struct JogSpeed {
   double tip_m_s = 0.03;
@@ -45,4 +45,4 @@ class HeldKeys {
   std::size_t count_ = 0;
 };
 
-}  // namespace liana::teleop
+}  // namespace liana::terminal

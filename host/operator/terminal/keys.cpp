@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-namespace liana::teleop {
+namespace liana::terminal {
 namespace {
 
 constexpr char kEscape = '\x1b';
@@ -83,4 +83,4 @@ std::vector<Key> keys_in(std::string_view bytes) {
   return keys;
 }
 
-}  // namespace liana::teleop
+}  // namespace liana::terminal

@@ -8,7 +8,7 @@
 
 #include "firmware_like/math/pose.hpp"
 
-namespace liana::teleop {
+namespace liana::terminal {
 
 // Velocity that a key asks for, along and about x, y, z; each -1 to 1.
 struct Direction {
@@ -31,4 +31,4 @@ std::optional<Key> key_of(char byte);
 // anything else that is not known, is a stop: too many are better than one too few.
 std::vector<Key> keys_in(std::string_view bytes);
 
-}  // namespace liana::teleop
+}  // namespace liana::terminal

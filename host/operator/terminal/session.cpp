@@ -6,11 +6,11 @@
 
 #include "host/operator/terminal/view.hpp"
 
-namespace liana::teleop {
+namespace liana::terminal {
 namespace {
 
 constexpr double kFaster = 1.25;
-constexpr double kLeastTip_m_s = 0.001, kLeastTurn_rad_s = 0.005;
+constexpr double kMinTip_m_s = 0.001, kMinTurn_rad_s = 0.005;
 
 Json pose_json(const Pose& pose) {
   const auto& [p, q] = pose;
@@ -137,8 +137,8 @@ Json Session::asked(Json request) {
 }
 
 void Session::change_speed(double factor) {
-  speed_.tip_m_s = std::clamp(speed_.tip_m_s * factor, kLeastTip_m_s, limits_.tip_m_s);
-  speed_.turn_rad_s = std::clamp(speed_.turn_rad_s * factor, kLeastTurn_rad_s, limits_.turn_rad_s);
+  speed_.tip_m_s = std::clamp(speed_.tip_m_s * factor, kMinTip_m_s, limits_.tip_m_s);
+  speed_.turn_rad_s = std::clamp(speed_.turn_rad_s * factor, kMinTurn_rad_s, limits_.turn_rad_s);
 }
 
-}  // namespace liana::teleop
+}  // namespace liana::terminal

@@ -8,7 +8,7 @@
 #include "host/base/json/json.hpp"
 #include "host/operator/terminal/jog.hpp"
 
-namespace liana::teleop {
+namespace liana::terminal {
 
 // No input or output of its own; times are of one clock that never goes back [s].
 class Session {
@@ -58,4 +58,4 @@ class Session {
   bool wants_end_ = false;
 };
 
-}  // namespace liana::teleop
+}  // namespace liana::terminal

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace liana::teleop {
+namespace liana::terminal {
 namespace {
 
 constexpr const char* kOtherScreen = "\x1b[?1049h\x1b[?25l";   // and no cursor
@@ -68,4 +68,4 @@ std::size_t Terminal::columns() const {
   return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kUsualColumns;
 }
 
-}  // namespace liana::teleop
+}  // namespace liana::terminal

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace liana::teleop {
+namespace liana::terminal {
 
 class Terminal {
  public:
@@ -33,4 +33,4 @@ class Terminal {
   bool is_gone_ = false;
 };
 
-}  // namespace liana::teleop
+}  // namespace liana::terminal

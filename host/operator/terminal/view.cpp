@@ -8,7 +8,7 @@
 
 #include "host/base/json/json.hpp"
 
-namespace liana::teleop {
+namespace liana::terminal {
 namespace {
 
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
@@ -157,4 +157,4 @@ std::vector<std::string> view_of(const Json& state, const Shown& shown, std::siz
   return lines;
 }
 
-}  // namespace liana::teleop
+}  // namespace liana::terminal

@@ -7,7 +7,7 @@
 #include "host/base/json/json_fwd.hpp"
 #include "host/operator/terminal/jog.hpp"
 
-namespace liana::teleop {
+namespace liana::terminal {
 
 // What a session knows beside lianad's state.
 struct Shown {
@@ -22,4 +22,4 @@ struct Shown {
 // newline.
 std::vector<std::string> view_of(const Json& state, const Shown& shown, std::size_t columns);
 
-}  // namespace liana::teleop
+}  // namespace liana::terminal

@@ -5,7 +5,7 @@
 
 #include "firmware_like/math/trig.hpp"
 
-namespace liana::budget {
+namespace liana::error_budget {
 namespace {
 
 double position_m(const config::ErrorLoop& loop, const config::ErrorTerm& term) {
@@ -50,4 +50,4 @@ Readings readings_of(const config::ErrorLoop& loop) {
   return found;
 }
 
-}  // namespace liana::budget
+}  // namespace liana::error_budget

@@ -4,7 +4,7 @@
 
 #include "host/model/config/error_budget.hpp"
 
-namespace liana::budget {
+namespace liana::error_budget {
 
 // The most a term can come to [m], all its errors the same way: sum of positions + lever sin(sum of angles).
 double size_m(const config::ErrorLoop& loop, const config::ErrorTerm& term);
@@ -18,4 +18,4 @@ struct Readings {
 };
 Readings readings_of(const config::ErrorLoop& loop);
 
-}  // namespace liana::budget
+}  // namespace liana::error_budget

@@ -6,7 +6,7 @@
 
 #include "host/base/random/random.hpp"
 
-namespace liana::budget {
+namespace liana::error_budget {
 namespace {
 
 constexpr std::uint64_t kPurpose = 0xB0D6E7;
@@ -17,7 +17,7 @@ struct Drawn {
   double about_y_rad = 0.0, about_z_rad = 0.0;
 };
 
-void draw_errors(const config::ErrorLoop& loop, operator_side::RandomStream& random, std::vector<Drawn>& drawn) {
+void draw_errors(const config::ErrorLoop& loop, simulated::RandomStream& random, std::vector<Drawn>& drawn) {
   for (std::size_t i = 0; i < loop.errors.size(); ++i) {
     const double position_m = loop.errors[i].position_m / kSigmas, angle_rad = loop.errors[i].angle_rad / kSigmas;
     drawn[i].y_m = random.normal(position_m);
@@ -48,7 +48,7 @@ double beside_m(const config::ErrorLoop& loop, const std::vector<Drawn>& drawn) 
 }  // namespace
 
 Spread draw(const config::ErrorLoop& loop, std::int64_t draws, std::uint64_t seed) {
-  operator_side::RandomStream random(seed, kPurpose);
+  simulated::RandomStream random(seed, kPurpose);
   std::vector<Drawn> drawn(loop.errors.size());
   std::vector<double> beside(static_cast<std::size_t>(draws));
   for (double& each : beside) {
@@ -63,4 +63,4 @@ Spread draw(const config::ErrorLoop& loop, std::int64_t draws, std::uint64_t see
   return {share(0.5), share(0.95), beside.back(), static_cast<double>(within) / static_cast<double>(draws)};
 }
 
-}  // namespace liana::budget
+}  // namespace liana::error_budget

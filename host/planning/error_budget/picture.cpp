@@ -4,19 +4,19 @@
 
 #include "host/base/svg/svg.hpp"
 
-namespace liana::budget {
+namespace liana::error_budget {
 namespace {
 
 constexpr double kWidth_px = 900.0, kBarsFrom_px = 300.0, kBarsWidth_px = 500.0;
 constexpr double kRow_px = 30.0, kHead_px = 80.0, kBetween_px = 44.0, kFoot_px = 24.0;
 constexpr std::string_view kTermColour = "#1f65a3", kSumColour = "#222222", kChanceColour = "#d62728";
 
-std::string millimetres(double value_m) { return draw::short_number(1e3 * value_m, 1) + " mm"; }
+std::string millimetres(double value_m) { return svg::short_number(1e3 * value_m, 1) + " mm"; }
 
 // Draws rows one below the other; every loop has a scale of its own, because one is a tenth of the other.
 class Rows {
  public:
-  Rows(draw::Svg& svg, double top_px) : svg_(svg), y_px_(top_px) {}
+  Rows(svg::Svg& svg, double top_px) : svg_(svg), y_px_(top_px) {}
 
   void loop(std::string_view title, const config::ErrorLoop& loop, const Spread& spread) {
     const double formula_m = readings_of(loop).terms;
@@ -40,7 +40,7 @@ class Rows {
     y_px_ += kRow_px;
   }
 
-  draw::Svg& svg_;
+  svg::Svg& svg_;
   double y_px_;
   double px_per_m_ = 0.0;
 };
@@ -49,8 +49,8 @@ class Rows {
 
 std::string picture_of(const config::ErrorBudget& budget, const Spread& open_loop, const Spread& closed_loop) {
   const auto rows = static_cast<double>(budget.open_loop.terms.size() + budget.closed_loop.terms.size() + 6);
-  draw::Svg svg(kWidth_px, kHead_px + rows * kRow_px + 2.0 * kBetween_px + kFoot_px - kRow_px,
-                "Error budget " + budget.name);
+  svg::Svg svg(kWidth_px, kHead_px + rows * kRow_px + 2.0 * kBetween_px + kFoot_px - kRow_px,
+               "Error budget " + budget.name);
   svg.text({20.0, 32.0}, "Error budget " + budget.name, {.size = 18.0, .bold = true});
   Rows drawn(svg, kHead_px);
   drawn.loop("open loop", budget.open_loop, open_loop);
@@ -58,4 +58,4 @@ std::string picture_of(const config::ErrorBudget& budget, const Spread& open_loo
   return svg.document();
 }
 
-}  // namespace liana::budget
+}  // namespace liana::error_budget

@@ -14,7 +14,7 @@
 #include "host/planning/planner/start/start_path.hpp"
 #include "host/planning/planner/text.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
@@ -175,7 +175,7 @@ class Planner {
     return result_;
   }
 
-  bool accept_figures(const FollowFigures& figures) {
+  bool accept_figures(const FollowStatistics& figures) {
     result_.follow = figures;
     if (figures.tip_off_m <= kFollowTipOff_m * (1.0 + kRoundOff)) return true;
     return fail(PlanOutcome::limit, "tip",
@@ -319,7 +319,7 @@ class Planner {
 
 }  // namespace
 
-double default_max_step_rad(const RobotTable& table, std::int32_t waypoints) {
+double default_max_step_rad(const RobotParams& table, std::int32_t waypoints) {
   double limit_rad = 0.0;
   for (Index m = 0; m < Index(table.segment_count); ++m)
     limit_rad = std::max(limit_rad, table.segment[m].theta_limit_rad);
@@ -345,4 +345,4 @@ PlanResult plan(const PlanRequest& request, const PlanControl& control) {
   return Planner(request, control).run();
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -13,13 +13,13 @@
 #include <string>
 #include <vector>
 
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_params.hpp"
 #include "firmware_like/math/pose.hpp"
 #include "host/model/config/config.hpp"
 #include "host/planning/planner/check/plan_check.hpp"
-#include "host/planning/planner/follow/follow_figures.hpp"
+#include "host/planning/planner/follow/follow_statistics.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -77,7 +77,7 @@ struct PlanRequest {
 constexpr double kStepTolerance = 2e-7;
 
 // Every theta may cross its whole range twice on the way.
-double default_max_step_rad(const RobotTable& table, std::int32_t waypoints);
+double default_max_step_rad(const RobotParams& table, std::int32_t waypoints);
 constexpr double kFollowMaxStep_rad =
     0.05;  // the same for following, where the waypoints come out as many as are needed
 
@@ -95,7 +95,7 @@ struct PlanResult {
   std::string constraint;  // what stands in the way when not solved: start, goal, tip, step, clearance, self, cable,
                            // tension, limits, path, curve
   std::string reason;      // the same as one sentence with body, link and amount
-  std::optional<FollowFigures> follow;  // how well the body followed, when it did
+  std::optional<FollowStatistics> follow;  // how well the body followed, when it did
   std::optional<PlanCheck> checked;  // of the path found, also when the check refused it; empty when no path was found
 };
 
@@ -114,4 +114,4 @@ PlanResult plan(const PlanRequest& request, const PlanControl& control);
 // SHA-256 over robot, scene, request and waypoints: two plans with the same hash are the same plan of the same problem.
 std::string plan_hash(const PlanRequest& request, const PlanResult& result);
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -4,7 +4,7 @@
 #include "host/model/config/sha256.hpp"
 #include "host/planning/planner/plan.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 Json angles(const ThetaVector& theta_rad, std::int32_t count) {
@@ -40,4 +40,4 @@ std::string plan_hash(const PlanRequest& request, const PlanResult& result) {
                             config::canonical_json(inputs(request)) + "\n" + config::canonical_json(outcome) + "\n");
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

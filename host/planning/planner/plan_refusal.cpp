@@ -3,7 +3,7 @@
 #include "firmware_like/math/trig.hpp"
 #include "host/planning/planner/text.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 constexpr double kTipTolerance = 1e-6;  // m and rad
@@ -47,4 +47,4 @@ std::optional<PlanRefusal> refusal_of(const PlanRequest& request, const PlanChec
   return {};
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -6,7 +6,7 @@
 
 #include "host/planning/planner/plan.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -19,4 +19,4 @@ struct PlanRefusal {
 // The first limit of the request that a checked plan does not keep; none: the plan is good.
 std::optional<PlanRefusal> refusal_of(const PlanRequest& request, const PlanCheck& check);
 
-}  // namespace liana::plan
+}  // namespace liana::planner

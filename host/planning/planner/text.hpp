@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string>
 
-namespace liana::plan {
+namespace liana::planner {
 
 // At most 299 characters.
 template <typename... Values>
@@ -20,4 +20,4 @@ inline std::string distance_text(double clearance_m, const std::string& body) {
               clearance_m < 0.0 ? "inside" : "from", body.c_str());
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -8,7 +8,7 @@
 #include "firmware_like/math/trig.hpp"
 #include "host/base/svg/axes.hpp"
 
-namespace liana::sweep {
+namespace liana::self_motion {
 namespace {
 
 constexpr double kWidth_px = 900.0, kHeight_px = 480.0;
@@ -17,27 +17,27 @@ constexpr std::array<std::string_view, 3> kColours{"#2ca02c", "#ff7f0e", "#1f65a
 constexpr std::array<std::string_view, 3> kNames{"force along x", "force along y",
                                                  "force along z, the axis of insertion"};
 constexpr std::array<double, 3> kLegend_px{0.0, 110.0, 220.0};
-constexpr double kLeastAdvance_px = 0.7;
+constexpr double kMinAdvance_px = 0.7;
 
 double millimetres(const Configuration& at, std::size_t axis) { return 1e3 * std::fabs(at.deflection_m_per_N[axis]); }
 double degrees(const Configuration& at) { return at.arm_angle_rad / kDegree; }
 
-void mark(draw::Svg& svg, const draw::Axes& axes, const Configuration& at, std::string_view name) {
-  const draw::Pixel place = axes.at(degrees(at), millimetres(at, 2));
+void mark(svg::Svg& svg, const svg::Axes& axes, const Configuration& at, std::string_view name) {
+  const svg::Pixel place = axes.at(degrees(at), millimetres(at, 2));
   const bool right_half = place.x > kLeft_px + 0.5 * kPlotWidth_px;
   svg.circle(place, 5.0, {.stroke = "#d62728", .width = 2.0});
   svg.text({place.x + (right_half ? -10.0 : 10.0), place.y - 8.0},
-           std::string(name) + " " + draw::short_number(millimetres(at, 2), 2) + " mm/N",
+           std::string(name) + " " + svg::short_number(millimetres(at, 2), 2) + " mm/N",
            {.size = 12.0, .anchor = right_half ? "end" : "start", .colour = "#d62728", .bold = true, .halo = true});
 }
 
-void curve(draw::Svg& svg, const draw::Axes& axes, const SelfMotion& motion, std::size_t axis) {
-  std::vector<draw::Pixel> line;
+void curve(svg::Svg& svg, const svg::Axes& axes, const SelfMotion& motion, std::size_t axis) {
+  std::vector<svg::Pixel> line;
   for (const Configuration& at : motion.way) {
-    const draw::Pixel place = axes.at(degrees(at), millimetres(at, axis));
+    const svg::Pixel place = axes.at(degrees(at), millimetres(at, axis));
     const bool is_last = &at == &motion.way.back();
     const bool far =
-        line.empty() || std::abs(place.x - line.back().x) + std::abs(place.y - line.back().y) > kLeastAdvance_px;
+        line.empty() || std::abs(place.x - line.back().x) + std::abs(place.y - line.back().y) > kMinAdvance_px;
     if (far || is_last) line.push_back(place);
   }
   svg.polyline(line, {.stroke = kColours[axis], .width = 2.0});
@@ -66,15 +66,15 @@ std::string picture_of(const std::string& robot, const SelfMotion& motion) {
     low = std::min(low, degrees(at));
     high = std::max(high, degrees(at));
   }
-  draw::Svg svg(kWidth_px, kHeight_px, "Deflection of " + robot + " along its self-motion");
+  svg::Svg svg(kWidth_px, kHeight_px, "Deflection of " + robot + " along its self-motion");
   svg.text({20.0, 30.0}, "Deflection of " + robot + " under 1 N along the tip's z axis, the tip still",
            {.size = 17.0, .bold = true});
-  const draw::Axes axes{{kLeft_px, kTop_px},
-                        kPlotWidth_px,
-                        kPlotHeight_px,
-                        {low, std::max(high, low + 1.0)},
-                        {0.0, most > 0.0 ? 1.1 * most : 1.0}};
-  draw::draw_axes(svg, axes, "arm angle (deg)", "deflection (mm)");
+  const svg::Axes axes{{kLeft_px, kTop_px},
+                       kPlotWidth_px,
+                       kPlotHeight_px,
+                       {low, std::max(high, low + 1.0)},
+                       {0.0, most > 0.0 ? 1.1 * most : 1.0}};
+  svg::draw_axes(svg, axes, "arm angle (deg)", "deflection (mm)");
   for (std::size_t axis = 0; axis < 3; ++axis) {
     curve(svg, axes, motion, axis);
     svg.text({kLeft_px + kLegend_px[axis], 54.0}, kNames[axis], {.colour = kColours[axis], .bold = true});
@@ -84,4 +84,4 @@ std::string picture_of(const std::string& robot, const SelfMotion& motion) {
   return svg.document();
 }
 
-}  // namespace liana::sweep
+}  // namespace liana::self_motion

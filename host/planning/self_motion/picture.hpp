@@ -5,7 +5,7 @@
 
 #include "host/planning/self_motion/self_motion.hpp"
 
-namespace liana::sweep {
+namespace liana::self_motion {
 
 // SVG text: how far the tip gives way under 1 N along its z axis, the axis of insertion, over the arm angle; the
 // stiffest and the softest configuration are marked.
@@ -15,4 +15,4 @@ std::string picture_of(const std::string& robot, const SelfMotion& motion);
 std::size_t stiffest(const SelfMotion& motion);
 std::size_t softest(const SelfMotion& motion);
 
-}  // namespace liana::sweep
+}  // namespace liana::self_motion

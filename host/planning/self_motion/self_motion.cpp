@@ -8,13 +8,13 @@
 #include "firmware_like/math/trig.hpp"
 #include "firmware_like/serial/kinematics.hpp"
 
-namespace liana::sweep {
+namespace liana::self_motion {
 namespace {
 
 constexpr Eigen::Index kJoints = 7;
-constexpr int kCorrections = 4;          // Newton's method: the second is below a nanometre, two more cost little
-constexpr double kSingular = 1e-6;       // below it the null space has no one direction
-constexpr std::size_t kLeastSteps = 10;  // before it can be back
+constexpr int kCorrections = 4;        // Newton's method: the second is below a nanometre, two more cost little
+constexpr double kSingular = 1e-6;     // below it the null space has no one direction
+constexpr std::size_t kMinSteps = 10;  // before it can be back
 
 using Joints = Eigen::Matrix<double, kJoints, 1>;
 using Jacobian = Eigen::Matrix<double, 6, kJoints>;
@@ -51,7 +51,7 @@ Eigen::Vector3d turn_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d&
 
 class Walk {
  public:
-  Walk(const serial::RobotTable& table, const serial::JointVector& stiffness_Nm_rad,
+  Walk(const serial::RobotParams& table, const serial::JointVector& stiffness_Nm_rad,
        const serial::JointVector& start_rad)
       : table_(table), start_rad_(start_rad), joint_rad_(start_rad) {
     for (Eigen::Index i = 0; i < kJoints; ++i) compliance_(i) = 1.0 / stiffness_Nm_rad[static_cast<std::size_t>(i)];
@@ -67,10 +67,10 @@ class Walk {
   SelfMotion all() {
     SelfMotion motion;
     motion.way.push_back(configuration());
-    while (motion.way.size() < kMostSteps && !is_singular() && !motion.closed) {
+    while (motion.way.size() < kMaxSteps && !is_singular() && !motion.closed) {
       step();
       motion.way.push_back(configuration());
-      motion.closed = motion.way.size() > kLeastSteps && is_back();
+      motion.closed = motion.way.size() > kMinSteps && is_back();
     }
     return motion;
   }
@@ -129,7 +129,7 @@ class Walk {
 
   bool is_within_ranges() const {
     for (std::size_t i = 0; i < kJoints; ++i) {
-      const serial::JointTable& joint = table_.joint[i];
+      const serial::JointParams& joint = table_.joint[i];
       const double turns = std::ceil((joint.low_rad - joint_rad_[i]) / (2.0 * kPi));
       if (joint_rad_[i] + 2.0 * kPi * turns > joint.high_rad) return false;
     }
@@ -146,7 +146,7 @@ class Walk {
     return std::sqrt(square) <= 0.51 * kStep_rad;
   }
 
-  const serial::RobotTable& table_;
+  const serial::RobotParams& table_;
   const serial::JointVector start_rad_;
   serial::JointVector joint_rad_;
   Joints compliance_, direction_;
@@ -159,9 +159,9 @@ class Walk {
 
 }  // namespace
 
-SelfMotion self_motion(const serial::RobotTable& table, const serial::JointVector& stiffness_Nm_rad,
+SelfMotion self_motion(const serial::RobotParams& table, const serial::JointVector& stiffness_Nm_rad,
                        const serial::JointVector& start_rad) {
   return Walk(table, stiffness_Nm_rad, start_rad).all();
 }
 
-}  // namespace liana::sweep
+}  // namespace liana::self_motion

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "firmware_like/math/pose.hpp"
-#include "firmware_like/serial/robot_table.hpp"
+#include "firmware_like/serial/robot_params.hpp"
 
-namespace liana::sweep {
+namespace liana::self_motion {
 
-constexpr double kStep_rad = 0.005;        // of all joints together, from one configuration to the next
-constexpr std::size_t kMostSteps = 20000;  // no self-motion of an arm within the capacity is longer than 100 rad
-constexpr double kMostTipDrift_m = 1e-9;   // what "the tip stays" means
+constexpr double kStep_rad = 0.005;       // of all joints together, from one configuration to the next
+constexpr std::size_t kMaxSteps = 20000;  // no self-motion of an arm within the capacity is longer than 100 rad
+constexpr double kMaxTipDrift_m = 1e-9;   // what "the tip stays" means
 
 // One configuration of the self-motion.
 struct Configuration {
@@ -29,11 +29,11 @@ struct SelfMotion {
   bool closed = false;             // it came back to the start, but for whole turns
 };
 
-// Follows the null space of the Jacobian from `start_rad` until it is back, or kMostSteps are done, or the arm is
+// Follows the null space of the Jacobian from `start_rad` until it is back, or kMaxSteps are done, or the arm is
 // singular. C = J Kq^-1 J^T (rows of the tip's position) with the joints' stiffness [N m/rad], all > 0. `table` has 7
 // joints. The elbow is the origin of the middle frame, shoulder and wrist those of the first and last but one, which
 // stand still with base and tip. Cost: about 15 us a step.
-SelfMotion self_motion(const serial::RobotTable& table, const serial::JointVector& stiffness_Nm_rad,
+SelfMotion self_motion(const serial::RobotParams& table, const serial::JointVector& stiffness_Nm_rad,
                        const serial::JointVector& start_rad);
 
-}  // namespace liana::sweep
+}  // namespace liana::self_motion

@@ -8,7 +8,7 @@
 #include "firmware_like/math/pose.hpp"
 #include "firmware_like/serial/kinematics.hpp"
 
-namespace liana::sweep {
+namespace liana::self_motion {
 namespace {
 
 // Of the frame that the first arm stands in.
@@ -43,7 +43,7 @@ struct Moved {
 
 // The frame at the end of link `link` (0-based) in the arm's base.
 Pose frame_of(const SpringyArm& arm, std::size_t link) {
-  serial::RobotTable so_far = arm.table;
+  serial::RobotParams so_far = arm.table;
   so_far.joint_count = static_cast<std::int32_t>(link) + 1;
   return serial::forward_kinematics(so_far, arm.joint_rad).tip_in_base;
 }
@@ -83,4 +83,4 @@ std::vector<double> swing_periods_s(std::span<const SpringyArm> chain, const ser
   return periods_s;
 }
 
-}  // namespace liana::sweep
+}  // namespace liana::self_motion

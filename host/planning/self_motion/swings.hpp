@@ -6,13 +6,13 @@
 
 #include "firmware_like/serial/joint_vector.hpp"
 #include "firmware_like/serial/mass_table.hpp"
-#include "firmware_like/serial/robot_table.hpp"
+#include "firmware_like/serial/robot_params.hpp"
 
-namespace liana::sweep {
+namespace liana::self_motion {
 
 // An arm as it stands: its joints are springs about their axes.
 struct SpringyArm {
-  const serial::RobotTable& table;
+  const serial::RobotParams& table;
   const serial::MassTable& masses;
   const serial::JointVector& joint_rad;
   const serial::JointVector& stiffness_Nm_rad;  // each > 0
@@ -23,4 +23,4 @@ struct SpringyArm {
 // Cost: about 200 us for two arms of seven joints.
 std::vector<double> swing_periods_s(std::span<const SpringyArm> chain, const serial::LinkMass& load);
 
-}  // namespace liana::sweep
+}  // namespace liana::self_motion

@@ -7,7 +7,7 @@
 #include "firmware_like/math/trig.hpp"
 #include "firmware_like/serial/kinematics.hpp"
 
-namespace liana::reach {
+namespace liana::workspace {
 namespace {
 
 using Index = std::size_t;
@@ -15,7 +15,7 @@ using Index = std::size_t;
 constexpr double kWholeTurn_rad = 2.0 * kPi;
 constexpr double kTurnTolerance_rad = 1e-9;  // degrees that went through radians are a turn still
 
-PointMotion motion_of(const cable::RobotTable& table, std::int32_t node, const AngleVector& theta_rad) {
+PointMotion motion_of(const cable::RobotParams& table, std::int32_t node, const AngleVector& theta_rad) {
   const cable::ArmKinematics arm = forward_kinematics(table, theta_rad);
   PointMotion motion;
   motion.point_in_base_m = arm.node_in_base[static_cast<Index>(node)].position_m;
@@ -23,7 +23,7 @@ PointMotion motion_of(const cable::RobotTable& table, std::int32_t node, const A
   return motion;
 }
 
-PointMotion motion_of(const serial::RobotTable& table, std::int32_t node, const AngleVector& angle_rad) {
+PointMotion motion_of(const serial::RobotParams& table, std::int32_t node, const AngleVector& angle_rad) {
   serial::JointVector joint_rad{};
   std::copy_n(angle_rad.begin(), joint_rad.size(), joint_rad.begin());
   const serial::ArmKinematics arm = forward_kinematics(table, joint_rad);
@@ -55,7 +55,7 @@ double into_range(const AngleRange& range, double angle_rad) {
   return clamp(middle + std::remainder(angle_rad - middle, kWholeTurn_rad), range.low_rad, range.high_rad);
 }
 
-ReachArm arm_of(const cable::RobotTable& table) {
+ReachArm arm_of(const cable::RobotParams& table) {
   ReachArm arm;
   arm.angle_name = "theta";
   arm.node_name = "node";
@@ -64,7 +64,7 @@ ReachArm arm_of(const cable::RobotTable& table) {
   arm.node_count = table.segment_count;
   arm.is_straight_at_0 = true;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
-    const cable::SegmentTable& segment = table.segment[m];
+    const cable::SegmentParams& segment = table.segment[m];
     arm.range[2 * m] = arm.range[2 * m + 1] = {-segment.theta_limit_rad, segment.theta_limit_rad};
     arm.angles_to[m + 1] = static_cast<std::int32_t>(2 * (m + 1));
     arm.link_m[m + 1] = segment.modules * segment.module_length_m;
@@ -77,7 +77,7 @@ ReachArm arm_of(const cable::RobotTable& table) {
   return arm;
 }
 
-ReachArm arm_of(const serial::RobotTable& table) {
+ReachArm arm_of(const serial::RobotParams& table) {
   ReachArm arm;
   arm.angle_name = "joint";
   arm.node_name = "point";
@@ -104,4 +104,4 @@ AngleVector angles_of(const serial::JointVector& joint_rad) {
   return angle_rad;
 }
 
-}  // namespace liana::reach
+}  // namespace liana::workspace

@@ -11,11 +11,11 @@
 #include <string_view>
 #include <vector>
 
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_params.hpp"
 #include "firmware_like/math/pose.hpp"
-#include "firmware_like/serial/robot_table.hpp"
+#include "firmware_like/serial/robot_params.hpp"
 
-namespace liana::reach {
+namespace liana::workspace {
 
 constexpr std::int32_t kMaxAngles = cable::kMaxTheta;
 constexpr std::int32_t kMaxNodes = std::max(cable::kMaxSegments, serial::kMaxJoints);
@@ -67,10 +67,10 @@ struct ReachArm {
 };
 
 // The two kinds of arm. They allocate; tables need no checks beyond the loader's.
-ReachArm arm_of(const cable::RobotTable& table);
-ReachArm arm_of(const serial::RobotTable& table);
+ReachArm arm_of(const cable::RobotParams& table);
+ReachArm arm_of(const serial::RobotParams& table);
 
 // The angles of a serial arm among those of any arm [rad].
 AngleVector angles_of(const serial::JointVector& joint_rad);
 
-}  // namespace liana::reach
+}  // namespace liana::workspace

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace liana::reach {
+namespace liana::workspace {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -156,4 +156,4 @@ Outline find_outline(const RaySearch& search, std::int32_t flat_axis, const std:
   return outline;
 }
 
-}  // namespace liana::reach
+}  // namespace liana::workspace

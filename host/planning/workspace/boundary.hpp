@@ -8,7 +8,7 @@
 
 #include "host/planning/workspace/push.hpp"
 
-namespace liana::reach {
+namespace liana::workspace {
 
 constexpr std::int32_t kPolarBins = 12;      // rings of 15 deg
 constexpr std::size_t kOutlineSectors = 72;  // of 5 deg
@@ -71,4 +71,4 @@ std::vector<DirectionBin> find_boundary(const RaySearch& search, const std::vect
 // The outline seen along base axis `flat_axis`.
 Outline find_outline(const RaySearch& search, std::int32_t flat_axis, const std::vector<ReachSample>& samples);
 
-}  // namespace liana::reach
+}  // namespace liana::workspace

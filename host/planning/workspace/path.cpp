@@ -7,18 +7,18 @@
 
 #include "host/base/eigen/thetas.hpp"
 
-namespace liana::reach {
+namespace liana::workspace {
 namespace {
 
 bool is_held(std::uint32_t held_mask, std::size_t theta) { return (held_mask >> theta & 1u) != 0; }
 
-void find_singular_values(const cable::RobotTable& table, std::uint32_t held_mask, PathPoint& point) {
+void find_singular_values(const cable::RobotParams& table, std::uint32_t held_mask, PathPoint& point) {
   const cable::ArmKinematics arm = forward_kinematics(table, point.theta_rad);
   point.tip_in_base_m = arm.tip_in_base.position_m;
-  const Eigen::Index n = algebra::theta_count(table);
+  const Eigen::Index n = eigen::theta_count(table);
   Eigen::Matrix<double, 6, cable::kMaxTheta> J = Eigen::Matrix<double, 6, cable::kMaxTheta>::Zero();
-  J.topLeftCorner(3, n) = algebra::view(arm.tip_jacobian.linear, n);
-  J.bottomLeftCorner(3, n) = algebra::view(arm.tip_jacobian.angular, n);
+  J.topLeftCorner(3, n) = eigen::view(arm.tip_jacobian.linear, n);
+  J.bottomLeftCorner(3, n) = eigen::view(arm.tip_jacobian.angular, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     if (is_held(held_mask, static_cast<std::size_t>(i))) J.col(i).setZero();
   }
@@ -27,7 +27,7 @@ void find_singular_values(const cable::RobotTable& table, std::uint32_t held_mas
   point.least_singular_value = values[5];
 }
 
-void find_nearest_limit(const cable::RobotTable& table, std::uint32_t held_mask, PathPoint& point) {
+void find_nearest_limit(const cable::RobotParams& table, std::uint32_t held_mask, PathPoint& point) {
   point.limit_margin_rad = std::numeric_limits<double>::infinity();
   for (std::int32_t i = 0; i < table.theta_count(); ++i) {
     const auto index = static_cast<std::size_t>(i);
@@ -39,7 +39,7 @@ void find_nearest_limit(const cable::RobotTable& table, std::uint32_t held_mask,
   }
 }
 
-PathPoint examine(const cable::RobotTable& table, std::uint32_t held_mask, double travel_rad,
+PathPoint examine(const cable::RobotParams& table, std::uint32_t held_mask, double travel_rad,
                   const cable::ThetaVector& theta_rad) {
   PathPoint point;
   point.way = travel_rad;
@@ -74,9 +74,9 @@ double condition_number(const PathPoint& point) {
   return point.largest_singular_value / point.least_singular_value;
 }
 
-PathReport examine_path(const cable::RobotTable& table, const std::vector<cable::ThetaVector>& waypoints_rad,
+PathStatus examine_path(const cable::RobotParams& table, const std::vector<cable::ThetaVector>& waypoints_rad,
                         std::uint32_t held_mask) {
-  PathReport report;
+  PathStatus report;
   report.points.push_back(examine(table, held_mask, 0.0, waypoints_rad.front()));
   report.waypoint_way.push_back(0.0);
   for (std::size_t leg = 1; leg < waypoints_rad.size(); ++leg) {
@@ -102,4 +102,4 @@ PathReport examine_path(const cable::RobotTable& table, const std::vector<cable:
   return report;
 }
 
-}  // namespace liana::reach
+}  // namespace liana::workspace

@@ -9,7 +9,7 @@
 
 #include "firmware_like/cable/arm/kinematics.hpp"
 
-namespace liana::reach {
+namespace liana::workspace {
 
 constexpr double kPathStep_rad = 0.25 * 3.14159265358979323846 / 180.0;  // resolution of a path
 constexpr std::size_t kMaxWaypoints = 2000;
@@ -26,7 +26,7 @@ struct PathPoint {
   std::int32_t nearest_theta = 0;  // which one, from 1; the first of equals
 };
 
-struct PathReport {
+struct PathStatus {
   std::vector<PathPoint> points;     // first and last are the ends of the path
   std::vector<double> waypoint_way;  // where the waypoints lie
   double joint_travel_rad = 0.0;
@@ -39,7 +39,7 @@ double condition_number(const PathPoint& point);
 
 // Examines a path of 1..kMaxWaypoints waypoints; thetas in `held_mask` are not free (at least one must be). Cost: about
 // 10 us a point.
-PathReport examine_path(const cable::RobotTable& table, const std::vector<cable::ThetaVector>& waypoints_rad,
+PathStatus examine_path(const cable::RobotParams& table, const std::vector<cable::ThetaVector>& waypoints_rad,
                         std::uint32_t held_mask);
 
-}  // namespace liana::reach
+}  // namespace liana::workspace

@@ -7,7 +7,7 @@
 #include "host/planning/workspace/path.hpp"
 #include "host/planning/workspace/region.hpp"
 
-namespace liana::reach {
+namespace liana::workspace {
 
 // The arm that is drawn over its region.
 struct ArmDrawn {
@@ -23,7 +23,7 @@ std::string region_picture(const ReachArm& arm, const ArmDrawn& drawn, const con
                            const RegionRequest& request, const Region& region);
 
 // Least singular value, condition number and limit margins over the way of a cable arm, the worst places marked.
-std::string path_picture(const config::RobotConfig& robot, const PathReport& report, std::uint32_t held_mask);
+std::string path_picture(const config::RobotConfig& robot, const PathStatus& report, std::uint32_t held_mask);
 
 // The holes of a disc, and every cable from the root to the disc that it ends at; cables are numbered as their drives,
 // from 1.
@@ -32,4 +32,4 @@ std::string routing_picture(const config::RobotConfig& robot);
 // "theta 7 = 0.5, theta 9 = 0 deg", or "none".
 std::string held_text(const ReachArm& arm, std::uint32_t held_mask, const AngleVector& held_rad);
 
-}  // namespace liana::reach
+}  // namespace liana::workspace

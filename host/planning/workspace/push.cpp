@@ -6,12 +6,12 @@
 #include "firmware_like/math/scalar.hpp"
 #include "host/base/eigen/thetas.hpp"
 
-namespace liana::reach {
+namespace liana::workspace {
 namespace {
 
 constexpr int kReachIterations = 30;
 constexpr int kClimbSteps = 400;
-constexpr double kLeastDamping = 1e-9;  // m2/rad2
+constexpr double kMinDamping = 1e-9;  // m2/rad2
 constexpr double kOnLimit_rad = 1e-9;
 
 using AngleMask = std::uint32_t;
@@ -19,13 +19,13 @@ using AngleJacobian = Eigen::Matrix<double, 3, kMaxAngles>;
 
 // Step J^T (J J^T + mu I)^-1 error of the angles in `active`.
 AngleVector damped_step(const PointMotion& motion, AngleMask active, const Vec3& error_m, double damping) {
-  algebra::SpaceColumns J = algebra::view(motion.column, kMaxAngles);
+  eigen::SpaceColumns J = eigen::view(motion.column, kMaxAngles);
   for (Eigen::Index i = 0; i < J.cols(); ++i) {
     if ((active >> i & 1u) == 0) J.col(i).setZero();
   }
   const Eigen::Matrix3d A = J * J.transpose() + damping * Eigen::Matrix3d::Identity();
   AngleVector step{};
-  algebra::view(step, kMaxAngles) = J.transpose() * A.llt().solve(algebra::view(error_m));
+  eigen::view(step, kMaxAngles) = J.transpose() * A.llt().solve(eigen::view(error_m));
   return step;
 }
 
@@ -58,7 +58,7 @@ void apply(const ReachArm& arm, const AngleVector& step, AngleVector& angle_rad)
 // One step towards the target; angles that would leave their limit are taken out and the rest is solved again.
 void step_towards(const ReachArm& arm, const PointMotion& motion, AngleMask active, const Vec3& error_m,
                   AngleVector& angle_rad) {
-  const double damping = dot(error_m, error_m) + kLeastDamping;
+  const double damping = dot(error_m, error_m) + kMinDamping;
   for (int pass = 0; pass <= kMaxAngles; ++pass) {
     const AngleVector step = damped_step(motion, active, error_m, damping);
     const AngleMask out = leaving(arm, angle_rad, step);
@@ -71,14 +71,14 @@ void step_towards(const ReachArm& arm, const PointMotion& motion, AngleMask acti
 // there is none.
 Vec3 wall_normal(const ReachArm& arm, const PointMotion& motion, Eigen::Index dimensions, const Vec3& direction,
                  const AngleVector& angle_rad) {
-  AngleJacobian J = algebra::view(motion.column, kMaxAngles);
+  AngleJacobian J = eigen::view(motion.column, kMaxAngles);
   for (std::size_t i = 0; i < kMaxAngles; ++i) {
     if (limit_side(arm, angle_rad, i) != 0.0) J.col(static_cast<Eigen::Index>(i)).setZero();
   }
   const Eigen::JacobiSVD<AngleJacobian> svd(J, Eigen::ComputeFullU);
   if (svd.singularValues()[dimensions - 2] < 1e-6) return direction;  // too few ways to move: no wall
   const Eigen::Vector3d across = svd.matrixU().col(dimensions - 1);   // a flat axis has the value 0 and comes behind
-  const double side = across.dot(algebra::view(direction));
+  const double side = across.dot(eigen::view(direction));
   return std::fabs(side) < 0.1 ? direction : scale({across[0], across[1], across[2]}, side > 0.0 ? 1.0 : -1.0);
 }
 
@@ -156,7 +156,7 @@ void climb(const ReachArm& arm, const PointOnArm& point, const Vec3& direction, 
     AngleVector slope{};
     for (std::size_t k = 0; k < kMaxAngles; ++k) slope[k] = dot(motion.column[k], direction);
     const AngleMask out = leaving(arm, angle_rad, slope);
-    double steepness = kLeastDamping;
+    double steepness = kMinDamping;
     for (std::size_t k = 0; k < kMaxAngles; ++k) {
       if (out >> k & 1u) slope[k] = 0.0;
       steepness += slope[k] * slope[k];
@@ -185,4 +185,4 @@ std::uint32_t binding_limits(const ReachArm& arm, const PointOnArm& point, const
   return limits_at(arm, point, direction, pressed);
 }
 
-}  // namespace liana::reach
+}  // namespace liana::workspace

@@ -5,7 +5,7 @@
 
 #include "host/planning/workspace/arm.hpp"
 
-namespace liana::reach {
+namespace liana::workspace {
 
 constexpr double kReachTolerance_m = 1e-6;  // a target is reached when the point is this near
 constexpr double kPushStep_m = 0.2;         // first step of a push
@@ -46,4 +46,4 @@ void climb(const ReachArm& arm, const PointOnArm& point, const Vec3& direction, 
 std::uint32_t binding_limits(const ReachArm& arm, const PointOnArm& point, const Vec3& direction,
                              const AngleVector& angle_rad);
 
-}  // namespace liana::reach
+}  // namespace liana::workspace

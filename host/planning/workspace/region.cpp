@@ -6,7 +6,7 @@
 #include "host/base/eigen/thetas.hpp"
 #include "host/base/random/random.hpp"
 
-namespace liana::reach {
+namespace liana::workspace {
 namespace {
 
 constexpr double kRankLimit_m_per_rad = 1e-6;
@@ -19,13 +19,13 @@ ReachSample sample_at(const RaySearch& search, const AngleVector& angle_rad) {
   const PointMotion motion = point_motion(search.arm, search.point, angle_rad);
   using AngleJacobian = Eigen::Matrix<double, 3, kMaxAngles>;
   const Eigen::Vector3d travel =
-      Eigen::JacobiSVD<AngleJacobian>(algebra::view(motion.column, kMaxAngles)).singularValues();
+      Eigen::JacobiSVD<AngleJacobian>(eigen::view(motion.column, kMaxAngles)).singularValues();
   const double distance_m = norm(subtract(motion.point_in_base_m, search.origin_in_base_m));
   return {angle_rad, motion.point_in_base_m, distance_m, {travel[0], travel[1], travel[2]}};
 }
 
 AngleVector draw(const ReachArm& arm, const RegionRequest& request, std::int32_t index,
-                 operator_side::RandomStream& random) {
+                 simulated::RandomStream& random) {
   const double factor = !arm.is_straight_at_0 ? 1.0
                         : index == 0          ? 0.0
                         : index % 2 == 1      ? 1.0
@@ -39,7 +39,7 @@ AngleVector draw(const ReachArm& arm, const RegionRequest& request, std::int32_t
 }
 
 Samples draw_samples(const RaySearch& search, const RegionRequest& request) {
-  operator_side::RandomStream random(request.seed, kSampleStream);
+  simulated::RandomStream random(request.seed, kSampleStream);
   Samples samples;
   samples.reserve(static_cast<std::size_t>(request.samples));
   for (std::int32_t i = 0; i < request.samples; ++i)
@@ -173,4 +173,4 @@ Region explore_region(const ReachArm& arm, const RegionRequest& request) {
   return region;
 }
 
-}  // namespace liana::reach
+}  // namespace liana::workspace

@@ -19,7 +19,7 @@
 
 #include "host/planning/workspace/boundary.hpp"
 
-namespace liana::reach {
+namespace liana::workspace {
 
 constexpr std::int32_t kRadialShells = 20;  // of the radial profile
 constexpr std::int32_t kMinSamples = 1000;
@@ -57,4 +57,4 @@ struct Region {
 // Explores the region. Cost: about 4 us a sample and 1 s for the boundary on one core.
 Region explore_region(const ReachArm& arm, const RegionRequest& request);
 
-}  // namespace liana::reach
+}  // namespace liana::workspace

@@ -5,7 +5,7 @@
 #include "host/planning/workspace/picture.hpp"
 #include "host/planning/workspace/views.hpp"
 
-namespace liana::reach {
+namespace liana::workspace {
 namespace {
 
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
@@ -15,7 +15,7 @@ constexpr double kPlaneLeft_px = 70.0, kPlaneTop_px = 80.0, kGap_px = 80.0, kBot
 constexpr double kLegendWidth_px = 480.0, kLegendHeight_px = 470.0;
 constexpr double kRow_px = 21.0;
 
-using Space = std::array<draw::AxisRange, 3>;
+using Space = std::array<svg::AxisRange, 3>;
 
 void include(Space& space, const Vec3& low_m, const Vec3& high_m) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -44,13 +44,13 @@ Space shown_space(const ReachArm& arm, const ArmDrawn& drawn, const config::Scen
   return space;
 }
 
-double length(const draw::AxisRange& range) { return range.high - range.low; }
+double length(const svg::AxisRange& range) { return range.high - range.low; }
 
 // Top view above the side view, front view right of it, as in a technical drawing.
 struct Layout {
   View top, side, front;
   double width_px = 0.0, height_px = 0.0;
-  draw::Pixel legend;
+  svg::Pixel legend;
 };
 
 Layout lay_out(const Space& space) {
@@ -76,7 +76,7 @@ std::string point_name(const ReachArm& arm, const PointOnArm& point) {
   return point.node == arm.node_count ? "the tip" : numbered(arm.node_name, static_cast<std::size_t>(point.node));
 }
 
-std::string metres(double value_m) { return draw::short_number(value_m, 3); }
+std::string metres(double value_m) { return svg::short_number(value_m, 3); }
 
 std::string origin_text(const Region& region) {
   const Vec3& origin = region.origin_in_base_m;
@@ -105,15 +105,15 @@ std::string binding_text(const ReachArm& arm, const Region& region) {
   std::string text;
   for (std::size_t k = 0; k < std::min<std::size_t>(order.size(), 3); ++k) {
     text += numbered(arm.angle_name, order[k] + 1) + " " +
-            draw::short_number(100.0 * region.outer_binding_share[order[k]], 0) + " %, ";
+            svg::short_number(100.0 * region.outer_binding_share[order[k]], 0) + " %, ";
   }
-  return text + "no limit " + draw::short_number(100.0 * region.outer_stretched_share, 0) + " %";
+  return text + "no limit " + svg::short_number(100.0 * region.outer_stretched_share, 0) + " %";
 }
 
 // Rows of the legend from above; each call writes one and moves on.
 class Legend {
  public:
-  Legend(draw::Svg& svg, draw::Pixel corner) : svg_(svg), at_(corner) {}
+  Legend(svg::Svg& svg, svg::Pixel corner) : svg_(svg), at_(corner) {}
 
   void heading(std::string_view words) {
     at_.y += 8.0;
@@ -124,20 +124,20 @@ class Legend {
     svg_.text(at_, words, {.size = 12.0});
     at_.y += kRow_px - 2.0;
   }
-  void swatch(const draw::Look& look, std::string_view words) {
+  void swatch(const svg::Look& look, std::string_view words) {
     svg_.rectangle({at_.x, at_.y - 11.0}, 26.0, 13.0, look);
     svg_.text({at_.x + 36.0, at_.y}, words, {.size = 12.0});
     at_.y += kRow_px - 2.0;
   }
-  void dot(const draw::Look& look, double radius, std::string_view words) {
+  void dot(const svg::Look& look, double radius, std::string_view words) {
     svg_.circle({at_.x + 13.0, at_.y - 4.5}, radius, look);
     svg_.text({at_.x + 36.0, at_.y}, words, {.size = 12.0});
     at_.y += kRow_px - 2.0;
   }
 
  private:
-  draw::Svg& svg_;
-  draw::Pixel at_;
+  svg::Svg& svg_;
+  svg::Pixel at_;
 };
 
 void describe_heat(Legend& legend, double top) {
@@ -147,8 +147,8 @@ void describe_heat(Legend& legend, double top) {
   legend.words("cells: travel in the worst direction (m/rad), mean over the depth");
   for (std::size_t i = 0; i < kHeatClasses; ++i) {
     const double step = top / kHeatClasses;
-    legend.swatch({.fill = kHeatColours[i]}, draw::short_number(static_cast<double>(i) * step, 2) + " .. " +
-                                                 draw::short_number(static_cast<double>(i + 1) * step, 2));
+    legend.swatch({.fill = kHeatColours[i]}, svg::short_number(static_cast<double>(i) * step, 2) + " .. " +
+                                                 svg::short_number(static_cast<double>(i + 1) * step, 2));
   }
 }
 
@@ -204,7 +204,7 @@ std::string held_text(const ReachArm& arm, std::uint32_t held_mask, const AngleV
   for (std::size_t i = 0; i < static_cast<std::size_t>(arm.angle_count); ++i) {
     if ((held_mask >> i & 1u) == 0) continue;
     text += (text.empty() ? "" : ", ") + numbered(arm.angle_name, i + 1) + " = " +
-            draw::short_number(held_rad[i] * kDegPerRad, 3);
+            svg::short_number(held_rad[i] * kDegPerRad, 3);
   }
   return text.empty() ? "none" : text + " deg";
 }
@@ -215,7 +215,7 @@ std::string region_picture(const ReachArm& arm, const ArmDrawn& drawn, const con
   const Layout layout = lay_out(space);
   const std::string point = point_name(arm, request.point);
   const std::string title = "Where " + point + " of " + drawn.name + " can go";
-  draw::Svg svg(layout.width_px, layout.height_px, title);
+  svg::Svg svg(layout.width_px, layout.height_px, title);
   svg.text({kPlaneLeft_px - 40.0, 34.0}, title, {.size = 20.0, .bold = true});
   svg.text({kPlaneLeft_px - 40.0, 56.0}, "held: " + held_text(arm, request.point.held_mask, request.held_rad),
            {.size = 13.0});
@@ -232,7 +232,7 @@ std::string region_picture(const ReachArm& arm, const ArmDrawn& drawn, const con
   }
   for (std::size_t i = 0; i < 3; ++i) {
     const View& view = *views[i];
-    draw::draw_axes(svg, view.axes, kAxisTitles[view.right], kAxisTitles[view.up]);
+    svg::draw_axes(svg, view.axes, kAxisTitles[view.right], kAxisTitles[view.up]);
     draw_outline(svg, view, region.outline[i], {.fill = kRegionColour});
     draw_heat(svg, view, cells[i], top);
     draw_outline(svg, view, region.outline[i], {.stroke = kOutlineColour, .width = 1.6});
@@ -250,4 +250,4 @@ std::string region_picture(const ReachArm& arm, const ArmDrawn& drawn, const con
   return svg.document();
 }
 
-}  // namespace liana::reach
+}  // namespace liana::workspace

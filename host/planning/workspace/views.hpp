@@ -11,15 +11,15 @@
 #include "host/planning/workspace/picture.hpp"
 #include "host/planning/workspace/region.hpp"
 
-namespace liana::reach {
+namespace liana::workspace {
 
 // Looking along one base axis: coordinate `right` of the base frame to the right, `up` upwards.
 struct View {
-  draw::Axes axes;
+  svg::Axes axes;
   std::size_t right = 0;
   std::size_t up = 1;
 
-  draw::Pixel at(const Vec3& point_in_base_m) const { return axes.at(point_in_base_m[right], point_in_base_m[up]); }
+  svg::Pixel at(const Vec3& point_in_base_m) const { return axes.at(point_in_base_m[right], point_in_base_m[up]); }
 };
 
 // Mean mobility of the samples seen in each cell, kHeatCell_px wide, counted from the lower left corner of the view.
@@ -34,15 +34,15 @@ constexpr std::array<std::string_view, kHeatClasses> kHeatColours{"#deebf7", "#b
                                                                   "#1f65a3"};
 
 // Cells in the colour of their class; `top_m_per_rad` is the upper end of the highest one.
-void draw_heat(draw::Svg& svg, const View& view, const std::map<Cell, double>& cells, double top_m_per_rad);
+void draw_heat(svg::Svg& svg, const View& view, const std::map<Cell, double>& cells, double top_m_per_rad);
 // Over the outline: the limits that bind there, one colour each; where several do, they lie inside each other.
-void draw_binding(draw::Svg& svg, const View& view, const Outline& outline);
+void draw_binding(svg::Svg& svg, const View& view, const Outline& outline);
 // The region's outline as seen in the view; `fill` or `stroke` may be none.
-void draw_outline(draw::Svg& svg, const View& view, const Outline& outline, const draw::Look& look);
+void draw_outline(svg::Svg& svg, const View& view, const Outline& outline, const svg::Look& look);
 // Boxes (first, second, ... in fixed colours), spheres, convex bodies, and the rod with a ring around it.
-void draw_scene(draw::Svg& svg, const View& view, const config::SceneConfig& scene);
+void draw_scene(svg::Svg& svg, const View& view, const config::SceneConfig& scene);
 // Links as one thick line, nodes as dots, base and tip marked.
-void draw_arm(draw::Svg& svg, const View& view, const ReachArm& arm, const ArmDrawn& drawn, std::int32_t marked_node);
+void draw_arm(svg::Svg& svg, const View& view, const ReachArm& arm, const ArmDrawn& drawn, std::int32_t marked_node);
 
 constexpr std::string_view kRegionColour = "#eef4fa";
 constexpr std::string_view kOutlineColour = "#17436b";
@@ -60,4 +60,4 @@ std::string_view theta_colour(std::int32_t theta);
 // Corners of a box in the base frame.
 std::array<Vec3, 8> box_corners(const config::SceneBox& box);
 
-}  // namespace liana::reach
+}  // namespace liana::workspace

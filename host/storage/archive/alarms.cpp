@@ -3,14 +3,14 @@
 namespace liana::archive {
 namespace {
 
-constexpr std::size_t kMostText = 256;  // as lianad takes it
+constexpr std::size_t kMaxText = 256;  // as lianad takes it
 
 }  // namespace
 
 void Alarms::add(const std::string& text, std::uint64_t count) {
   const std::lock_guard lock(mutex_);
   if (waiting_.size() < kMost) {
-    waiting_.push_back({text.substr(0, kMostText), count});
+    waiting_.push_back({text.substr(0, kMaxText), count});
   } else {
     waiting_.back().count += count;
   }

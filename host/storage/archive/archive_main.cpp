@@ -35,15 +35,15 @@ std::string utc_now() {
   return text;
 }
 
-liana::record::RecordingInfo info_from(const Json& welcome) {
+liana::recording::RecordingInfo info_from(const Json& welcome) {
   if (welcome.value("op", "") != "welcome") throw std::runtime_error("lianad refused the archive: " + welcome.dump());
   return {welcome.at("config_hash"),  welcome.at("robot").dump(), welcome.at("scene").dump(),
           welcome.at("buses").dump(), welcome.at("time_mode"),    welcome.at("period_s")};
 }
 
-liana::archive::Life life_from(const liana::record::RecordingInfo& info) {
+liana::archive::Life life_from(const liana::recording::RecordingInfo& info) {
   return {info.config_hash, info.robot_json, info.scene_json, info.buses_json,
-          info.time_mode,   info.period_s,   utc_now(),       "liana " + liana::record::build_id()};
+          info.time_mode,   info.period_s,   utc_now(),       "liana " + liana::recording::build_id()};
 }
 
 // Where everything goes: the archive and, with --record, the files of every tick and of every state as it came.
@@ -84,16 +84,16 @@ class Books {
                 number(recorder_.durable()), number(recorder_.lost()));
     if (!ticks_) return;
     std::printf("liana-archive: %llu ticks in %s/%s, %llu dropped, %llu events lost\n", number(ticks_->ticks()),
-                record.c_str(), liana::record::kRecordingFile, number(ticks_->dropped()),
+                record.c_str(), liana::recording::kRecordingFile, number(ticks_->dropped()),
                 number(states_->events_lost()));
   }
 
  private:
-  liana::record::RecordingInfo info_;
+  liana::recording::RecordingInfo info_;
   liana::archive::Life life_;
   liana::archive::Recorder recorder_;
-  std::optional<liana::record::Recording> ticks_;
-  std::optional<liana::record::StateRecording> states_;
+  std::optional<liana::recording::Recording> ticks_;
+  std::optional<liana::recording::StateRecording> states_;
 };
 
 // Until lianad ends or a signal comes. A state is answered with done, so that in lockstep time no tick is ever lost.
@@ -163,7 +163,7 @@ int run(const std::string& api, const std::string& folder, const std::string& re
 
 int main(int argc, char** argv) {
   std::string api, folder, record;
-  liana::command_line::CommandLine line("The flight recorder: events, commands, telemetry and every tick of a run");
+  liana::options::CommandLine line("The flight recorder: events, commands, telemetry and every tick of a run");
   line.option("--api", api, "API socket of lianad").required();
   line.option("--archive", folder, "folder for archive.db, telemetry and ring; where not given, that of --record")
       .existing_folder();

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_params.hpp"
 #include "firmware_like/math/pose.hpp"
 #include "host/api/telemetry/layout.hpp"
 #include "host/storage/archive/rows.hpp"
@@ -25,7 +25,7 @@ class ArmPoints {
   const telemetry::Place* place(const char* field) const;
 
   const telemetry::Layout& layout_;
-  cable::RobotTable table_{};  // of a cable arm, else without segments
+  cable::RobotParams table_{};  // of a cable arm, else without segments
   double radius_m_ = 0.03;
 };
 

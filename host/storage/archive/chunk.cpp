@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kLevel = 1;  // a second takes 0.2 ms; 3 gains 1 %
 constexpr std::size_t kWord = sizeof(std::uint32_t);
-constexpr std::uint8_t kMostOrder = 2;  // of differences
+constexpr std::uint8_t kMaxOrder = 2;  // of differences
 
 using Words = std::vector<std::uint32_t>;
 
@@ -46,13 +46,13 @@ struct Column {
 
 Column least(Words words) {
   Column best{words, 0};
-  std::size_t least_bits = bits_of(words);
-  for (std::uint8_t order = 1; order <= kMostOrder; ++order) {
+  std::size_t min_bits = bits_of(words);
+  for (std::uint8_t order = 1; order <= kMaxOrder; ++order) {
     words = differences(words);
     const std::size_t bits = bits_of(words);
-    if (bits >= least_bits) continue;
+    if (bits >= min_bits) continue;
     best = {words, order};
-    least_bits = bits;
+    min_bits = bits;
   }
   return best;
 }
@@ -74,14 +74,14 @@ std::string packed(std::string_view records, std::size_t record_bytes) {
     }
   }
   planes.insert(0, orders);
-  std::string smaller = record::compress(planes, kLevel);
+  std::string smaller = recording::compress(planes, kLevel);
   return smaller.size() < planes.size() ? smaller : planes;
 }
 
 // A blob as long as what was packed is not compressed.
 std::string unpacked(std::string_view blob, std::size_t count, std::size_t record_bytes) {
   const std::size_t places = record_bytes / kWord, size = places + count * record_bytes;
-  const std::string all = record::decompress(blob, blob.size() == size ? "" : "zstd", size);
+  const std::string all = recording::decompress(blob, blob.size() == size ? "" : "zstd", size);
   const std::string_view orders = std::string_view(all).substr(0, places),
                          planes = std::string_view(all).substr(places);
   std::string records(count * record_bytes, '\0');
@@ -94,7 +94,7 @@ std::string unpacked(std::string_view blob, std::size_t count, std::size_t recor
     for (std::size_t row = 0; row < count; ++row)
       words[row] = unfolded(byte(0, row) | byte(1, row) | byte(2, row) | byte(3, row));
     const auto order = static_cast<std::uint8_t>(orders[place]);
-    if (order > kMostOrder) throw std::runtime_error("a second of telemetry is damaged; take a good copy of the file");
+    if (order > kMaxOrder) throw std::runtime_error("a second of telemetry is damaged; take a good copy of the file");
     for (std::uint8_t i = 0; i < order; ++i) sum_up(words);
     for (std::size_t row = 0; row < count; ++row)
       std::memcpy(records.data() + row * record_bytes + place * kWord, &words[row], kWord);

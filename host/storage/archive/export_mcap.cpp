@@ -101,7 +101,7 @@ class Export {
   const telemetry::Layout& layout_;
   const ArmPoints points_;
   const config::SceneConfig scene_config_;
-  record::McapWriter file_;
+  recording::McapWriter file_;
   const std::uint16_t scene_, tf_, joints_, log_, state_;
   std::uint64_t messages_ = 0;
   double next_s_ = 0.0;

@@ -9,7 +9,7 @@
 #include "host/storage/archive/ring_reader.hpp"
 #include "host/storage/recording/build_id.hpp"
 #include "host/storage/recording/crc32.hpp"
-#include "host/storage/recording/outputs_again.hpp"
+#include "host/storage/recording/outputs_reconstruction.hpp"
 #include "host/storage/recording/recording.hpp"
 
 namespace liana::archive {
@@ -22,7 +22,7 @@ using Images = std::map<std::uint64_t, std::string>;  // packets by next tick
 constexpr double kBack_s = 70.0;  // so far before a tick there is an image, unless one came late
 
 std::uint32_t crc_of(std::string_view bytes) {
-  record::Crc32 crc;
+  recording::Crc32 crc;
   crc.add(bytes);
   return crc.value();
 }
@@ -33,7 +33,7 @@ Images images_of(const RingReader& ring, Span span, double period_s) {
   Images images;
   RingVisitor visitor;
   visitor.image = [&](const RingAbout& about, std::uint64_t next_tick, const std::string& packet) {
-    if (about.build_id == record::build_id() && next_tick <= span.last) images[next_tick] = packet;
+    if (about.build_id == recording::build_id() && next_tick <= span.last) images[next_tick] = packet;
   };
   ring.visit({span.first - std::min(span.first, back), span.last}, visitor);
   return images;
@@ -47,14 +47,14 @@ class TicksWriter {
         span_(span),
         folder_(std::move(folder)),
         images_(std::move(images)),
-        core_(record::OutputsAgain::of(life_.robot)) {}
+        core_(recording::OutputsReconstruction::of(life_.robot)) {}
 
   void take(const RingAbout& about, const RingTick& tick) {
     const auto image = images_.find(tick.tick);
     if (image != images_.end()) core_->go_on_from(image->second);
     if (tick.tick >= span_.first) begin_at(about, tick);
     RingTick whole = tick;
-    const std::string again = about.build_id == record::build_id() ? core_->outputs(tick.inputs) : std::string();
+    const std::string again = about.build_id == recording::build_id() ? core_->outputs(tick.inputs) : std::string();
     if (tick.tick < span_.first) return;
     if (!again.empty() && crc_of(again) != tick.outputs_crc) ++result_.differing;
     if (whole.outputs.empty() && crc_of(again) == tick.outputs_crc) {
@@ -81,8 +81,8 @@ class TicksWriter {
   void make_recording(const RingAbout& about) {
     if (recording_) return;
     fs::create_directories(folder_);
-    recording_.emplace(folder_, record::RecordingInfo{life_.config_hash, life_.robot, life_.scene, life_.buses,
-                                                      life_.time_mode, life_.period_s, about.build_id});
+    recording_.emplace(folder_, recording::RecordingInfo{life_.config_hash, life_.robot, life_.scene, life_.buses,
+                                                         life_.time_mode, life_.period_s, about.build_id});
   }
   void write(const RingAbout& about, const RingTick& tick) {
     if (tick.outputs.empty()) {
@@ -99,8 +99,8 @@ class TicksWriter {
   const Span span_;
   const std::string folder_;
   const Images images_;
-  std::unique_ptr<record::OutputsAgain> core_;
-  std::optional<record::Recording> recording_;
+  std::unique_ptr<recording::OutputsReconstruction> core_;
+  std::optional<recording::Recording> recording_;
   std::uint64_t next_tick_ = 0;
   bool has_image_ = false;
   TicksWritten result_;
@@ -109,7 +109,7 @@ class TicksWriter {
 }  // namespace
 
 TicksWritten write_ticks(const Reader& reader, Span span, const std::string& folder) {
-  if (fs::exists(folder + "/" + record::kRecordingFile))
+  if (fs::exists(folder + "/" + recording::kRecordingFile))
     throw std::runtime_error(folder + ": holds a recording already; name another folder");
   const RingReader ring(reader.folder(), reader.life_number());
   const auto recorded = ring.recorded();
@@ -121,7 +121,7 @@ TicksWritten write_ticks(const Reader& reader, Span span, const std::string& fol
   TicksWriter writer(reader, span, folder, std::move(images));
   RingVisitor visitor;
   visitor.tick = [&](const RingAbout& about, const RingTick& tick) {
-    if (about.widths != record::field_widths(record::is_of_serial_arm(reader.life().robot), about.counts))
+    if (about.widths != recording::field_widths(recording::is_of_serial_arm(reader.life().robot), about.counts))
       throw std::runtime_error(reader.folder() + ": its ticks have other fields than those of this build; the build " +
                                about.build_id + " reads them");
     writer.take(about, tick);

@@ -32,7 +32,7 @@ Recorder::Recorder(const std::string& folder, const Life& life, int interval_tic
       period_s_(life.period_s),
       standing_({ticks_of(kOver_s, life.period_s), ticks_of(kAgain_s, life.period_s)}),
       interval_ticks_(static_cast<std::uint64_t>(interval_ticks)),
-      least_ticks_(ticks_of(kRecord_s, life.period_s)),
+      min_ticks_(ticks_of(kRecord_s, life.period_s)),
       telemetry_(
           folder, begun_.life, life.period_s, limits, [this](const Gap& gap) { note_gap(gap); },
           [this](std::uint64_t first_tick) { ledger_.add_telemetry_file(first_tick); }) {
@@ -79,7 +79,7 @@ void Recorder::take_state(const Json& state) {
     note_gap({last_tick_ + interval_ticks_, tick - interval_ticks_, "states", missing, why_missing_});
   }
   if (state.contains("verdict")) take_verdict(tick, state.at("verdict"));
-  if (records_ == 0 || tick >= last_record_ + least_ticks_) {
+  if (records_ == 0 || tick >= last_record_ + min_ticks_) {
     take_facts(tick, state);
     telemetry_.add(tick, telemetry::encode(*layout_, state, ++records_, facts_number_));
     last_record_ = tick;

@@ -63,7 +63,7 @@ class Recorder {
   const Ledger::Begun begun_;
   const double period_s_;
   event::Standing<Alarm> standing_;  // of gaps; by ticks
-  const std::uint64_t interval_ticks_, least_ticks_;
+  const std::uint64_t interval_ticks_, min_ticks_;
   TelemetryFiles telemetry_;
   std::optional<telemetry::Layout> layout_;
   Json facts_;

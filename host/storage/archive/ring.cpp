@@ -25,7 +25,7 @@ Ring::Ring(std::string folder, std::uint64_t life, const Life& about, RingLimits
     : folder_(std::move(folder)),
       life_(life),
       period_s_(about.period_s),
-      is_serial_(record::is_of_serial_arm(about.robot)),
+      is_serial_(recording::is_of_serial_arm(about.robot)),
       limits_(limits),
       on_gap_(std::move(on_gap)) {}
 
@@ -34,13 +34,13 @@ std::uint64_t Ring::ticks_in(double time_s) const {
 }
 
 void Ring::take(std::string_view packet) {
-  record::tick_packet_kind(packet) == record::TickPacket::kImage ? take_image(packet) : take_tick(packet);
+  recording::tick_packet_kind(packet) == recording::TickPacket::kImage ? take_image(packet) : take_tick(packet);
 }
 
 // Not every image: a replay of a minute takes a second.
 void Ring::take_image(std::string_view packet) {
   std::uint64_t next_tick = 0;
-  record::Reader reader(packet.substr(1));
+  recording::Reader reader(packet.substr(1));
   reader("next_tick", next_tick);
   if (image_tick_ && next_tick < *image_tick_ + ticks_in(limits_.image_s)) return;
   image_tick_ = next_tick;
@@ -48,7 +48,7 @@ void Ring::take_image(std::string_view packet) {
 }
 
 void Ring::take_tick(std::string_view packet) {
-  const record::TickParts parts = record::split_tick_packet(packet);
+  const recording::TickParts parts = recording::split_tick_packet(packet);
   if (!block_) {
     about_ = ring_about(is_serial_, parts.counts);
     block_.emplace(about_.widths);
@@ -64,7 +64,7 @@ void Ring::take_tick(std::string_view packet) {
 void Ring::look_for_gap(std::string_view inputs) {
   std::uint64_t tick = 0;
   std::uint32_t lost_ticks = 0;
-  record::Reader reader(inputs);
+  recording::Reader reader(inputs);
   reader("tick", tick);
   reader("lost_ticks", lost_ticks);
   if (!next_tick_ || tick <= *next_tick_ + lost_ticks) return;

@@ -19,9 +19,9 @@ struct FileVisitor {
 
 // Throws std::runtime_error with the file, also where a byte is not as it was written. A file that a full ring took
 // away meanwhile is not there any more, and was whole.
-record::McapState read_file(const RingFile& file, const FileVisitor& visitor) {
+recording::McapState read_file(const RingFile& file, const FileVisitor& visitor) {
   RingAbout about;
-  record::McapVisitor mcap;
+  recording::McapVisitor mcap;
   mcap.metadata = [&](const std::string& name, const Texts& values) {
     if (name == kRingMetadata) about = ring_about(values);
   };
@@ -29,10 +29,10 @@ record::McapState read_file(const RingFile& file, const FileVisitor& visitor) {
     visitor.message(about, topic, data);
   };
   try {
-    const record::McapState state = record::read_mcap(file.path, mcap);
-    if (state != record::McapState::kDamaged) return state;
+    const recording::McapState state = recording::read_mcap(file.path, mcap);
+    if (state != recording::McapState::kDamaged) return state;
   } catch (const std::runtime_error& error) {
-    if (!std::filesystem::exists(file.path)) return record::McapState::kWhole;
+    if (!std::filesystem::exists(file.path)) return recording::McapState::kWhole;
     throw std::runtime_error(file.path + ": " + error.what());
   }
   throw std::runtime_error(file.path + ": damaged: its bytes do not match the checksum they were written with");
@@ -40,7 +40,7 @@ record::McapState read_file(const RingFile& file, const FileVisitor& visitor) {
 
 std::uint64_t next_tick_of(std::string_view image_packet) {
   std::uint64_t next_tick = 0;
-  record::Reader reader(image_packet.substr(1));
+  recording::Reader reader(image_packet.substr(1));
   reader("next_tick", next_tick);
   return next_tick;
 }
@@ -48,7 +48,7 @@ std::uint64_t next_tick_of(std::string_view image_packet) {
 bool is_in(Span inner, Span span) { return inner.last >= span.first && inner.first <= span.last; }
 
 std::uint32_t crc_of(std::string_view bytes) {
-  record::Crc32 crc;
+  recording::Crc32 crc;
   crc.add(bytes);
   return crc.value();
 }
@@ -170,7 +170,7 @@ void check_file(const RingFile& file, RingCheck& check, std::vector<std::string>
   check.bytes += bytes_of(file);
   ++check.files;
   try {
-    if (read_file(file, {[](const auto&, const auto&, auto) {}}) == record::McapState::kCutShort) ++check.cut_short;
+    if (read_file(file, {[](const auto&, const auto&, auto) {}}) == recording::McapState::kCutShort) ++check.cut_short;
   } catch (const std::runtime_error& error) {
     problems.push_back(error.what());
   }
@@ -190,7 +190,7 @@ RingCheck check_ring(const std::string& folder, std::uint64_t life, std::vector<
     if (check.ticks++ == 0) check.first_tick = tick.tick;
     std::uint32_t lost_ticks = 0;
     if (check.ticks > 1) {
-      record::Reader reader(std::string_view(tick.inputs).substr(sizeof tick.tick));
+      recording::Reader reader(std::string_view(tick.inputs).substr(sizeof tick.tick));
       reader("lost_ticks", lost_ticks);
       check.missing += tick.tick - lost_ticks - check.last_tick - 1;
     }

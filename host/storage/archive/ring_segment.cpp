@@ -47,15 +47,15 @@ RingAbout ring_about(const Texts& metadata) {
            widths_in(metadata, "outputs_widths")}};
 }
 
-RingAbout ring_about(bool is_serial, const record::RecordedCounts& counts) {
-  return {record::build_id(), counts, record::field_widths(is_serial, counts)};
+RingAbout ring_about(bool is_serial, const recording::RecordedCounts& counts) {
+  return {recording::build_id(), counts, recording::field_widths(is_serial, counts)};
 }
 
 RingSegment::RingSegment(const std::string& path, std::uint64_t first_tick, double period_s, const RingAbout& about)
     : path_(path),
       first_tick_(first_tick),
       period_s_(period_s),
-      file_(std::make_unique<record::McapWriter>(path, "liana " + record::build_id())) {
+      file_(std::make_unique<recording::McapWriter>(path, "liana " + recording::build_id())) {
   file_->add_metadata(kRingMetadata, texts_of(about));
 }
 

@@ -23,13 +23,13 @@ using Texts = std::map<std::string, std::string>;
 // What a file says of the ticks in it: enough to take them apart in another build, too.
 struct RingAbout {
   std::string build_id;  // of the core that ticked
-  record::RecordedCounts counts{};
-  record::FieldWidths widths{};
+  recording::RecordedCounts counts{};
+  recording::FieldWidths widths{};
 };
 // Throws std::runtime_error when the metadata of a file are not those of a ring.
 RingAbout ring_about(const Texts& metadata);
 // Of ticks that this build makes.
-RingAbout ring_about(bool is_serial, const record::RecordedCounts& counts);
+RingAbout ring_about(bool is_serial, const recording::RecordedCounts& counts);
 
 class RingSegment {
  public:
@@ -50,7 +50,7 @@ class RingSegment {
   std::string path_;
   std::uint64_t first_tick_;
   double period_s_;
-  std::unique_ptr<record::McapWriter> file_;
+  std::unique_ptr<recording::McapWriter> file_;
   std::map<std::string, std::uint16_t> channels_;
   std::uint64_t good_bytes_ = 0;
 };

@@ -11,8 +11,8 @@
 
 #include "host/api/telemetry/layout.hpp"
 #include "host/storage/archive/database.hpp"
+#include "host/storage/archive/per_second_summary.hpp"
 #include "host/storage/archive/rows.hpp"
-#include "host/storage/archive/second_figures.hpp"
 
 namespace liana::archive {
 
@@ -34,7 +34,7 @@ class TelemetryFiles {
   TelemetryFiles(std::string folder, std::uint64_t life, double period_s, TelemetryLimits limits,
                  std::function<void(const Gap&)> on_gap, std::function<void(std::uint64_t)> on_file);
 
-  // What records hold, for their figures by the second (SecondFigures); before the first record.
+  // What records hold, for their figures by the second (PerSecondSummary); before the first record.
   void set_layout(const telemetry::Layout& layout) { layout_ = layout; }
   // Facts that hold from this record on; call it before add() of that record.
   void set_facts(const Facts& facts);
@@ -55,7 +55,7 @@ class TelemetryFiles {
     File(const std::string& path, const std::optional<telemetry::Layout>& layout);
     Database database;
     Statement telemetry, facts;
-    std::optional<SecondFigures> figures;
+    std::optional<PerSecondSummary> figures;
     std::uint64_t first_tick = 0;
     bool is_told = false;          // on_file_ has heard of it
     std::optional<Facts> told;     // the newest facts in it

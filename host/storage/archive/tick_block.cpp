@@ -10,10 +10,10 @@ namespace liana::archive {
 namespace {
 
 constexpr std::size_t kCrcBytes = 4;
-constexpr std::uint32_t kMostTicks = 100000;  // of a message: no robot ticks so often in a second
+constexpr std::uint32_t kMaxTicks = 100000;  // of a message: no robot ticks so often in a second
 
 std::uint32_t crc_of(std::string_view bytes) {
-  record::Crc32 crc;
+  recording::Crc32 crc;
   crc.add(bytes);
   return crc.value();
 }
@@ -24,12 +24,12 @@ struct Head {
   std::uint32_t count = 0;
 };
 
-Head head_of(record::Reader& reader) {
+Head head_of(recording::Reader& reader) {
   Head head;
   reader("first_tick", head.span.first);
   reader("last_tick", head.span.last);
   reader("count", head.count);
-  if (head.count > kMostTicks) throw std::runtime_error("a second of ticks is damaged; take a good copy of the file");
+  if (head.count > kMaxTicks) throw std::runtime_error("a second of ticks is damaged; take a good copy of the file");
   return head;
 }
 
@@ -54,18 +54,18 @@ class Rows {
 
 std::uint64_t tick_of(std::string_view fields) {
   std::uint64_t tick = 0;
-  record::Reader reader(fields);
+  recording::Reader reader(fields);
   reader("tick", tick);
   return tick;
 }
 
-TickBlock::TickBlock(const record::FieldWidths& widths)
+TickBlock::TickBlock(const recording::FieldWidths& widths)
     : inputs_words_(widths.inputs), telecommand_words_(widths.telecommand), outputs_words_(widths.outputs) {}
 
 void TickBlock::add(std::string_view inputs, std::string_view outputs) {
   const std::size_t fixed = inputs_words_.bytes_of_fields();
   inputs_words_.append_words(inputs_, inputs.substr(0, fixed));
-  record::Writer writer(inputs_);
+  recording::Writer writer(inputs_);
   writer("outputs_crc", crc_of(outputs));
   if (inputs.size() > fixed) {
     telecommand_words_.append_words(telecommands_, inputs.substr(fixed));
@@ -79,7 +79,7 @@ void TickBlock::add(std::string_view inputs, std::string_view outputs) {
 std::string TickBlock::inputs_message() const {
   const std::string inputs = packed(inputs_, inputs_words_.bytes_of_words() + kCrcBytes);
   std::string out;
-  record::Writer writer(out);
+  recording::Writer writer(out);
   writer("first_tick", first_tick_);
   writer("last_tick", last_tick_);
   writer("count", count_);
@@ -92,7 +92,7 @@ std::string TickBlock::inputs_message() const {
 
 std::string TickBlock::outputs_message() const {
   std::string out;
-  record::Writer writer(out);
+  recording::Writer writer(out);
   writer("first_tick", first_tick_);
   writer("last_tick", last_tick_);
   writer("count", count_);
@@ -107,12 +107,12 @@ void TickBlock::clear() {
 }
 
 Span span_of_block(std::string_view message) {
-  record::Reader reader(message);
+  recording::Reader reader(message);
   return head_of(reader).span;
 }
 
-std::vector<RingTick> ticks_of(std::string_view inputs_message, const record::FieldWidths& widths) {
-  record::Reader reader(inputs_message);
+std::vector<RingTick> ticks_of(std::string_view inputs_message, const recording::FieldWidths& widths) {
+  recording::Reader reader(inputs_message);
   const Head head = head_of(reader);
   std::uint32_t telecommand_count = 0, inputs_bytes = 0;
   reader("telecommands", telecommand_count);
@@ -120,7 +120,7 @@ std::vector<RingTick> ticks_of(std::string_view inputs_message, const record::Fi
   const std::string_view rest = inputs_message.substr(reader.position());
   if (telecommand_count > head.count || inputs_bytes > rest.size())
     throw std::runtime_error("a second of ticks is damaged; take a good copy of the file");
-  const FieldWords inputs_words(widths.inputs), telecommand_words(widths.telecommand);
+  const PackedFields inputs_words(widths.inputs), telecommand_words(widths.telecommand);
   const std::size_t crc_at = inputs_words.bytes_of_words();
   Rows inputs(rest.substr(0, inputs_bytes), head.count, crc_at + kCrcBytes);
   Rows telecommands(rest.substr(inputs_bytes), telecommand_count, telecommand_words.bytes_of_words());
@@ -129,7 +129,7 @@ std::vector<RingTick> ticks_of(std::string_view inputs_message, const record::Fi
   while (const auto words = inputs.next()) {
     RingTick tick{.inputs = inputs_words.fields_of(*words)};
     tick.tick = tick_of(tick.inputs);
-    record::Reader crc(words->substr(crc_at));
+    recording::Reader crc(words->substr(crc_at));
     crc("outputs_crc", tick.outputs_crc);
     if (tick.inputs.back() != '\0') {
       if (const auto telecommand = telecommands.next()) tick.inputs += telecommand_words.fields_of(*telecommand);
@@ -139,10 +139,10 @@ std::vector<RingTick> ticks_of(std::string_view inputs_message, const record::Fi
   return ticks;
 }
 
-std::vector<std::string> outputs_of(std::string_view outputs_message, const record::FieldWidths& widths) {
-  record::Reader reader(outputs_message);
+std::vector<std::string> outputs_of(std::string_view outputs_message, const recording::FieldWidths& widths) {
+  recording::Reader reader(outputs_message);
   const Head head = head_of(reader);
-  const FieldWords outputs_words(widths.outputs);
+  const PackedFields outputs_words(widths.outputs);
   Rows rows(outputs_message.substr(reader.position()), head.count, outputs_words.bytes_of_words());
   std::vector<std::string> outputs;
   outputs.reserve(head.count);

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/storage/archive/field_words.hpp"
+#include "host/storage/archive/packed_fields.hpp"
 #include "host/storage/archive/rows.hpp"
 #include "host/storage/recording/field_widths.hpp"
 
@@ -25,7 +25,7 @@ std::uint64_t tick_of(std::string_view fields);
 
 class TickBlock {
  public:
-  explicit TickBlock(const record::FieldWidths& widths);
+  explicit TickBlock(const recording::FieldWidths& widths);
   // Throws std::runtime_error when the bytes are not as many as the widths say.
   void add(std::string_view inputs, std::string_view outputs);
   bool is_empty() const { return count_ == 0; }
@@ -40,7 +40,7 @@ class TickBlock {
   void clear();
 
  private:
-  FieldWords inputs_words_, telecommand_words_, outputs_words_;
+  PackedFields inputs_words_, telecommand_words_, outputs_words_;
   std::string inputs_, telecommands_, outputs_;  // as words
   std::uint64_t first_tick_ = 0, last_tick_ = 0;
   std::uint32_t count_ = 0, telecommand_count_ = 0;
@@ -50,7 +50,7 @@ class TickBlock {
 Span span_of_block(std::string_view message);
 
 // All throw std::runtime_error when the message is damaged.
-std::vector<RingTick> ticks_of(std::string_view inputs_message, const record::FieldWidths& widths);
-std::vector<std::string> outputs_of(std::string_view outputs_message, const record::FieldWidths& widths);
+std::vector<RingTick> ticks_of(std::string_view inputs_message, const recording::FieldWidths& widths);
+std::vector<std::string> outputs_of(std::string_view outputs_message, const recording::FieldWidths& widths);
 
 }  // namespace liana::archive

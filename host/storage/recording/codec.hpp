@@ -13,7 +13,7 @@
 
 #include "host/storage/recording/visit.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 template <class T>
 concept Scalar = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -144,4 +144,4 @@ class FieldNamer {
   std::string path_, found_;
 };
 
-}  // namespace liana::record
+}  // namespace liana::recording

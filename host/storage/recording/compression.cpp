@@ -6,7 +6,7 @@
 #include <zstd.h>
 #endif
 
-namespace liana::record {
+namespace liana::recording {
 
 namespace {
 
@@ -54,4 +54,4 @@ std::string decompress(std::string_view compressed, std::string_view compression
   return std::string(compressed);
 }
 
-}  // namespace liana::record
+}  // namespace liana::recording

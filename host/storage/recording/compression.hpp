@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace liana::record {
+namespace liana::recording {
 
 // Name of what compress() does, as MCAP spells it: "zstd", or "" for none.
 const char* compression_name();
@@ -18,4 +18,4 @@ std::string compress(std::string_view plain, int level = 3);
 // this build does not know, or are not `size` bytes.
 std::string decompress(std::string_view compressed, std::string_view compression, std::uint64_t size);
 
-}  // namespace liana::record
+}  // namespace liana::recording

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace liana::record {
+namespace liana::recording {
 
 // Takes bytes in any number of pieces; O(bytes).
 class Crc32 {
@@ -17,4 +17,4 @@ class Crc32 {
   std::uint32_t value_ = 0;
 };
 
-}  // namespace liana::record
+}  // namespace liana::recording

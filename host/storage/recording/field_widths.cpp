@@ -3,7 +3,7 @@
 #include "host/storage/recording/codec.hpp"
 #include "host/storage/recording/visit_serial.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 namespace {
 
 class WidthLister {
@@ -52,4 +52,4 @@ FieldWidths field_widths(bool is_serial, const RecordedCounts& counts) {
   return is_serial ? widths_of_arm<serial::SerialArm>(counts) : widths_of_arm<cable::CableArm>(counts);
 }
 
-}  // namespace liana::record
+}  // namespace liana::recording

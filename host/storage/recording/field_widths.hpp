@@ -6,7 +6,7 @@
 
 #include "host/storage/recording/visit.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 // A digit for each field in recorded order: 1, 2, 4 or 8 bytes.
 struct FieldWidths {
@@ -19,4 +19,4 @@ struct FieldWidths {
 // Of a robot with so many drives, thetas and segments.
 FieldWidths field_widths(bool is_serial, const RecordedCounts& counts);
 
-}  // namespace liana::record
+}  // namespace liana::recording

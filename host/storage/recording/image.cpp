@@ -7,7 +7,7 @@
 #include "host/storage/recording/visit_cable_state.hpp"
 #include "host/storage/recording/visit_serial_state.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 // What no type alone can say. Each is found by ImageReader when it has read such a structure.
 
@@ -18,7 +18,7 @@ void check(const ImageReader& in, const FaultList& list) {
 
 void check(const ImageReader& in, const Fault& fault) { in.require("index", fault.index, -1, kMaxDrives - 1); }
 
-void check(const ImageReader& in, const LinkWatchState& state) {
+void check(const ImageReader& in, const DriveLinkMonitorState& state) {
   in.require_mask("seen_mask", state.seen_mask, in.bounds().drives);
 }
 
@@ -42,7 +42,7 @@ void check(const ImageReader& in, const cable::ShapeState& state) {
   in.require_mask("held_mask", state.held_mask, in.bounds().joints);
 }
 
-void check(const ImageReader& in, const cable::IkReport& ik) {
+void check(const ImageReader& in, const cable::IkResult& ik) {
   in.require_mask("limit_mask", ik.limit_mask, in.bounds().joints);
 }
 
@@ -51,7 +51,7 @@ void check(const ImageReader& in, const cable::MotionState& motion) {
   in.require_mask("held_mask", motion.held_mask, in.bounds().joints);
 }
 
-void check(const ImageReader& in, const cable::CableWatchState& state) {
+void check(const ImageReader& in, const cable::CableMonitorState& state) {
   in.require("newest", state.newest, 0, 1);
   in.require("segment", state.segment, 0, in.bounds().segments - 1);
   const std::int32_t first = in.bounds().first_cable[static_cast<std::size_t>(state.segment)];
@@ -59,16 +59,16 @@ void check(const ImageReader& in, const cable::CableWatchState& state) {
   in.require("suspect", state.suspect, -1, in.bounds().drives - 1);
 }
 
-void check(const ImageReader& in, const cable::LetGoState& state) {
+void check(const ImageReader& in, const cable::SegmentReleaseState& state) {
   in.require("segment", state.segment, 0, in.bounds().segments - 1);
   in.require("cable", state.cable, 0, in.bounds().drives - 1);
 }
 
-void check(const ImageReader& in, const cable::FrictionWatchState& state) {
+void check(const ImageReader& in, const cable::FrictionEstimatorState& state) {
   in.require("axis", state.axis, 0, in.bounds().joints - 1);
 }
 
-void check(const ImageReader& in, const cable::ContactWatchState& state) {
+void check(const ImageReader& in, const cable::ContactDetectorState& state) {
   in.require("segment", state.segment, -1, in.bounds().segments - 1);
   in.require("best_place", state.best_place, -1, static_cast<std::int64_t>(cable::kPlaces) * in.bounds().segments - 1);
 }
@@ -78,7 +78,7 @@ void check_tick(const ImageReader& in, double tick_s) {
   if (!(tick_s >= 1e-5 && tick_s <= 10.0)) in.refuse("tick_s", std::to_string(tick_s), "0.00001..10");
 }
 
-void check(const ImageReader& in, const cable::RobotTable& table) {
+void check(const ImageReader& in, const cable::RobotParams& table) {
   in.require("segment_count", table.segment_count, 1, cable::kMaxSegments);
   for (std::size_t m = 0; m < static_cast<std::size_t>(table.segment_count); ++m) {
     in.require("segment.modules", table.segment[m].modules, 1, cable::kMaxModules);
@@ -88,7 +88,7 @@ void check(const ImageReader& in, const cable::RobotTable& table) {
   check_tick(in, table.tick_s);
 }
 
-void check(const ImageReader& in, const serial::IkReport& ik) {
+void check(const ImageReader& in, const serial::IkResult& ik) {
   in.require_mask("limit_mask", ik.limit_mask, in.bounds().joints);
 }
 
@@ -96,11 +96,11 @@ void check(const ImageReader& in, const serial::MotionState& motion) {
   in.require("interval_tick", motion.interval_tick, 0, in.bounds().interval_ticks);
 }
 
-void check(const ImageReader& in, const serial::PushState& push) {
+void check(const ImageReader& in, const serial::InsertState& push) {
   in.require("overload_joint", push.overload_joint, -1, in.bounds().joints - 1);
 }
 
-void check(const ImageReader& in, const serial::RobotTable& table) {
+void check(const ImageReader& in, const serial::RobotParams& table) {
   in.require("joint_count", table.joint_count, 6, serial::kMaxJoints);
   in.require("interval_ticks", table.interval_ticks, 1, 100000);
   check_tick(in, table.tick_s);
@@ -108,11 +108,11 @@ void check(const ImageReader& in, const serial::RobotTable& table) {
 
 namespace {
 
-StateBounds bounds_of(const serial::RobotTable& table) {
+StateBounds bounds_of(const serial::RobotParams& table) {
   return {table.drive_count(), 0, table.joint_count, table.interval_ticks, {}};
 }
 
-StateBounds bounds_of(const cable::RobotTable& table) {
+StateBounds bounds_of(const cable::RobotParams& table) {
   StateBounds bounds{table.drive_count(), table.segment_count, table.theta_count(), table.interval_ticks, {}};
   static_assert(cable::kMaxSegments <= std::tuple_size_v<decltype(bounds.first_cable)>);
   for (std::size_t m = 0; m + 1 < static_cast<std::size_t>(table.segment_count); ++m)
@@ -154,4 +154,4 @@ LIANA_IMAGES(cable::CableArm)
 LIANA_IMAGES(serial::SerialArm)
 #undef LIANA_IMAGES
 
-}  // namespace liana::record
+}  // namespace liana::recording

@@ -6,7 +6,7 @@
 
 #include "firmware_like/controller.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 // Appends every field that the table does not give, little-endian, in the order of visit_state().
 template <class Arm>
@@ -21,4 +21,4 @@ Controller<Arm> controller_from(std::string_view state, const typename Arm::Tabl
 template <class Table>
 Table checked_table(std::string_view bytes, const std::string& source, std::size_t& used);
 
-}  // namespace liana::record
+}  // namespace liana::recording

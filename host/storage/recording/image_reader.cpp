@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-namespace liana::record {
+namespace liana::recording {
 
 namespace {
 
@@ -33,4 +33,4 @@ void ImageReader::check_number(std::string_view name, double value) const {
     refuse(std::string(name).c_str(), short_text(value), "a finite number up to " + short_text(most));
 }
 
-}  // namespace liana::record
+}  // namespace liana::recording

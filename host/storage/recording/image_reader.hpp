@@ -13,7 +13,7 @@
 #include "host/storage/recording/codec.hpp"
 #include "host/storage/recording/known_values.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 constexpr double kLargestNumber = 1e12;       // of a state: far above any real one, and its products are still finite
 constexpr double kLargestAngle_rad = 1000.0;  // what the core's sine is made for; fields that end in _rad
@@ -90,4 +90,4 @@ class ImageReader {
   StateBounds bounds_;
 };
 
-}  // namespace liana::record
+}  // namespace liana::recording

@@ -8,7 +8,7 @@
 #include "host/storage/recording/mcap.hpp"
 #include "host/storage/recording/recording.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 namespace {
 
@@ -40,4 +40,4 @@ ImagesCheck check_images(const std::string& directory, bool is_serial) {
   return is_serial ? check_file<serial::SerialArm>(file) : check_file<cable::CableArm>(file);
 }
 
-}  // namespace liana::record
+}  // namespace liana::recording

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace liana::record {
+namespace liana::recording {
 
 struct ImagesCheck {
   std::string state = "missing";  // or whole, cut short, damaged
@@ -15,4 +15,4 @@ struct ImagesCheck {
 // Reads all of `directory`/images.mcap; `is_serial`: the robot has a serial arm (ReplayResult).
 ImagesCheck check_images(const std::string& directory, bool is_serial);
 
-}  // namespace liana::record
+}  // namespace liana::recording

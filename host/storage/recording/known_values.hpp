@@ -9,7 +9,7 @@
 #include "firmware_like/safety/supervisor.hpp"
 #include "firmware_like/serial_controller.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 // True from the first to the last of an enumeration without gaps that starts at 0.
 template <class E>
@@ -19,7 +19,9 @@ constexpr bool is_up_to(E value, E last) {
 
 constexpr bool is_known(CommandKind kind) { return is_up_to(kind, CommandKind::kFollow); }
 constexpr bool is_known(StopCategory category) { return is_up_to(category, StopCategory::kOff); }
-constexpr bool is_known(cable::LetGoStage stage) { return is_up_to(stage, cable::LetGoStage::kUndone); }
+constexpr bool is_known(cable::SegmentReleaseStage stage) {
+  return is_up_to(stage, cable::SegmentReleaseStage::kUndone);
+}
 constexpr bool is_known(cable::ContactState state) { return is_up_to(state, cable::ContactState::kDithered); }
 constexpr bool is_known(Phase phase) { return is_up_to(phase, Phase::kResetting); }
 constexpr bool is_known(IkOutcome outcome) { return is_up_to(outcome, IkOutcome::kUnreachable); }
@@ -28,9 +30,9 @@ constexpr bool is_known(OperatingState state) { return is_up_to(state, Operating
 constexpr bool is_known(serial::WristStatus status) { return is_up_to(status, serial::WristStatus::kFailed); }
 constexpr bool is_known(serial::CatchState state) { return is_up_to(state, serial::CatchState::kFailed); }
 constexpr bool is_known(serial::WristHealth health) { return is_up_to(health, serial::WristHealth::kStuck); }
-constexpr bool is_known(serial::PushLaw law) { return is_up_to(law, serial::PushLaw::kImpedance); }
-constexpr bool is_known(serial::PushPhase phase) { return is_up_to(phase, serial::PushPhase::kYielding); }
-constexpr bool is_known(serial::PushEnd end) { return is_up_to(end, serial::PushEnd::kStopped); }
+constexpr bool is_known(serial::InsertLaw law) { return is_up_to(law, serial::InsertLaw::kImpedance); }
+constexpr bool is_known(serial::InsertPhase phase) { return is_up_to(phase, serial::InsertPhase::kYielding); }
+constexpr bool is_known(serial::InsertResult end) { return is_up_to(end, serial::InsertResult::kStopped); }
 inline bool is_known(FaultNumber number) { return fault_info(number).number == number; }
 
-}  // namespace liana::record
+}  // namespace liana::recording

@@ -13,7 +13,7 @@
 #include "host/storage/recording/crc32.hpp"
 #include "host/storage/recording/mcap_summary.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 // A channel and the schema of its messages.
 struct McapChannel {
@@ -78,4 +78,4 @@ enum class McapState : std::uint8_t {
 // opened, is no MCAP file, or is damaged so that its records cannot be told apart.
 McapState read_mcap(const std::string& path, const McapVisitor& visitor);
 
-}  // namespace liana::record
+}  // namespace liana::recording

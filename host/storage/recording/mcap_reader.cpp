@@ -8,7 +8,7 @@
 #include "host/storage/recording/mcap.hpp"
 #include "host/storage/recording/mcap_format.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 namespace {
 
@@ -189,4 +189,4 @@ McapState read_mcap(const std::string& path, const McapVisitor& visitor) {
   return McapState::kCutShort;
 }
 
-}  // namespace liana::record
+}  // namespace liana::recording

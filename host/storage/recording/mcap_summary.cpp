@@ -33,8 +33,8 @@ std::string OpenChunk::content() const {
   put(out, end_ns);
   put(out, static_cast<std::uint64_t>(records.size()));
   put(out, crc_of(records));
-  put_text(out, record::compression_name());
-  const std::string compressed = record::compress(records);
+  put_text(out, recording::compression_name());
+  const std::string compressed = recording::compress(records);
   put(out, static_cast<std::uint64_t>(compressed.size()));
   return out + compressed;
 }
@@ -50,7 +50,7 @@ void Summary::note_metadata(const std::string& name, std::uint64_t offset, std::
 void Summary::note_chunk(const OpenChunk& chunk, std::uint64_t offset, std::uint64_t length, std::string_view content,
                          const std::map<std::uint16_t, std::uint64_t>& index_offsets, std::uint64_t index_length) {
   constexpr std::size_t kFixedBytes = 8 + 8 + 8 + 4 + 4 + 8;  // of a chunk's content, around the compression's name
-  const std::string name = record::compression_name();
+  const std::string name = recording::compression_name();
   std::string entry;
   put(entry, chunk.start_ns);
   put(entry, chunk.end_ns);

@@ -5,7 +5,7 @@
 #include "host/storage/recording/mcap.hpp"
 #include "host/storage/recording/mcap_format.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 using namespace mcap;
 
@@ -123,4 +123,4 @@ void McapWriter::finish() {
                              "; the file is incomplete");
 }
 
-}  // namespace liana::record
+}  // namespace liana::recording

@@ -7,7 +7,7 @@
 #include "host/storage/recording/serialise.hpp"
 #include "host/storage/recording/visit_serial.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 namespace {
 
@@ -136,8 +136,8 @@ void Recording::finish() {
 bool is_of_serial_arm(const std::string& robot_json) { return Json::parse(robot_json).value("kind", "") == "serial"; }
 
 template <class Arm>
-ControllerImage<Arm> parse_image(std::string_view data, const std::string& source) {
-  ControllerImage<Arm> image;
+ControllerSnapshot<Arm> parse_image(std::string_view data, const std::string& source) {
+  ControllerSnapshot<Arm> image;
   std::uint8_t fresh = 0;
   Reader reader(data);
   reader("next_tick", image.next_tick);
@@ -153,7 +153,7 @@ ControllerImage<Arm> parse_image(std::string_view data, const std::string& sourc
   return image;
 }
 
-template ControllerImage<cable::CableArm> parse_image(std::string_view, const std::string&);
-template ControllerImage<serial::SerialArm> parse_image(std::string_view, const std::string&);
+template ControllerSnapshot<cable::CableArm> parse_image(std::string_view, const std::string&);
+template ControllerSnapshot<serial::SerialArm> parse_image(std::string_view, const std::string&);
 
-}  // namespace liana::record
+}  // namespace liana::recording

@@ -11,7 +11,7 @@
 #include "host/storage/recording/tick_packet.hpp"
 #include "host/storage/recording/visit.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 constexpr const char* kRecordingFile = "ticks.mcap";
 constexpr const char* kImagesFile = "images.mcap";
@@ -59,7 +59,7 @@ bool is_of_serial_arm(const std::string& robot_json);
 
 // Content of a start or controller_image message.
 template <class Arm>
-struct ControllerImage {
+struct ControllerSnapshot {
   std::uint64_t next_tick = 0;
   bool fresh = false;  // the Controller has not ticked yet: the table says all
   typename Arm::Table table{};
@@ -67,6 +67,6 @@ struct ControllerImage {
 };
 // Throws std::runtime_error with file (`source`), field, value and what is allowed, when the table would harm the core.
 template <class Arm>
-ControllerImage<Arm> parse_image(std::string_view data, const std::string& source = kImagesFile);
+ControllerSnapshot<Arm> parse_image(std::string_view data, const std::string& source = kImagesFile);
 
-}  // namespace liana::record
+}  // namespace liana::recording

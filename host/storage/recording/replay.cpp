@@ -7,12 +7,12 @@
 
 #include "host/storage/recording/build_id.hpp"
 #include "host/storage/recording/codec.hpp"
-#include "host/storage/recording/core_again.hpp"
 #include "host/storage/recording/mcap.hpp"
 #include "host/storage/recording/recording.hpp"
+#include "host/storage/recording/replay_core.hpp"
 #include "host/storage/recording/serialise.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 namespace {
 
@@ -50,7 +50,7 @@ class Replayer {
 
  private:
   bool start_from(std::string_view data, const std::string& file) {
-    const ControllerImage<Arm> image = parse_image<Arm>(data, file);
+    const ControllerSnapshot<Arm> image = parse_image<Arm>(data, file);
     if (!image.fresh && !result_.same_build) return false;
     core_.emplace(image, file);
     return true;
@@ -101,7 +101,7 @@ class Replayer {
   ReplayResult& result_;
   std::string directory_;
   std::optional<Images> images_;
-  std::optional<CoreAgain<Arm>> core_;
+  std::optional<ReplayCore<Arm>> core_;
   std::string expected_;
 };
 
@@ -142,4 +142,4 @@ ReplayResult replay(const std::string& directory) {
   return result;
 }
 
-}  // namespace liana::record
+}  // namespace liana::recording

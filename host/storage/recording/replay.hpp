@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace liana::record {
+namespace liana::recording {
 
 struct ReplayResult {
   std::uint64_t ticks = 0;
@@ -23,4 +23,4 @@ struct ReplayResult {
 // starts in mid-run without an image that this build can use. Nothing of a damaged file reaches the core.
 ReplayResult replay(const std::string& directory);
 
-}  // namespace liana::record
+}  // namespace liana::recording

@@ -4,7 +4,7 @@
 #include "host/storage/recording/codec.hpp"
 #include "host/storage/recording/visit_serial.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 namespace {
 
@@ -39,7 +39,7 @@ TelecommandFields<Setpoint> fields_of(const Telecommand<Setpoint>& t) {
 }
 
 template <class Setpoint>
-Telecommand<Setpoint> made_of(const TelecommandFields<Setpoint>& f) {
+Telecommand<Setpoint> source_stamp(const TelecommandFields<Setpoint>& f) {
   return Release::make(f.sequence, f.first_tick, f.expiry_tick, f.owner, f.setpoint);
 }
 
@@ -55,7 +55,7 @@ Inputs<Arm> RecordingDecoder::recorded_inputs(std::string_view bytes, const Reco
   reader("telecommand_present", present);
   if (present != 0) visit(reader, fields);
   check_length(reader.position(), bytes.size(), "inputs");
-  inputs.telecommand = made_of(fields);
+  inputs.telecommand = source_stamp(fields);
   return inputs;
 }
 
@@ -82,7 +82,7 @@ Inputs<Arm> RecordingDecoder::inputs(std::string_view bytes) {
   visit(reader, inputs);
   visit(reader, fields);
   check_length(reader.position(), bytes.size(), "inputs");
-  inputs.telecommand = made_of(fields);
+  inputs.telecommand = source_stamp(fields);
   return inputs;
 }
 
@@ -99,12 +99,12 @@ void append_serialised(std::string& out, const Outputs<Arm>& outputs) {
   visit(writer, outputs);
 }
 
-void append_serialised(std::string& out, const cable::RobotTable& table) {
+void append_serialised(std::string& out, const cable::RobotParams& table) {
   Writer writer(out);
   visit(writer, table);
 }
 
-void append_serialised(std::string& out, const serial::RobotTable& table) {
+void append_serialised(std::string& out, const serial::RobotParams& table) {
   Writer writer(out);
   visit(writer, table);
 }
@@ -155,4 +155,4 @@ LIANA_SERIALISED(cable::CableArm)
 LIANA_SERIALISED(serial::SerialArm)
 #undef LIANA_SERIALISED
 
-}  // namespace liana::record
+}  // namespace liana::recording

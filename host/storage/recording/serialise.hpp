@@ -8,7 +8,7 @@
 #include "firmware_like/serial_controller.hpp"
 #include "host/storage/recording/visit.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 // Rebuilds telecommands that were released and recorded; nothing else but Release can make one.
 class RecordingDecoder {
@@ -26,8 +26,8 @@ template <class Arm>
 void append_serialised(std::string& out, const Inputs<Arm>& inputs);
 template <class Arm>
 void append_serialised(std::string& out, const Outputs<Arm>& outputs);
-void append_serialised(std::string& out, const cable::RobotTable& table);
-void append_serialised(std::string& out, const serial::RobotTable& table);
+void append_serialised(std::string& out, const cable::RobotParams& table);
+void append_serialised(std::string& out, const serial::RobotParams& table);
 
 // Appends what recordings hold: of arrays only what the robot has, and of a telecommand that is not there a zero.
 template <class Arm>
@@ -51,4 +51,4 @@ std::size_t serialised_outputs_size();
 template <class Arm>
 std::string outputs_field_at(std::size_t offset, const RecordedCounts& counts = {});
 
-}  // namespace liana::record
+}  // namespace liana::recording

@@ -3,7 +3,7 @@
 #include "host/base/event/event_json.hpp"
 #include "host/storage/recording/build_id.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 namespace {
 
@@ -80,4 +80,4 @@ void StateRecording::finish() {
   file_.finish();
 }
 
-}  // namespace liana::record
+}  // namespace liana::recording

@@ -9,7 +9,7 @@
 #include "host/base/json/json.hpp"
 #include "host/storage/recording/mcap.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 constexpr const char* kStateFile = "state.mcap";
 
@@ -38,4 +38,4 @@ class StateRecording {
   std::string verdict_seen_;
 };
 
-}  // namespace liana::record
+}  // namespace liana::recording

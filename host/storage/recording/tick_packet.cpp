@@ -6,7 +6,7 @@
 #include "host/storage/recording/image.hpp"
 #include "host/storage/recording/serialise.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 template <class Arm>
 std::string tick_packet(const TickRecord<Arm>& record, std::uint64_t dropped, const RecordedCounts& counts) {
@@ -89,4 +89,4 @@ LIANA_PACKETS(cable::CableArm)
 LIANA_PACKETS(serial::SerialArm)
 #undef LIANA_PACKETS
 
-}  // namespace liana::record
+}  // namespace liana::recording

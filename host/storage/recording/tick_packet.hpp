@@ -9,7 +9,7 @@
 #include "host/storage/recording/tick_record.hpp"
 #include "host/storage/recording/visit.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 // First byte of a packet. JSON packets start with '{' and never collide.
 enum class TickPacket : std::uint8_t {
@@ -40,4 +40,4 @@ TickParts split_tick_packet(std::string_view packet);
 // Which packet this is; throws std::runtime_error when it is none.
 TickPacket tick_packet_kind(std::string_view packet);
 
-}  // namespace liana::record
+}  // namespace liana::recording

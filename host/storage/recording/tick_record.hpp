@@ -3,7 +3,7 @@
 
 #include "firmware_like/controller_io.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 template <class Arm>
 struct TickRecord {
@@ -11,4 +11,4 @@ struct TickRecord {
   Outputs<Arm> outputs{};
 };
 
-}  // namespace liana::record
+}  // namespace liana::recording

@@ -7,7 +7,7 @@
 
 #include "firmware_like/cable_controller.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 // T or const T: writers visit constants, readers visit variables.
 template <class T, class Plain>
@@ -18,7 +18,7 @@ struct RecordedCounts {
   std::uint8_t drives = kMaxDrives, thetas = cable::kMaxTheta, segments = cable::kMaxSegments;
 };
 
-inline RecordedCounts counts_of(const cable::RobotTable& table) {
+inline RecordedCounts counts_of(const cable::RobotParams& table) {
   return {static_cast<std::uint8_t>(table.drive_count()), static_cast<std::uint8_t>(table.theta_count()),
           static_cast<std::uint8_t>(table.segment_count)};
 }
@@ -150,7 +150,7 @@ void visit(A& a, T& d) {
   a("rate_counts_s", d.rate_counts_s);
 }
 
-template <class A, Like<cable::FrictionReport> T>
+template <class A, Like<cable::FrictionStatus> T>
 void visit(A& a, T& f) {
   a("mu", f.mu);
   a("sd", f.sd);
@@ -158,7 +158,7 @@ void visit(A& a, T& f) {
   a("not_as_declared", f.not_as_declared);
 }
 
-template <class A, Like<cable::ContactReport> T>
+template <class A, Like<cable::ContactStatus> T>
 void visit(A& a, T& c) {
   a("force_N", c.force_N);
   a("sd_N", c.sd_N);
@@ -204,7 +204,7 @@ void visit(A& a, T& o) {
   a("ik_residual", o.ik_residual);
 }
 
-template <class A, Like<cable::SegmentTable> T>
+template <class A, Like<cable::SegmentParams> T>
 void visit(A& a, T& s) {
   a("modules", s.modules);
   a("cables", s.cables);
@@ -224,7 +224,7 @@ void visit(A& a, T& t) {
   a("hard_limit_N", t.hard_limit_N);
 }
 
-template <class A, Like<cable::CableWatchTable> T>
+template <class A, Like<cable::CableMonitorParams> T>
 void visit(A& a, T& w) {
   a("jump_N", w.jump_N);
   a("contradiction_m", w.contradiction_m);
@@ -251,7 +251,7 @@ void visit(A& a, T& m) {
   a("tip_lag_s", m.tip_lag_s);
 }
 
-template <class A, Like<cable::DriveTable> T>
+template <class A, Like<cable::DriveParams> T>
 void visit(A& a, T& d) {
   a("metres_per_count", d.metres_per_count);
   a("direction", d.direction);
@@ -259,7 +259,7 @@ void visit(A& a, T& d) {
   a("newtons_per_permille", d.newtons_per_permille);
 }
 
-template <class A, Like<cable::RobotTable> T>
+template <class A, Like<cable::RobotParams> T>
 void visit(A& a, T& r) {
   a("segment_count", r.segment_count);
   a("segment", r.segment);
@@ -272,10 +272,10 @@ void visit(A& a, T& r) {
   a("tick_s", r.tick_s);
   a("interval_ticks", r.interval_ticks);
   a("tension", r.tension);
-  a("cable_watch", r.cable_watch);
+  a("cable_watch", r.cable_monitor);
   a("torque_zero", r.torque_zero);
   a("limits", r.limits);
   a("drive", r.drive);
 }
 
-}  // namespace liana::record
+}  // namespace liana::recording

@@ -3,7 +3,7 @@
 
 #include "host/storage/recording/visit_core_state.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 template <class A, Like<cable::EstimatorState> T>
 void visit(A& a, T& s) {
@@ -14,14 +14,14 @@ void visit(A& a, T& s) {
   a("primed", s.primed);
 }
 
-template <class A, Like<cable::TensionWatchState> T>
+template <class A, Like<cable::TensionMonitorState> T>
 void visit(A& a, T& s) {
   a("slack_ticks", s.slack_ticks);
   a("alarm_ticks", s.alarm_ticks);
   a("overload_ticks", s.overload_ticks);
 }
 
-template <class A, Like<cable::CableWatchState> T>
+template <class A, Like<cable::CableMonitorState> T>
 void visit(A& a, T& s) {
   a("watching", s.watching);
   a("newest", s.newest);
@@ -37,7 +37,7 @@ void visit(A& a, T& s) {
   a("reversals", s.reversals);
 }
 
-template <class A, Like<cable::FrictionWatchState> T>
+template <class A, Like<cable::FrictionEstimatorState> T>
 void visit(A& a, T& s) {
   a("mu", s.mu);
   a("variance", s.variance);
@@ -70,7 +70,7 @@ void visit(A& a, T& s) {
   a("stir", s.stir);
 }
 
-template <class A, Like<cable::ContactWatchState> T>
+template <class A, Like<cable::ContactDetectorState> T>
 void visit(A& a, T& s) {
   a("state", s.state);
   a("force_N", s.force_N);
@@ -148,7 +148,7 @@ void visit(A& a, T& s) {
   a("tip_jacobian", s.tip_jacobian);
 }
 
-template <class A, Like<cable::IkReport> T>
+template <class A, Like<cable::IkResult> T>
 void visit(A& a, T& s) {
   a("position_error_m", s.position_error_m);
   a("attitude_error_rad", s.attitude_error_rad);
@@ -223,7 +223,7 @@ void visit(A& a, T& s) {
   a("solver", s.solver);
 }
 
-template <class A, Like<cable::LetGoState> T>
+template <class A, Like<cable::SegmentReleaseState> T>
 void visit(A& a, T& s) {
   a("stage", s.stage);
   a("segment", s.segment);
@@ -255,4 +255,4 @@ void visit(A& a, T& s) {
   a("balanced", s.balanced);
 }
 
-}  // namespace liana::record
+}  // namespace liana::recording

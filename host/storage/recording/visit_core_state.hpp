@@ -6,7 +6,7 @@
 #include "firmware_like/operator_input/tip_filter.hpp"
 #include "host/storage/recording/visit.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 // A Controller or an arm: it shows its own members.
 template <class A, class T>
@@ -40,7 +40,7 @@ void visit(A& a, Telecommand<Setpoint>& t) {
   t = Release::make(sequence, first_tick, expiry_tick, owner, setpoint);
 }
 
-template <class A, Like<LinkWatchState> T>
+template <class A, Like<DriveLinkMonitorState> T>
 void visit(A& a, T& s) {
   a("seen_mask", s.seen_mask);
   a("unseen_ticks", s.unseen_ticks);
@@ -48,7 +48,7 @@ void visit(A& a, T& s) {
   a("following_ticks", s.following_ticks);
 }
 
-template <class A, Like<ClearReport> T>
+template <class A, Like<ClearResult> T>
 void visit(A& a, T& s) {
   a("tick", s.tick);
   a("checked", s.checked);
@@ -96,4 +96,4 @@ void visit(A& a, T& s) {
   a("tremor", s.tremor);
 }
 
-}  // namespace liana::record
+}  // namespace liana::recording

@@ -5,9 +5,9 @@
 #include "firmware_like/serial_controller.hpp"
 #include "host/storage/recording/visit.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
-inline RecordedCounts counts_of(const serial::RobotTable& table) {
+inline RecordedCounts counts_of(const serial::RobotParams& table) {
   const auto joints = static_cast<std::uint8_t>(table.joint_count);
   return {joints, joints, 0};
 }
@@ -56,7 +56,7 @@ void visit(A& a, T& p) {
   a("gains", p.gains);
 }
 
-template <class A, Like<serial::PushReport> T>
+template <class A, Like<serial::InsertStatus> T>
 void visit(A& a, T& p) {
   a("number", p.number);
   a("phase", p.phase);
@@ -124,7 +124,7 @@ void visit(A& a, T& d) {
   a("offset_rad", d.offset_rad);
 }
 
-template <class A, Like<serial::JointTable> T>
+template <class A, Like<serial::JointParams> T>
 void visit(A& a, T& j) {
   a("dh", j.dh);
   a("low_rad", j.low_rad);
@@ -133,7 +133,7 @@ void visit(A& a, T& j) {
   a("accel_rad_s2", j.accel_rad_s2);
 }
 
-template <class A, Like<serial::DriveTable> T>
+template <class A, Like<serial::DriveParams> T>
 void visit(A& a, T& d) {
   a("rad_per_count", d.rad_per_count);
   a("direction", d.direction);
@@ -163,9 +163,9 @@ void visit(A& a, T& m) {
   a("link", m.link);
 }
 
-template <class A, Like<serial::TorqueTable> T>
+template <class A, Like<serial::TorqueParams> T>
 void visit(A& a, T& t) {
-  a("gives_torque", t.gives_torque);
+  a("gives_torque", t.is_torque_controlled);
   a("masses", t.masses);
   a("coulomb_Nm", t.coulomb_Nm);
   a("viscous_Nms_per_rad", t.viscous_Nms_per_rad);
@@ -180,7 +180,7 @@ void visit(A& a, T& t) {
   a("gain_high", t.gain_high);
 }
 
-template <class A, Like<serial::RobotTable> T>
+template <class A, Like<serial::RobotParams> T>
 void visit(A& a, T& r) {
   a("joint_count", r.joint_count);
   a("joint", r.joint);
@@ -192,4 +192,4 @@ void visit(A& a, T& r) {
   a("interval_ticks", r.interval_ticks);
 }
 
-}  // namespace liana::record
+}  // namespace liana::recording

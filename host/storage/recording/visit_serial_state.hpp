@@ -4,7 +4,7 @@
 #include "host/storage/recording/visit_core_state.hpp"
 #include "host/storage/recording/visit_serial.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 template <class A, Like<serial::JointReading> T>
 void visit(A& a, T& s) {
@@ -13,7 +13,7 @@ void visit(A& a, T& s) {
   a("jumped", s.jumped);
 }
 
-template <class A, Like<serial::JointWatchState> T>
+template <class A, Like<serial::JointMonitorState> T>
 void visit(A& a, T& s) {
   a("reading", s.reading);
   a("outside_ticks", s.outside_ticks);
@@ -40,7 +40,7 @@ void visit(A& a, T& s) {
   a("tip_jacobian", s.tip_jacobian);
 }
 
-template <class A, Like<serial::IkReport> T>
+template <class A, Like<serial::IkResult> T>
 void visit(A& a, T& s) {
   a("residual", s.residual);
   a("position_error_m", s.position_error_m);
@@ -88,7 +88,7 @@ void visit(A& a, T& s) {
   a("angular_rad_s", s.angular_rad_s);
 }
 
-template <class A, Like<serial::PushState> T>
+template <class A, Like<serial::InsertState> T>
 void visit(A& a, T& s) {
   a("order", s.order);
   a("phase", s.phase);
@@ -128,4 +128,4 @@ void visit(A& a, T& s) {
   a("planned_rad_s", s.planned_rad_s);
 }
 
-}  // namespace liana::record
+}  // namespace liana::recording

@@ -4,7 +4,7 @@
 #include "firmware_like/serial_controller.hpp"
 
 namespace {
-liana::BITS_ARM::RobotTable table;
+liana::BITS_ARM::RobotParams table;
 liana::BITS_ARM::Controller controller(table);
 liana::BITS_ARM::Inputs inputs;
 liana::BITS_ARM::Outputs outputs;

@@ -17,7 +17,7 @@ constexpr std::size_t kFileBuffer = 1 << 16;
 template <class Arm>
 std::string default_table() {
   std::string bytes;
-  record::append_serialised(bytes, typename Arm::Table{});
+  recording::append_serialised(bytes, typename Arm::Table{});
   return bytes;
 }
 
@@ -50,20 +50,21 @@ class Player {
   }
   bool robot() {
     if (!read_all(tape_, table_)) return false;
-    controller_.emplace(record::table_from<Arm>(table_));
+    controller_.emplace(recording::table_from<Arm>(table_));
     return true;
   }
   bool tick() {
     if (!read_all(tape_, inputs_)) return false;
     written_.clear();
-    record::append_serialised(written_, metered_tick(*controller_, record::RecordingDecoder::inputs<Arm>(inputs_)));
+    recording::append_serialised(written_,
+                                 metered_tick(*controller_, recording::RecordingDecoder::inputs<Arm>(inputs_)));
     return std::fwrite(written_.data(), 1, written_.size(), out_) == written_.size();
   }
 
   std::FILE* tape_;
   std::FILE* out_;
   std::string table_ = default_table<Arm>();
-  std::string inputs_ = std::string(record::serialised_inputs_size<Arm>(), '\0');
+  std::string inputs_ = std::string(recording::serialised_inputs_size<Arm>(), '\0');
   std::string written_;
   std::optional<Controller<Arm>> controller_, kept_;
 };

@@ -51,7 +51,7 @@ void write_frame(int descriptor, const CanFrame& frame) {
 // A fake drive on an interface, until it is destroyed.
 class DriveThread {
  public:
-  DriveThread(const std::string& interface, const canopen::DriveExpectation& is)
+  DriveThread(const std::string& interface, const canopen::ExpectedDrive& is)
       : descriptor_(raw_socket(interface)), thread_([this, is] { run(test::FakeDrive(is)); }) {}
   ~DriveThread() {
     end_ = true;
@@ -95,7 +95,7 @@ void shell(const std::string& command) { EXPECT_EQ(std::system(command.c_str()),
 
 TEST(SocketCan, BootsDrivesOnTwoInterfacesAndCollectsTheirFeedback) {
   const config::BusesConfig table = vcan_table();
-  const std::vector<canopen::DriveExpectation> expected{test::expectation(0, 1), test::expectation(1, 2)};
+  const std::vector<canopen::ExpectedDrive> expected{test::expectation(0, 1), test::expectation(1, 2)};
   DriveThread first("vcan0", expected[0]);
   DriveThread second("vcan1", expected[1]);
   auto bus = open_drive_bus(table, timing::TimeMode::kReal, "");

@@ -82,7 +82,7 @@ void add_jog(CLI::App& group, Action& action) {
   sub.add_option("--mm-per-turn", jog.mm_per_turn, "for mm: the way of one turn of the motor");
   sub.add_option("--counts-per-turn", jog.counts_per_turn, "of the encoder, for drives without 608F");
   sub.add_option("--most", jog.most, "longest way, turns of the motor; to 100")->capture_default_str();
-  sub.add_option("--most-speed", jog.most_speed, "fastest, turns/s; to 100")->capture_default_str();
+  sub.add_option("--most-speed", jog.max_speed, "fastest, turns/s; to 100")->capture_default_str();
   sub.add_option("--torque", jog.torque, "at most, permille of the rated torque (6072); 10 to 1000")
       ->capture_default_str();
   sub.add_flag("--yes", jog.yes, "move without asking for the word at the terminal");

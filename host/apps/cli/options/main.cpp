@@ -18,7 +18,7 @@ using namespace liana::cli;
 
 namespace {
 
-using liana::system::ExitCode;
+using liana::launcher::ExitCode;
 
 constexpr const char* kFooter =
     "Exit codes: 0 done, 1 failed, 2 bad input, 3 inverse kinematics did not converge or there is no plan,\n"
@@ -32,7 +32,7 @@ void declare_global(CLI::App& app) {
   app.footer(kFooter);
   app.set_version_flag("--version", "liana " LIANA_VERSION, "say which version");
   app.add_option_function<std::string>(
-      kLuaDir, [](const std::string& folder) { liana::places::search_first(kLuaDir, folder); },
+      kLuaDir, [](const std::string& folder) { liana::install_paths::search_first(kLuaDir, folder); },
       "before the command: a folder of tables and missions that is searched first (docs/how-to/install.md)");
 }
 
@@ -72,14 +72,14 @@ class Refusal {
 int perform(const Action& action, const Refusal& refuse) {
   try {
     return action();
-  } catch (const liana::system::BadInput& error) {
+  } catch (const liana::launcher::BadInput& error) {
     return refuse(ExitCode::kExitBadInput, error.what());
-  } catch (const liana::system::NothingStopped& error) {
+  } catch (const liana::launcher::NothingStopped& error) {
     return refuse(ExitCode::kExitNothingStopped, error.what());
-  } catch (const liana::system::Interrupted& error) {
+  } catch (const liana::launcher::Interrupted& error) {
     std::fprintf(stderr, "liana: %s\n", error.what());
     return ExitCode::kExitInterrupted;
-  } catch (const liana::desk::DeskInterrupted& error) {
+  } catch (const liana::commissioning::CommissioningInterrupted& error) {
     std::fprintf(stderr, "liana: %s\n", error.what());
     return ExitCode::kExitInterrupted;
   } catch (const std::exception& error) {
@@ -119,6 +119,6 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  liana::system::end_on_interrupt();
-  return liana::system::after_standard_output(run(argc, argv));
+  liana::launcher::end_on_interrupt();
+  return liana::launcher::after_standard_output(run(argc, argv));
 }

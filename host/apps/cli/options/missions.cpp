@@ -5,7 +5,7 @@
 namespace liana::cli {
 namespace {
 
-void add_mission_options(CLI::App& sub, system::RunOptions& run) {
+void add_mission_options(CLI::App& sub, launcher::RunOptions& run) {
   sub.add_option("mission", run.mission, "a name under lua/missions, a file, or a plan (JSON of liana plan --out)")
       ->required();
   sub.add_option(
@@ -52,7 +52,7 @@ void add_mission_options(CLI::App& sub, system::RunOptions& run) {
 }
 
 // Who steers, and over what.
-void add_people(CLI::App& sub, system::OperatorChoice& people) {
+void add_people(CLI::App& sub, launcher::OperatorChoice& people) {
   sub.add_option("--operator", people.who,
                  "recorded: VR handles from a file, a simulated person at the hand controller; human: a simulated "
                  "person at simulated devices in every step (docs/explanation/operator-model.md); recorded where "
@@ -79,7 +79,7 @@ void add_people(CLI::App& sub, system::OperatorChoice& people) {
 
 void add_run(CLI::App& app, Action& action) {
   auto [sub, run] =
-      add<system::RunOptions>(app, action, "run", "start the whole system and run a mission", run_command);
+      add<launcher::RunOptions>(app, action, "run", "start the whole system and run a mission", run_command);
   add_mission_options(sub, run);
   sub.add_option("--time", run.time, "fast, paced or real; fast where nothing is said, real on SocketCAN")
       ->check(CLI::IsMember({"fast", "paced", "real"}));
@@ -92,7 +92,7 @@ void add_run(CLI::App& app, Action& action) {
 }
 
 void add_check(CLI::App& app, Action& action) {
-  auto [sub, check] = add<system::RunOptions>(
+  auto [sub, check] = add<launcher::RunOptions>(
       app, action, "check", "dry run of a mission: what its steps leave of the limits, what is refused", check_command);
   add_mission_options(sub, check);
 }

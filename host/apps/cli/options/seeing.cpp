@@ -6,7 +6,7 @@
 namespace liana::cli {
 namespace {
 
-void add_gateway_options(CLI::App& sub, system::GatewayOptions& gateway) {
+void add_gateway_options(CLI::App& sub, launcher::GatewayOptions& gateway) {
   sub.add_option(
       "--listen", gateway.listen,
       "ADDR:PORT; where not given 127.0.0.1:8765, or a free port where that is taken; beyond this machine it "
@@ -18,7 +18,7 @@ void add_gateway_options(CLI::App& sub, system::GatewayOptions& gateway) {
   sub.add_option("--key", gateway.key, "its key, PEM");
 }
 
-void add_system(CLI::App& sub, SystemWish& wish) {
+void add_system(CLI::App& sub, SystemSelection& wish) {
   sub.add_option("--api", wish.api,
                  "API socket of a lianad; where not given, that of the one running system, or a simulated arm");
   sub.add_flag("--simulate", wish.simulate, "start a simulated arm, also where a system runs");
@@ -77,7 +77,7 @@ void add_view(CLI::App& app, Action& action) {
 
 void add_commands(CLI::App& app, Action& action) {
   auto [sub, commands] = add<CommandsOptions>(
-      app, action, "commands", "what became of the commands of a run: verdicts, margins, refusals", commands_command);
+      app, action, "commands", "what became of the commands of a run: verdicts, margins, refusals", command_log);
   sub.add_option("run", commands.run,
                  "a folder, the name of one of the newest runs, or a commands.txt; where not given, the newest run");
   sub.add_option_function<std::string>(

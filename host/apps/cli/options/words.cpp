@@ -11,9 +11,9 @@ namespace {
 // "everything" or "nothing".
 void check_values(const std::vector<std::string>& words) {
   for (const std::string& word : words) {
-    if (word.empty()) throw system::BadInput("an argument is empty (''); give a value, or leave the option out");
+    if (word.empty()) throw launcher::BadInput("an argument is empty (''); give a value, or leave the option out");
     if (word.starts_with("--") && word.ends_with('='))
-      throw system::BadInput(word + ": no value after =; give one, or leave the option out");
+      throw launcher::BadInput(word + ": no value after =; give one, or leave the option out");
   }
 }
 
@@ -24,7 +24,7 @@ void check_options(const CLI::App& command, const std::string& before, std::span
     if (word == "--") return;
     const std::string option = word.substr(0, word.find('='));
     if (word.starts_with("--") && option != "--help" && command.get_option_no_throw(option) == nullptr)
-      throw system::BadInput(option + ": liana " + before + "has no such option; see liana " + before + "--help");
+      throw launcher::BadInput(option + ": liana " + before + "has no such option; see liana " + before + "--help");
   }
 }
 
@@ -38,7 +38,7 @@ void check_command(const CLI::App& app, const std::string& before, std::span<con
   }
   if (names.empty() || (!words.empty() && words.front().starts_with('-'))) return check_options(app, before, words);
   const std::string problem = words.empty() ? "no command given" : "'" + before + words.front() + "': no such command";
-  throw system::BadInput(problem + "; liana " + before + "knows: " + names + "; see liana help");
+  throw launcher::BadInput(problem + "; liana " + before + "knows: " + names + "; see liana help");
 }
 
 // `help` is followed by a command's words and nothing else; one that is no command gets check_command's list.
@@ -47,8 +47,8 @@ void check_help(const CLI::App& app, std::span<const std::string> words) {
   for (const std::string& word : words) {
     const auto all = command->get_subcommands([](const CLI::App*) { return true; });
     if (all.empty())
-      throw system::BadInput("help: '" + word + "': liana " + command->get_name() +
-                             " has no commands of its own; allowed: liana help, or liana help COMMAND");
+      throw launcher::BadInput("help: '" + word + "': liana " + command->get_name() +
+                               " has no commands of its own; allowed: liana help, or liana help COMMAND");
     const auto below =
         std::find_if(all.begin(), all.end(), [&](const CLI::App* sub) { return sub->get_name() == word; });
     if (below == all.end()) return;

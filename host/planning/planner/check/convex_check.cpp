@@ -7,11 +7,11 @@
 
 #include "host/planning/planner/check/vectors.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Vector = std::array<double, 3>;
-constexpr unsigned long kMostIterations = 200;
+constexpr unsigned long kMaxIterations = 200;
 constexpr double kSharp_m = 1e-6;
 
 Vector beyond(const Vector& p, const Vector& way, double factor) {
@@ -51,9 +51,9 @@ bool touches(const Swollen& link, const config::SceneConvex& body) {
   CCD_INIT(&ccd);
   ccd.support1 = farthest_of_link;
   ccd.support2 = farthest_of_body;
-  ccd.max_iterations = kMostIterations;
+  ccd.max_iterations = kMaxIterations;
   const bool touching = ccdGJKIntersect(&link, &body, &ccd) != 0;
-  return touching || link.asked > kMostIterations;  // libccd takes what it could not decide for apart
+  return touching || link.asked > kMaxIterations;  // libccd takes what it could not decide for apart
 }
 
 }  // namespace
@@ -76,4 +76,4 @@ double convex_distance_m(const Vector& from, const Vector& to, const config::Sce
   return free_m - body.round_m;
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

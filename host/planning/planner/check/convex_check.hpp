@@ -5,7 +5,7 @@
 
 #include "host/model/config/config.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 // Distance of a link's axis from a convex body, or `enough` when it is not below that; within 5 um of the true one
 // (libccd's own error, at distances of half a metre) where libccd decides. Found by halving: how much the axis can be
@@ -15,4 +15,4 @@ namespace liana::plan {
 double convex_distance_m(const std::array<double, 3>& from, const std::array<double, 3>& to,
                          const config::SceneConvex& body, double enough);
 
-}  // namespace liana::plan
+}  // namespace liana::planner

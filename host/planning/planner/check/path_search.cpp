@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
 
 // No point of the arm moves more than this while the thetas change by `b - a`: every joint of a segment turns by the
 // change, with at most the length of the arm from the segment's root as lever.
-double largest_motion_m(const RobotTable& table, const ThetaVector& a, const ThetaVector& b) {
+double largest_motion_m(const RobotParams& table, const ThetaVector& a, const ThetaVector& b) {
   double lever_m = 0.0, motion_m = 0.0;
   for (Index m = static_cast<Index>(table.segment_count); m-- > 0;) {
     lever_m += table.segment[m].modules * table.segment[m].module_length_m;
@@ -31,7 +31,7 @@ void PathSearch::along(const std::vector<ThetaVector>& path) {
 double PathSearch::look(const ThetaVector& theta_rad) {
   ++poses_;
   const double here_m = look_(theta_rad);
-  least_m_ = std::min(least_m_, here_m);
+  min_m_ = std::min(min_m_, here_m);
   return here_m;
 }
 
@@ -43,7 +43,7 @@ void PathSearch::search(const Piece& whole) {
     const Piece piece = open.back();
     open.pop_back();
     const double motion_m = pace_ * largest_motion_m(table_, piece.from, piece.to);
-    if ((piece.from_m + piece.to_m - motion_m) / 2.0 >= least_m_ - kUnseen_m) continue;
+    if ((piece.from_m + piece.to_m - motion_m) / 2.0 >= min_m_ - kUnseen_m) continue;
     ThetaVector middle{};
     for (Index k = 0; k < middle.size(); ++k) middle[k] = 0.5 * (piece.from[k] + piece.to[k]);
     const double middle_m = look(middle);
@@ -52,4 +52,4 @@ void PathSearch::search(const Piece& whole) {
   }
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

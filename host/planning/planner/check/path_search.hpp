@@ -6,9 +6,9 @@
 #include <functional>
 #include <vector>
 
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_params.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -18,8 +18,8 @@ class PathSearch {
  public:
   // `look` tells the distance at a pose; it changes by at most `pace` times what any point of the arm moves. Distances
   // of `enough_m` and more need not be told apart.
-  PathSearch(const RobotTable& table, std::function<double(const ThetaVector&)> look, double pace, double enough_m)
-      : table_(table), look_(std::move(look)), pace_(pace), least_m_(enough_m) {}
+  PathSearch(const RobotParams& table, std::function<double(const ThetaVector&)> look, double pace, double enough_m)
+      : table_(table), look_(std::move(look)), pace_(pace), min_m_(enough_m) {}
 
   // Looks at every waypoint, and at as many poses between them as certainty needs.
   void along(const std::vector<ThetaVector>& path);
@@ -34,11 +34,11 @@ class PathSearch {
   double look(const ThetaVector& theta_rad);
   void search(const Piece& whole);
 
-  const RobotTable& table_;
+  const RobotParams& table_;
   std::function<double(const ThetaVector&)> look_;
   double pace_;
-  double least_m_;
+  double min_m_;
   std::int64_t poses_ = 0;
 };
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -9,7 +9,7 @@
 #include "host/planning/planner/check/path_search.hpp"
 #include "host/planning/planner/check/vectors.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
@@ -47,10 +47,10 @@ struct Chain {
   Rotation tip = kIdentity;
 };
 
-Chain chain_of(const RobotTable& table, const ThetaVector& theta_rad) {
+Chain chain_of(const RobotParams& table, const ThetaVector& theta_rad) {
   Chain chain;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
-    const SegmentTable& segment = table.segment[m];
+    const SegmentParams& segment = table.segment[m];
     const std::array<Rotation, 2> joint{joint_rotation(theta_rad[2 * m], theta_rad[2 * m + 1], true),
                                         joint_rotation(theta_rad[2 * m], theta_rad[2 * m + 1], false)};
     for (std::int32_t k = 0; k < segment.modules; ++k) {
@@ -76,7 +76,7 @@ std::array<double, 4> quaternion_of(const Rotation& R) {
 }
 
 // Paths of all cables, hole by hole: across every joint, and straight through the links between.
-std::vector<double> cable_lengths_m(const RobotTable& table, const ThetaVector& theta_rad) {
+std::vector<double> cable_lengths_m(const RobotParams& table, const ThetaVector& theta_rad) {
   std::vector<double> lengths;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
     for (Index c = 0; c < static_cast<Index>(table.segment[m].cables); ++c) {
@@ -184,7 +184,7 @@ void check_clearance(const config::RobotConfig& robot, const config::SceneConfig
   out.poses = search.poses();
 }
 
-void check_angles(const RobotTable& table, const std::vector<ThetaVector>& path, PlanCheck& out) {
+void check_angles(const RobotParams& table, const std::vector<ThetaVector>& path, PlanCheck& out) {
   for (Index w = 0; w < path.size(); ++w) {
     for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
       const double size = std::fabs(path[w][k]);
@@ -195,7 +195,7 @@ void check_angles(const RobotTable& table, const std::vector<ThetaVector>& path,
   }
 }
 
-void check_cables(const RobotTable& table, const std::vector<ThetaVector>& path, PlanCheck& out) {
+void check_cables(const RobotParams& table, const std::vector<ThetaVector>& path, PlanCheck& out) {
   std::vector<double> before = cable_lengths_m(table, path.front());
   for (Index w = 1; w < path.size(); ++w) {
     const std::vector<double> now = cable_lengths_m(table, path[w]);
@@ -214,7 +214,7 @@ void check_cables(const RobotTable& table, const std::vector<ThetaVector>& path,
 }
 
 // The tension plan is the core's own: what is asked is whether the arm's controller can hold these poses.
-void check_tension(const RobotTable& table, const std::vector<ThetaVector>& path, PlanCheck& out) {
+void check_tension(const RobotParams& table, const std::vector<ThetaVector>& path, PlanCheck& out) {
   const CableLayout layout = cable_layout(table);
   out.min_tension_N = 1e300;
   for (const ThetaVector& theta : path) {
@@ -230,12 +230,12 @@ void check_tension(const RobotTable& table, const std::vector<ThetaVector>& path
 
 }  // namespace
 
-CheckedTip plain_tip(const RobotTable& table, const ThetaVector& theta_rad) {
+CheckedTip plain_tip(const RobotParams& table, const ThetaVector& theta_rad) {
   const Chain chain = chain_of(table, theta_rad);
   return {chain.link_end_m.back(), quaternion_of(chain.tip)};
 }
 
-std::vector<std::array<double, 3>> plain_axis(const RobotTable& table, const ThetaVector& theta_rad) {
+std::vector<std::array<double, 3>> plain_axis(const RobotParams& table, const ThetaVector& theta_rad) {
   return chain_of(table, theta_rad).link_end_m;
 }
 
@@ -258,4 +258,4 @@ PlanCheck check_plan(const config::RobotConfig& robot, const config::SceneConfig
   return out;
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -16,7 +16,7 @@
 #include "host/model/config/config.hpp"
 #include "host/planning/planner/check/self_check.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -50,9 +50,9 @@ PlanCheck check_plan(const config::RobotConfig& robot, const config::SceneConfig
                      const std::vector<ThetaVector>& waypoints_rad, const CheckedTip& goal);
 
 // Tip of joint angles by the plain product of joints.
-CheckedTip plain_tip(const RobotTable& table, const ThetaVector& theta_rad);
+CheckedTip plain_tip(const RobotParams& table, const ThetaVector& theta_rad);
 
 // The same way: ends of all links, base frame; the base comes first.
-std::vector<std::array<double, 3>> plain_axis(const RobotTable& table, const ThetaVector& theta_rad);
+std::vector<std::array<double, 3>> plain_axis(const RobotParams& table, const ThetaVector& theta_rad);
 
-}  // namespace liana::plan
+}  // namespace liana::planner

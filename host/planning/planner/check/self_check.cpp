@@ -9,7 +9,7 @@
 #include "host/planning/planner/check/vectors.hpp"
 #include "host/planning/planner/text.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -35,7 +35,7 @@ double pieces_distance_m(const Vector& a, const Vector& a_end, const Vector& b, 
 }
 
 // Joints between two links that can bend by half a turn at their limits: with fewer the links cannot touch.
-Index least_gap(const RobotTable& table) {
+Index min_gap(const RobotParams& table) {
   double limit_rad = 0.0;
   for (Index m = 0; m < Index(table.segment_count); ++m)
     limit_rad = std::max(limit_rad, table.segment[m].theta_limit_rad);
@@ -46,7 +46,7 @@ Index least_gap(const RobotTable& table) {
 
 SelfClearance self_clearance(const config::RobotConfig& robot, const ThetaVector& theta_rad) {
   const std::vector<Vector> end = plain_axis(robot.table, theta_rad);
-  const Index gap = least_gap(robot.table);
+  const Index gap = min_gap(robot.table);
   SelfClearance least;
   least.link = {0, 0};
   for (Index a = 1; a + gap < end.size(); ++a) {
@@ -76,4 +76,4 @@ SelfClearance self_clearance_along(const config::RobotConfig& robot, const std::
   return least;
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

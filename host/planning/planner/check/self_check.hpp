@@ -8,7 +8,7 @@
 
 #include "host/model/config/config.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -34,4 +34,4 @@ SelfClearance self_clearance(const config::RobotConfig& robot, const ThetaVector
 constexpr double kSelfNear_m = 0.05;
 SelfClearance self_clearance_along(const config::RobotConfig& robot, const std::vector<ThetaVector>& path);
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace liana::plan {
+namespace liana::planner {
 
 inline double product(const std::array<double, 3>& a, const std::array<double, 3>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -14,4 +14,4 @@ inline double distance(const std::array<double, 3>& a, const std::array<double, 
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

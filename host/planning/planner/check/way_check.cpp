@@ -5,7 +5,7 @@
 #include "host/planning/planner/check/plan_check.hpp"
 #include "host/planning/planner/text.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 constexpr double kRounding_m = 1e-6;  // of points that became degrees in between
@@ -48,4 +48,4 @@ std::string refusal_of_way(const config::RobotConfig& robot, const config::Scene
   return whole;
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -6,7 +6,7 @@
 
 #include "host/model/config/config.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 // Why the arm must not go straight in theta from each of these points [rad] to the next: the first piece of the way
 // that comes nearer to an obstacle than `margin_m`, or to the arm itself than kSelfMargin_m and twice `off_m`, which is
@@ -15,4 +15,4 @@ namespace liana::plan {
 std::string refusal_of_way(const config::RobotConfig& robot, const config::SceneConfig& scene,
                            const std::vector<cable::ThetaVector>& points_rad, double margin_m, double off_m);
 
-}  // namespace liana::plan
+}  // namespace liana::planner

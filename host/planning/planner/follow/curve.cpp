@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
@@ -79,4 +79,4 @@ CurvePlace Curve::nearest(const Vec3& point_m, double from_m, double until_m) co
   return at(along_m);
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -5,7 +5,7 @@
 
 #include "firmware_like/math/pose.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 // A place on a curve.
 struct CurvePlace {
@@ -32,4 +32,4 @@ class Curve {
   std::vector<double> along_m_;  // per sample
 };
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -9,7 +9,7 @@
 #include "host/planning/planner/start/relax.hpp"
 #include "host/planning/planner/text.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
@@ -23,8 +23,8 @@ constexpr double kSettled_rad = 0.003;
 constexpr std::int32_t kTurnSteps = 400;
 constexpr double kTurn_rad = 0.01;  // of a theta in each of them
 constexpr double kTipTolerance_m = 1e-6;
-constexpr int kLooks = 8;         // at the tip between two waypoints
-constexpr int kMostHalvings = 5;  // of the way between two poses, where the tip swings out or a step is too long
+constexpr int kLooks = 8;        // at the tip between two waypoints
+constexpr int kMaxHalvings = 5;  // of the way between two poses, where the tip swings out or a step is too long
 
 double largest_change(const ThetaVector& a, const ThetaVector& b) {
   double most = 0.0;
@@ -194,7 +194,7 @@ class Follower {
 
   std::vector<Stop> refined(const std::vector<Stop>& way) const {
     std::vector<Stop> out{way.front()};
-    for (Index i = 1; i < way.size(); ++i) go_to(way[i], kMostHalvings, out);
+    for (Index i = 1; i < way.size(); ++i) go_to(way[i], kMaxHalvings, out);
     return out;
   }
 
@@ -252,4 +252,4 @@ FollowCurve slit_curve(const Room& room, const ThetaVector& from_rad, const Thet
   return curve;
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

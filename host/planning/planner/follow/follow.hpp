@@ -12,7 +12,7 @@
 #include "host/planning/planner/follow/curve.hpp"
 #include "host/planning/planner/problem/room.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -44,4 +44,4 @@ FollowCurve slit_curve(const Room& room, const ThetaVector& from_rad, const Thet
 FollowPath follow_path(const Room& room, const PlanRequest& request, const Curve& curve,
                        const std::optional<ThetaVector>& goal_rad, const PlanControl& control);
 
-}  // namespace liana::plan
+}  // namespace liana::planner

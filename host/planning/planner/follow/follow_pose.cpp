@@ -6,7 +6,7 @@
 #include "host/planning/planner/problem/arm_derivatives.hpp"
 #include "host/planning/planner/problem/pose_model.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
@@ -22,43 +22,43 @@ constexpr std::int32_t kTipSteps = 8;
 constexpr double kRamp_m = 0.1;     // a link end counts fully when it is so far past the curve's beginning
 constexpr double kStartLine = 0.1;  // and so much before it: an arm that takes up length there cannot stay on its line
 constexpr double kWindow_m = 0.2;   // how far a link end may be from where it can be on the track
-constexpr double kMostDamping_m2 = 1e9;
+constexpr double kMaxDamping_m2 = 1e9;
 constexpr double kTipThere_m = 1e-8;
 constexpr double kStepSettled_rad = 1e-6;
 
 struct Quadratic {
-  algebra::ThetaMatrix hessian;
-  algebra::ThetaColumn rhs;  // minus the gradient
+  eigen::ThetaMatrix hessian;
+  eigen::ThetaColumn rhs;  // minus the gradient
   explicit Quadratic(Eigen::Index thetas)
-      : hessian(algebra::ThetaMatrix::Zero(thetas, thetas)), rhs(algebra::ThetaColumn::Zero(thetas)) {}
+      : hessian(eigen::ThetaMatrix::Zero(thetas, thetas)), rhs(eigen::ThetaColumn::Zero(thetas)) {}
 
   // Adds weight |J dtheta + error|^2 / 2, of the error's part across `along` when that is a unit vector.
   void add(const Eigen::Ref<const Eigen::Matrix3Xd>& J, const Vec3& error, const Vec3& along, double weight) {
-    const algebra::SpaceColumns across = J - algebra::view(along) * (algebra::view(along).transpose() * J).eval();
-    rhs.noalias() -= weight * across.transpose() * algebra::view(error);
+    const eigen::SpaceColumns across = J - eigen::view(along) * (eigen::view(along).transpose() * J).eval();
+    rhs.noalias() -= weight * across.transpose() * eigen::view(error);
     hessian.noalias() += weight * across.transpose() * J;
   }
 };
 
 // The least of a quadratic within the limits: thetas that would pass theirs are set onto them, and the rest is solved
 // again.
-ThetaVector bounded_step(const RobotTable& table, Quadratic q, double damping, const ThetaVector& theta,
+ThetaVector bounded_step(const RobotParams& table, Quadratic q, double damping, const ThetaVector& theta,
                          std::uint32_t held_mask) {
-  const Eigen::Index n = algebra::theta_count(table);
+  const Eigen::Index n = eigen::theta_count(table);
   q.hessian.diagonal().array() += damping;
   for (Eigen::Index k = 0; k < n; ++k) {
-    if (((held_mask >> k) & 1u) != 0) algebra::fix_theta(k, 0.0, q.hessian, q.rhs);
+    if (((held_mask >> k) & 1u) != 0) eigen::fix_theta(k, 0.0, q.hessian, q.rhs);
   }
   for (Eigen::Index pass = 0; pass <= n; ++pass) {
-    const Eigen::LLT<algebra::ThetaMatrix> factor(q.hessian);
+    const Eigen::LLT<eigen::ThetaMatrix> factor(q.hessian);
     if (factor.info() != Eigen::Success) return {};
     ThetaVector step{};
-    algebra::view(step, n) = factor.solve(q.rhs);
+    eigen::view(step, n) = factor.solve(q.rhs);
     bool within = true;
     for (Index k = 0; k < Index(n); ++k) {
       const double limit = table.segment[k / 2].theta_limit_rad, to = std::clamp(theta[k] + step[k], -limit, limit);
       if (std::fabs(theta[k] + step[k] - to) < 1e-12) continue;
-      algebra::fix_theta(static_cast<Eigen::Index>(k), to - theta[k], q.hessian, q.rhs);
+      eigen::fix_theta(static_cast<Eigen::Index>(k), to - theta[k], q.hessian, q.rhs);
       within = false;
     }
     if (within) return step;
@@ -83,14 +83,14 @@ CurvePlace body_place(const FollowTrack& track, double along_m, double behind_m,
 }
 
 Quadratic model(const Room& room, const FollowTrack& track, const FollowAim& aim, const ThetaVector& theta) {
-  const RobotTable& table = room.table();
-  const Eigen::Index n = algebra::theta_count(table);
+  const RobotParams& table = room.table();
+  const Eigen::Index n = eigen::theta_count(table);
   const ArmDerivatives arm(table, theta);
   const ArmPoint tip_point = arm.node(table.segment_count);
   const PointDerivatives tip = arm.point(tip_point);
   const CurvePlace place = track.curve().at(aim.along_m);
   Quadratic q(n);
-  q.add(algebra::view(tip.by_theta, n), subtract(tip.position_m, place.position_m), {}, kTipWeight);
+  q.add(eigen::view(tip.by_theta, n), subtract(tip.position_m, place.position_m), {}, kTipWeight);
   double behind_m = 0.0;
   Index m = Index(table.segment_count) - 1;
   std::int32_t modules = table.segment[m].modules;
@@ -100,8 +100,7 @@ Quadratic model(const Room& room, const FollowTrack& track, const FollowAim& aim
     if (--modules == 0 && m > 0) modules = table.segment[--m].modules;
     const PointDerivatives here = arm.point({end, 1.0});
     if (end == tip_point.link - 1) {  // the tip's direction
-      const algebra::SpaceColumns turning =
-          (algebra::view(tip.by_theta, n) - algebra::view(here.by_theta, n)) / length_m;
+      const eigen::SpaceColumns turning = (eigen::view(tip.by_theta, n) - eigen::view(here.by_theta, n)) / length_m;
       const Vec3 link = scale(subtract(tip.position_m, here.position_m), 1.0 / length_m);
       const double facing =
           std::max(0.0, dot(link, place.tangent));  // a tip that would have to turn round goes sideways or backwards
@@ -110,11 +109,11 @@ Quadratic model(const Room& room, const FollowTrack& track, const FollowAim& aim
     }
     if (aim.body == 0.0) break;
     const CurvePlace on = body_place(track, aim.along_m, behind_m, here.position_m);
-    q.add(algebra::view(here.by_theta, n), subtract(here.position_m, on.position_m), on.tangent,
+    q.add(eigen::view(here.by_theta, n), subtract(here.position_m, on.position_m), on.tangent,
           aim.body * body_weight(aim.along_m, behind_m));
   }
   const PoseModel push = push_model(room, theta, aim.clearance_m, true);
-  q.rhs += aim.draw * (algebra::view(aim.drawn_to_rad, n) - algebra::view(theta, n)) - kPushWeight * push.gradient;
+  q.rhs += aim.draw * (eigen::view(aim.drawn_to_rad, n) - eigen::view(theta, n)) - kPushWeight * push.gradient;
   q.hessian += kPushWeight * push.hessian;
   q.hessian.diagonal().array() += aim.draw;
   return q;
@@ -146,7 +145,7 @@ ThetaVector follow_pose(const Room& room, const FollowTrack& track, const Follow
     if (tip_only && tip_off_m(room, track.curve(), aim.along_m, theta) < kTipThere_m) break;
     const Quadratic q = model(room, track, aim, theta);
     ThetaVector step{};
-    for (double damping = tip_only ? kTipDamping_m2 : kDamping_m2; damping < kMostDamping_m2; damping *= 10.0) {
+    for (double damping = tip_only ? kTipDamping_m2 : kDamping_m2; damping < kMaxDamping_m2; damping *= 10.0) {
       step = bounded_step(room.table(), q, damping, theta, aim.held_mask);
       if (tip_only || largest(step) < kStepMost_rad) break;
     }
@@ -156,4 +155,4 @@ ThetaVector follow_pose(const Room& room, const FollowTrack& track, const Follow
   return theta;
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

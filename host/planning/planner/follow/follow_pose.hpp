@@ -6,7 +6,7 @@
 #include "host/planning/planner/follow/follow_track.hpp"
 #include "host/planning/planner/problem/room.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -32,4 +32,4 @@ double misfit_m2(const Room& room, const FollowTrack& track, double along_m, con
 // Distance of the tip from its place.
 double tip_off_m(const Room& room, const Curve& curve, double along_m, const ThetaVector& theta_rad);
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -1,6 +1,6 @@
 #include "host/planning/planner/follow/follow_track.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 Curve center_line(const Room& room, const ThetaVector& theta_rad) {
@@ -22,4 +22,4 @@ CurvePlace FollowTrack::nearest(const Vec3& point_m, double from_m, double until
   return norm(subtract(point_m, after.position_m)) < norm(subtract(point_m, before.position_m)) ? after : before;
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -4,7 +4,7 @@
 #include "host/planning/planner/follow/curve.hpp"
 #include "host/planning/planner/problem/room.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -24,4 +24,4 @@ class FollowTrack {
   Curve curve_;
 };
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -1,6 +1,6 @@
 #include "host/planning/planner/problem/arm_derivatives.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
@@ -21,7 +21,7 @@ JetQuat odd_module(const JetQuat& q, const Jet& pitch, const Jet& yaw) {
           q[0] * o[2] - q[1] * o[3] + q[2] * o[0] + q[3] * o[1], q[0] * o[3] + q[1] * o[2] - q[2] * o[1] + q[3] * o[0]};
 }
 
-LocalSegment local_segment(const SegmentTable& segment, double pitch_rad, double yaw_rad) {
+LocalSegment local_segment(const SegmentParams& segment, double pitch_rad, double yaw_rad) {
   const Jet pitch = pitch_variable(pitch_rad), yaw = yaw_variable(yaw_rad);
   const Jet w = cos(pitch) * cos(yaw), y = sin(yaw), z = sin(pitch) * cos(yaw);
   const double l = segment.module_length_m;
@@ -58,7 +58,7 @@ Quat half_turn(const Vec3& v, const Quat& q) { return multiply({0.0, 0.5 * v[0],
 
 }  // namespace
 
-ArmDerivatives::ArmDerivatives(const RobotTable& table, const ThetaVector& theta_rad) {
+ArmDerivatives::ArmDerivatives(const RobotParams& table, const ThetaVector& theta_rad) {
   quaternion_.push_back({1.0, 0.0, 0.0, 0.0});
   origin_m_.push_back({0.0, 0.0, 0.0});
   first_link_.push_back(0);
@@ -168,7 +168,7 @@ void ArmDerivatives::add_quaternion_hessian(const Quat& weight, ThetaHessian& he
   }
 }
 
-CableDerivatives cable_derivatives(const RobotTable& table, const ThetaVector& theta_rad) {
+CableDerivatives cable_derivatives(const RobotParams& table, const ThetaVector& theta_rad) {
   CableDerivatives out;
   const double g = table.face_offset_m, r = table.hole_radius_m;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
@@ -178,7 +178,7 @@ CableDerivatives cable_derivatives(const RobotTable& table, const ThetaVector& t
       std::vector<Jet> parts;
       double length_m = 0.0;
       for (Index j = 0; j <= m; ++j) {
-        const SegmentTable& passed = table.segment[j];
+        const SegmentParams& passed = table.segment[j];
         const Jet pitch = pitch_variable(theta_rad[2 * j]), yaw = yaw_variable(theta_rad[2 * j + 1]);
         const Jet sa = sin(pitch), ca = cos(pitch), sb = sin(yaw), cb = cos(yaw), one = constant(1.0);
         const Jet bracket = (-g * g) * (ca * cb) + (g * y) * (sa * (one + cb)) - (g * z) * (sb * (one + ca)) +
@@ -194,4 +194,4 @@ CableDerivatives cable_derivatives(const RobotTable& table, const ThetaVector& t
   return out;
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -11,11 +11,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_params.hpp"
 #include "firmware_like/math/pose.hpp"
 #include "host/planning/planner/problem/jet.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -38,7 +38,7 @@ class ArmDerivatives {
  public:
   // Evaluates at theta [rad]: one closed form with jets per segment, about 10,000 flops for five segments of eight
   // modules.
-  ArmDerivatives(const RobotTable& table, const ThetaVector& theta_rad);
+  ArmDerivatives(const RobotParams& table, const ThetaVector& theta_rad);
 
   // A point and its Jacobian.
   PointDerivatives point(const ArmPoint& where) const;
@@ -82,6 +82,6 @@ struct CableDerivatives {
   std::vector<std::vector<Jet>>
       by_segment_m;  // [cable][segment]: part of the length that depends on the segment's angles
 };
-CableDerivatives cable_derivatives(const RobotTable& table, const ThetaVector& theta_rad);
+CableDerivatives cable_derivatives(const RobotParams& table, const ThetaVector& theta_rad);
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -1,15 +1,15 @@
 #include "host/planning/planner/problem/block_system.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 bool solve(BlockSystem& system) {
   const std::size_t blocks = system.own.size();
-  std::vector<Eigen::LLT<algebra::ThetaMatrix>> factor(blocks);
+  std::vector<Eigen::LLT<eigen::ThetaMatrix>> factor(blocks);
   for (std::size_t w = 0; w < blocks; ++w) {
     if (factor[w].compute(system.own[w]).info() != Eigen::Success) return false;
     factor[w].matrixL().solveInPlace(system.rhs[w]);
     if (w + 1 == blocks) break;
-    algebra::ThetaMatrix& below = system.next[w];  // becomes its block of the factor
+    eigen::ThetaMatrix& below = system.next[w];  // becomes its block of the factor
     factor[w].matrixU().solveInPlace<Eigen::OnTheRight>(below);
     system.rhs[w + 1].noalias() -= below * system.rhs[w];
     system.own[w + 1].noalias() -= below * below.transpose();
@@ -21,4 +21,4 @@ bool solve(BlockSystem& system) {
   return true;
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Ipopt::Index;
@@ -158,4 +158,4 @@ Solution solve(PlanProblem& problem, const PlanControl& control) {
   return adapter->solution;
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

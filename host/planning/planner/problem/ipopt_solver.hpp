@@ -6,7 +6,7 @@
 
 #include "host/planning/planner/problem/plan_problem.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -27,4 +27,4 @@ constexpr double kConstraintTolerance = 1e-7;
 // Solves from problem.start() within control.max_iterations; asks control.cancelled in every iteration.
 Solution solve(PlanProblem& problem, const PlanControl& control);
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace liana::plan {
+namespace liana::planner {
 
 struct Jet {
   double value = 0.0;
@@ -52,4 +52,4 @@ inline Jet sqrt(const Jet& x) {
 constexpr double first(const Jet& x, std::size_t i) { return i == 0 ? x.a : x.b; }
 constexpr double second(const Jet& x, std::size_t i, std::size_t j) { return i != j ? x.ab : (i == 0 ? x.aa : x.bb); }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -5,7 +5,7 @@
 #include "host/planning/planner/problem/plan_problem.hpp"
 #include "host/planning/planner/problem/point_distance.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 constexpr double kPer_N = 1e-3;  // of tension rows
@@ -47,7 +47,7 @@ void PlanProblem::evaluate(const double* x) {
   if (!path_.empty() && std::equal(evaluated_x_.begin(), evaluated_x_.end(), x)) return;
   evaluated_x_.assign(x, x + variables());
   path_ = path_of(x);
-  const RobotTable& table = request_.robot.table;
+  const RobotParams& table = request_.robot.table;
   at_place_.clear();
   for (const PathPlace& place : places_) at_place_.emplace_back(table, theta_at(path_, place));
   at_waypoint_.clear();
@@ -286,4 +286,4 @@ void PlanProblem::hessian(const double* x, double objective_factor, const double
   add_tension_hessians(multipliers + first_tension_, out);
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

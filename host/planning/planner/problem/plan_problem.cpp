@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 constexpr std::int32_t kTipRows = 6;
 
 }  // namespace
 
-std::size_t thetas_before(const RobotTable& table, std::int32_t link) {
+std::size_t thetas_before(const RobotParams& table, std::int32_t link) {
   std::size_t m = 0;
   for (std::int32_t links = 0; m < static_cast<std::size_t>(table.segment_count); ++m) {
     links += table.segment[m].modules;
@@ -166,4 +166,4 @@ Path PlanProblem::path_of(const double* x) const {
   return path;
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -23,7 +23,7 @@
 #include "host/planning/planner/problem/arm_derivatives.hpp"
 #include "host/planning/planner/problem/planned_tension.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -81,7 +81,7 @@ ThetaVector theta_at(const Path& path, const PathPlace& place);
 bool is_held(const HeldPhase& phase, std::int32_t waypoint, std::int32_t waypoints);
 
 // Thetas that move a link: how many there are up to its own segment.
-std::size_t thetas_before(const RobotTable& table, std::int32_t link);
+std::size_t thetas_before(const RobotParams& table, std::int32_t link);
 
 class PlanProblem {
  public:
@@ -157,4 +157,4 @@ class PlanProblem {
   std::vector<CableDerivatives> cables_;  // per waypoint; empty without cable rows
 };
 
-}  // namespace liana::plan
+}  // namespace liana::planner

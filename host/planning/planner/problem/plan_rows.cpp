@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
 
-constexpr double kSpacing_m = 0.15;      // of motion between the places with rows
-constexpr std::int32_t kMostPlaces = 4;  // per interval
+constexpr double kSpacing_m = 0.15;     // of motion between the places with rows
+constexpr std::int32_t kMaxPlaces = 4;  // per interval
 constexpr double kLookSpacing_m = 0.004;
-constexpr std::int32_t kMostLooks = 256;  // per interval
-constexpr double kNear_m = 0.10;          // beyond the margin: rows for links that are nearest among their neighbours
-constexpr double kTight_m = 0.02;         // beyond the margin: rows for every link
-constexpr double kStepShare = 0.6;        // of the step and cable limits: rows for steps that are larger
+constexpr std::int32_t kMaxLooks = 256;  // per interval
+constexpr double kNear_m = 0.10;         // beyond the margin: rows for links that are nearest among their neighbours
+constexpr double kTight_m = 0.02;        // beyond the margin: rows for every link
+constexpr double kStepShare = 0.6;       // of the step and cable limits: rows for steps that are larger
 constexpr double kNearFloor_N =
     1.0;  // the core's plan rounds there: it is often a little over the floor, and never far below
 constexpr double kNearCeiling_N = 40.0;    // what a round's change of theta can bring
@@ -82,7 +82,7 @@ bool is_movable(const PlanRequest& request, const Path& path, const PathPlace& p
 
 // Rows for steps of more than `share` of their limit and `tolerance`.
 void add_steps(const PlanRequest& request, const Path& path, double share, double tolerance, PlanRows& rows) {
-  const RobotTable& table = request.robot.table;
+  const RobotParams& table = request.robot.table;
   for (std::int32_t w = 0; w + 1 < static_cast<std::int32_t>(path.size()); ++w) {
     const ThetaVector &before = path[Index(w)], &after = path[Index(w) + 1];
     for (std::int32_t k = 0; k < table.theta_count(); ++k) {
@@ -100,7 +100,7 @@ void add_steps(const PlanRequest& request, const Path& path, double share, doubl
 
 // Rows for cables near their floor or ceiling, at waypoints that can move.
 void add_tensions(const PlanRequest& request, const Path& path, PlanRows& rows) {
-  const RobotTable& table = request.robot.table;
+  const RobotParams& table = request.robot.table;
   const PlannedTension tension(table);
   const std::int32_t end = static_cast<std::int32_t>(path.size()) - (request.tip_in_base ? 0 : 1);
   for (std::int32_t w = 1; w < end; ++w) {
@@ -125,7 +125,7 @@ PlanRows rows_near(const Room& room, const PlanRequest& request, const Path& pat
   std::vector<PathPlace> places;
   for (const RowSite& site : sites) places.push_back(site.place);
   for (Index w = 0; w + 1 < path.size(); ++w) {
-    const std::int32_t count = single_pose(request) ? 1 : places_of(room, path, w, kSpacing_m, kMostPlaces);
+    const std::int32_t count = single_pose(request) ? 1 : places_of(room, path, w, kSpacing_m, kMaxPlaces);
     for (std::int32_t s = 1; s <= count; ++s) places.push_back({static_cast<std::int32_t>(w), double(s) / count});
   }
   std::sort(places.begin(), places.end(), [](const PathPlace& a, const PathPlace& b) {
@@ -154,7 +154,7 @@ std::vector<RowSite> sites_below(const Room& room, const PlanRequest& request, c
     }
   };
   for (Index w = 0; w + 1 < path.size(); ++w) {
-    const std::int32_t count = single_pose(request) ? 1 : places_of(room, path, w, kLookSpacing_m, kMostLooks);
+    const std::int32_t count = single_pose(request) ? 1 : places_of(room, path, w, kLookSpacing_m, kMaxLooks);
     double before = 1e300, here = 1e300;
     for (std::int32_t s = 1; s <= count + 1; ++s) {
       const PathPlace next{static_cast<std::int32_t>(w), double(s) / count},
@@ -182,4 +182,4 @@ bool tensions_hold(const PlanRequest& request, const Path& path) {
                       [&](const ThetaVector& theta) { return tension.excess_N(theta) > 0.0; });
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

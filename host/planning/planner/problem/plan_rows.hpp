@@ -11,7 +11,7 @@
 #include "host/planning/planner/problem/plan_problem.hpp"
 #include "host/planning/planner/problem/room.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -36,4 +36,4 @@ bool steps_hold(const PlanRequest& request, const Path& path);
 // At no waypoint a cable is below its floor or over its ceiling.
 bool tensions_hold(const PlanRequest& request, const Path& path);
 
-}  // namespace liana::plan
+}  // namespace liana::planner

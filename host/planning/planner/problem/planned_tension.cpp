@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
@@ -63,4 +63,4 @@ double PlannedTension::excess_N(const ThetaVector& theta_rad) const {
   return std::max(table_.tension.floor_motor_N - *least, *most - table_.tension.ceiling_free_N);
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -12,14 +12,14 @@
 #include "firmware_like/cable/arm/tension.hpp"
 #include "host/planning/planner/problem/arm_derivatives.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
 
 class PlannedTension {
  public:
   // The table must outlive this.
-  explicit PlannedTension(const RobotTable& table) : table_(table), layout_(cable_layout(table)) {}
+  explicit PlannedTension(const RobotParams& table) : table_(table), layout_(cable_layout(table)) {}
 
   // At the motors [N]. Cost: one tension plan, about 3 us.
   CableVector at(const ThetaVector& theta_rad) const;
@@ -32,8 +32,8 @@ class PlannedTension {
   double excess_N(const ThetaVector& theta_rad) const;
 
  private:
-  const RobotTable& table_;
+  const RobotParams& table_;
   CableLayout layout_;
 };
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -5,7 +5,7 @@
 #include "firmware_like/math/pose.hpp"
 #include "host/model/clearance/clearance.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
@@ -48,4 +48,4 @@ PointDistance point_distance(const Vec3& point, const config::SceneConfig& scene
   return out;
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -6,7 +6,7 @@
 
 #include "host/model/config/config.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -20,4 +20,4 @@ struct PointDistance {
 // Obstacles are numbered as in clearance.hpp.
 PointDistance point_distance(const Vec3& point, const config::SceneConfig& scene, std::int32_t obstacle);
 
-}  // namespace liana::plan
+}  // namespace liana::planner

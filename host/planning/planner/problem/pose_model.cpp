@@ -4,10 +4,10 @@
 
 #include "host/planning/planner/problem/arm_derivatives.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 PoseModel push_model(const Room& room, const ThetaVector& theta, double wanted_m, bool derivatives) {
-  const Eigen::Index n = algebra::theta_count(room.table());
+  const Eigen::Index n = eigen::theta_count(room.table());
   PoseModel model(n);
   const LinkPoints points = link_points(room.table(), theta);
   std::vector<std::pair<clearance::Clearance, std::int32_t>> close;
@@ -23,11 +23,11 @@ PoseModel push_model(const Room& room, const ThetaVector& theta, double wanted_m
   const ArmDerivatives arm(room.table(), theta);
   for (const auto& [here, link] : close) {
     const PointDerivatives point = arm.point({link, here.share});
-    const algebra::ThetaColumn slope = algebra::view(point.by_theta, n).transpose() * algebra::view(here.normal);
+    const eigen::ThetaColumn slope = eigen::view(point.by_theta, n).transpose() * eigen::view(here.normal);
     model.gradient -= 2.0 * (wanted_m - here.distance_m) * slope;
     model.hessian.noalias() += 2.0 * slope * slope.transpose();
   }
   return model;
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
 
-constexpr double kLeastAdvance_m = 0.004;  // near the margin poses are looked at this often
+constexpr double kMinAdvance_m = 0.004;  // near the margin poses are looked at this often
 
 }  // namespace
 
@@ -19,7 +19,7 @@ clearance::ArmClearance Room::look(const ThetaVector& theta_rad) const {
 double Room::motion_m(const ThetaVector& a, const ThetaVector& b) const {
   double lever_m = 0.0, motion = 0.0;
   for (Index m = static_cast<Index>(robot_.table.segment_count); m-- > 0;) {
-    const SegmentTable& segment = robot_.table.segment[m];
+    const SegmentParams& segment = robot_.table.segment[m];
     lever_m += segment.modules * segment.module_length_m;
     motion += segment.modules * lever_m * std::hypot(b[2 * m] - a[2 * m], b[2 * m + 1] - a[2 * m + 1]);
   }
@@ -33,11 +33,11 @@ bool Room::is_free(const ThetaVector& a, const ThetaVector& b, double margin_m) 
     const double spare = look(between(a, b, motion > 0.0 ? gone / motion : 0.0)).nearest.distance_m - margin_m;
     if (spare < 0.0) return false;
     if (gone >= motion) return true;
-    gone = std::min(motion, gone + std::max(spare, kLeastAdvance_m));
+    gone = std::min(motion, gone + std::max(spare, kMinAdvance_m));
   }
 }
 
-double arm_length_m(const RobotTable& table) {
+double arm_length_m(const RobotParams& table) {
   double length_m = 0.0;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m)
     length_m += table.segment[m].modules * table.segment[m].module_length_m;
@@ -50,4 +50,4 @@ ThetaVector between(const ThetaVector& a, const ThetaVector& b, double share) {
   return theta;
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

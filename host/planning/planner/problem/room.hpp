@@ -7,7 +7,7 @@
 #include "host/model/clearance/arm_clearance.hpp"
 #include "host/planning/planner/plan.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -16,7 +16,7 @@ class Room {
   // Both must outlive the room.
   Room(const config::RobotConfig& robot, const config::SceneConfig& scene) : robot_(robot), scene_(scene) {}
 
-  const RobotTable& table() const { return robot_.table; }
+  const RobotParams& table() const { return robot_.table; }
   const config::SceneConfig& scene() const { return scene_; }
   double link_radius_m() const { return robot_.module_radius_m; }
 
@@ -36,9 +36,9 @@ class Room {
 };
 
 // From the base to the tip of the straight arm [m].
-double arm_length_m(const RobotTable& table);
+double arm_length_m(const RobotParams& table);
 
 // Pose at `share` (0..1) between a and b.
 ThetaVector between(const ThetaVector& a, const ThetaVector& b, double share);
 
-}  // namespace liana::plan
+}  // namespace liana::planner

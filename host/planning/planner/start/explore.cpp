@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
@@ -122,4 +122,4 @@ Path shortcut(const Room& room, Path path, double margin_m, std::uint64_t sequen
   return path;
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -7,7 +7,7 @@
 
 #include "host/planning/planner/problem/room.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -28,4 +28,4 @@ Path explore(const Room& room, const ExploreRequest& request, const std::atomic<
 // The same way with corners cut where the straight piece is free.
 Path shortcut(const Room& room, Path path, double margin_m, std::uint64_t sequence);
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -6,7 +6,7 @@
 #include "host/model/inverse_kinematics/goal_ik.hpp"
 #include "host/planning/planner/start/relax.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
@@ -21,8 +21,8 @@ double largest_change(const ThetaVector& a, const ThetaVector& b) {
   return most;
 }
 
-solve::GoalIkProblem ik_problem(const PlanRequest& request) {
-  solve::GoalIkProblem problem;
+inverse_kinematics::GoalIkProblem ik_problem(const PlanRequest& request) {
+  inverse_kinematics::GoalIkProblem problem;
   problem.tip_in_base = *request.tip_in_base;
   for (const HeldPhase& phase : request.held) {
     problem.held_mask |= 1u << phase.theta;
@@ -36,8 +36,8 @@ solve::GoalIkProblem ik_problem(const PlanRequest& request) {
 }
 
 // Pitch (axis 0) or yaw (1) of the last `segments` segments at 0; what is held already stays.
-solve::GoalIkProblem with_planar_end(solve::GoalIkProblem problem, const RobotTable& table, std::int32_t segments,
-                                     std::int32_t axis) {
+inverse_kinematics::GoalIkProblem with_planar_end(inverse_kinematics::GoalIkProblem problem, const RobotParams& table,
+                                                  std::int32_t segments, std::int32_t axis) {
   for (std::int32_t m = std::max(0, table.segment_count - segments); m < table.segment_count; ++m) {
     const std::int32_t theta = 2 * m + axis;
     if (((problem.held_mask >> theta) & 1u) == 0) problem.held_rad[Index(theta)] = 0.0;
@@ -47,8 +47,8 @@ solve::GoalIkProblem with_planar_end(solve::GoalIkProblem problem, const RobotTa
 }
 
 // Also wanted of the shape: clear of the spheres that are nearest to a pose.
-solve::GoalIkProblem with_clear_spheres(solve::GoalIkProblem problem, const Room& room, const ThetaVector& theta,
-                                        double clearance_m) {
+inverse_kinematics::GoalIkProblem with_clear_spheres(inverse_kinematics::GoalIkProblem problem, const Room& room,
+                                                     const ThetaVector& theta, double clearance_m) {
   const LinkPoints points = link_points(room.table(), theta);
   std::vector<std::pair<double, Index>> near;
   for (Index i = 0; i < room.scene().spheres.size(); ++i) {
@@ -76,18 +76,19 @@ struct Candidate {
 };
 
 // The pose that goal IK finds, pushed off obstacles where that helps; false when it finds none.
-bool find_pose(const Room& room, const PlanRequest& request, const solve::GoalIkProblem& problem, Candidate& out) {
-  const solve::GoalIkResult found = solve::solve_goal(room.table(), problem);
+bool find_pose(const Room& room, const PlanRequest& request, const inverse_kinematics::GoalIkProblem& problem,
+               Candidate& out) {
+  const inverse_kinematics::GoalIkResult found = inverse_kinematics::solve_goal(room.table(), problem);
   if (!found.converged) return false;
   out = {found.theta_rad, room.look(found.theta_rad).nearest.distance_m};
   if (out.clearance_m >= request.margin_m) return true;
   const PoseAim aim{*request.tip_in_base, false, found.theta_rad, problem.held_mask, request.margin_m + kRelaxReach_m};
-  solve::GoalIkProblem beside = problem;
+  inverse_kinematics::GoalIkProblem beside = problem;
   beside.node = {};
   beside.clear = {};
   beside.from_rad = settle(room, aim, found.theta_rad, kPushIterations).theta_rad;
-  const solve::GoalIkResult exact =
-      solve::solve_goal(room.table(), beside);  // the push leaves the tip some micrometres off
+  const inverse_kinematics::GoalIkResult exact =
+      inverse_kinematics::solve_goal(room.table(), beside);  // the push leaves the tip some micrometres off
   const double clearance_m = room.look(exact.theta_rad).nearest.distance_m;
   if (exact.converged && clearance_m > out.clearance_m) out = {exact.theta_rad, clearance_m};
   return true;
@@ -95,7 +96,7 @@ bool find_pose(const Room& room, const PlanRequest& request, const solve::GoalIk
 
 }  // namespace
 
-ThetaVector seed_pose(const RobotTable& table, const ThetaVector& from, std::int32_t seed) {
+ThetaVector seed_pose(const RobotParams& table, const ThetaVector& from, std::int32_t seed) {
   if (seed == 0) return from;
   ThetaVector theta{};
   for (Index k = 0; k < Index(table.theta_count()); ++k) {
@@ -107,7 +108,7 @@ ThetaVector seed_pose(const RobotTable& table, const ThetaVector& from, std::int
 
 GoalPoses goal_poses(const Room& room, const PlanRequest& request) {
   GoalPoses out;
-  std::vector<solve::GoalIkProblem> problems;
+  std::vector<inverse_kinematics::GoalIkProblem> problems;
   for (std::int32_t seed = 0; seed < kGoalPoseSeeds; ++seed) {
     problems.push_back(ik_problem(request));
     problems.back().from_rad = seed_pose(room.table(), request.from_rad, seed);
@@ -116,17 +117,17 @@ GoalPoses goal_poses(const Room& room, const PlanRequest& request) {
     for (const std::int32_t axis : {0, 1})
       problems.push_back(with_planar_end(problems.front(), room.table(), segments, axis));
   }
-  double most_clearance = -clearance::kNoObstacle_m;
-  const auto try_problem = [&](const solve::GoalIkProblem& problem) {
+  double max_clearance = -clearance::kNoObstacle_m;
+  const auto try_problem = [&](const inverse_kinematics::GoalIkProblem& problem) {
     Candidate pose;
     if (!find_pose(room, request, problem, pose)) return;
     out.reachable = true;
-    if (pose.clearance_m > most_clearance) most_clearance = pose.clearance_m, out.nearest_rad = pose.theta_rad;
+    if (pose.clearance_m > max_clearance) max_clearance = pose.clearance_m, out.nearest_rad = pose.theta_rad;
     const auto same = [&](const ThetaVector& other) { return largest_change(other, pose.theta_rad) < kSame_rad; };
     const bool known = std::any_of(out.theta_rad.begin(), out.theta_rad.end(), same);
     if (pose.clearance_m >= request.margin_m && !known) out.theta_rad.push_back(pose.theta_rad);
   };
-  for (const solve::GoalIkProblem& problem : problems) try_problem(problem);
+  for (const inverse_kinematics::GoalIkProblem& problem : problems) try_problem(problem);
   if (out.reachable && out.theta_rad.empty())
     try_problem(with_clear_spheres(problems.front(), room, out.nearest_rad, request.margin_m + kRelaxReach_m));
   std::stable_sort(out.theta_rad.begin(), out.theta_rad.end(), [&](const ThetaVector& a, const ThetaVector& b) {
@@ -136,4 +137,4 @@ GoalPoses goal_poses(const Room& room, const PlanRequest& request) {
   return out;
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -3,7 +3,7 @@
 
 #include "host/planning/planner/problem/room.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -24,6 +24,6 @@ struct GoalPoses {
 GoalPoses goal_poses(const Room& room, const PlanRequest& request);
 
 // Seed 0 is `from_rad`, 1 the straight arm, then patterns of signs at half the limits.
-ThetaVector seed_pose(const RobotTable& table, const ThetaVector& from_rad, std::int32_t seed);
+ThetaVector seed_pose(const RobotParams& table, const ThetaVector& from_rad, std::int32_t seed);
 
-}  // namespace liana::plan
+}  // namespace liana::planner

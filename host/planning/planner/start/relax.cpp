@@ -8,7 +8,7 @@
 #include "host/planning/planner/problem/plan_problem.hpp"
 #include "host/planning/planner/problem/pose_model.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
@@ -20,7 +20,7 @@ constexpr std::int32_t kMaxSamples = 12;   // per interval
 class Relaxation {
  public:
   Relaxation(const Room& room, const PlanRequest& request, const Path& path)
-      : room_(room), request_(request), n_(algebra::theta_count(room.table())) {
+      : room_(room), request_(request), n_(eigen::theta_count(room.table())) {
     wanted_m_ = request.margin_m + kRelaxReach_m;
     const std::int32_t count = static_cast<std::int32_t>(path.size());
     free_.assign(path.size(), 0);
@@ -41,7 +41,7 @@ class Relaxation {
   double cost(const Path& path) const {
     double smooth = 0.0, push = 0.0, nodes = 0.0;
     for (Index w = 0; w + 1 < path.size(); ++w) {
-      smooth += (algebra::view(path[w + 1], n_) - algebra::view(path[w], n_)).squaredNorm();
+      smooth += (eigen::view(path[w + 1], n_) - eigen::view(path[w], n_)).squaredNorm();
       const std::int32_t count = samples(path, w);
       for (std::int32_t s = 1; s <= count; ++s) {
         push += push_model(room_, between(path[w], path[w + 1], double(s) / count), wanted_m_, false).cost / count;
@@ -56,7 +56,7 @@ class Relaxation {
     BlockSystem system(path.size(), n_);
     const double stiffness = double(path.size() - 1);
     for (Index w = 0; w + 1 < path.size(); ++w) {
-      add_smooth(system, w, stiffness * (algebra::view(path[w + 1], n_) - algebra::view(path[w], n_)), stiffness);
+      add_smooth(system, w, stiffness * (eigen::view(path[w + 1], n_) - eigen::view(path[w], n_)), stiffness);
       const std::int32_t count = samples(path, w);
       for (std::int32_t s = 1; s <= count; ++s) {
         const double share = double(s) / count;
@@ -87,8 +87,8 @@ class Relaxation {
     const ArmDerivatives arm(room_.table(), theta);
     for (const ControlPoint& target : request_.control_points) {
       const PointDerivatives node = arm.point(arm.node(target.node));
-      const auto J = algebra::view(node.by_theta, n_);
-      const Eigen::Vector3d away = algebra::view(node.position_m) - algebra::view(target.position_m);
+      const auto J = eigen::view(node.by_theta, n_);
+      const Eigen::Vector3d away = eigen::view(node.position_m) - eigen::view(target.position_m);
       const double distance_m = std::sqrt(away.squaredNorm() + kRound_m * kRound_m),
                    weight = target.weight / distance_m;
       model.cost += target.weight * distance_m;
@@ -98,7 +98,7 @@ class Relaxation {
     return model;
   }
 
-  static void add_smooth(BlockSystem& system, Index w, const algebra::ThetaColumn& slope, double stiffness) {
+  static void add_smooth(BlockSystem& system, Index w, const eigen::ThetaColumn& slope, double stiffness) {
     system.rhs[w] += slope;
     system.rhs[w + 1] -= slope;
     system.own[w].diagonal().array() += stiffness;
@@ -120,7 +120,7 @@ class Relaxation {
     system.own[w].diagonal().array() += damping;
     for (Eigen::Index k = 0; k < n_; ++k) {
       if (is_free(w, k)) continue;
-      algebra::fix_theta(k, 0.0, system.own[w], system.rhs[w]);
+      eigen::fix_theta(k, 0.0, system.own[w], system.rhs[w]);
       system.next[w].col(k).setZero();
       if (w > 0) system.next[w - 1].row(k).setZero();
     }
@@ -212,34 +212,33 @@ namespace {
 
 // Gauss-Newton equations of the tip's error at one pose; what the aim holds does not move.
 struct TipEquations {
-  algebra::ThetaMatrix A;
-  algebra::ThetaColumn b;
+  eigen::ThetaMatrix A;
+  eigen::ThetaColumn b;
 };
 
 TipEquations tip_equations(const Room& room, const PoseAim& aim, const ThetaVector& theta) {
   constexpr double kTipWeight = 1e4, kTurnWeight = 1e4, kNearWeight = 0.1, kDamping = 1.0;
-  const Eigen::Index n = algebra::theta_count(room.table());
+  const Eigen::Index n = eigen::theta_count(room.table());
   const ArmKinematics arm = forward_kinematics(room.table(), theta);
   const auto error = pose_error(aim.tip_in_base, arm.tip_in_base);
   const Vec3 way{error[0], error[1], error[2]};
   Vec3 turn{error[3], error[4], error[5]};
-  const auto linear = algebra::view(arm.tip_jacobian.linear, n);
-  algebra::SpaceColumns turning = algebra::view(arm.tip_jacobian.angular, n);
+  const auto linear = eigen::view(arm.tip_jacobian.linear, n);
+  eigen::SpaceColumns turning = eigen::view(arm.tip_jacobian.angular, n);
   if (aim.direction_only) {
     const Vec3 x_axis = rotate(arm.tip_in_base.quaternion, {1, 0, 0});
     turn = cross(x_axis, rotate(aim.tip_in_base.quaternion, {1, 0, 0}));
-    turning -= algebra::view(x_axis) * (algebra::view(x_axis).transpose() * turning).eval();
+    turning -= eigen::view(x_axis) * (eigen::view(x_axis).transpose() * turning).eval();
   }
   const PoseModel push = push_model(room, theta, aim.clearance_m, true);
   TipEquations out;
   out.A =
       kTipWeight * linear.transpose() * linear + kTurnWeight * turning.transpose() * turning + kPenalty * push.hessian;
   out.A.diagonal().array() += kNearWeight + kDamping;
-  out.b = kTipWeight * linear.transpose() * algebra::view(way) +
-          kTurnWeight * turning.transpose() * algebra::view(turn) - kPenalty * push.gradient +
-          kNearWeight * (algebra::view(aim.near_rad, n) - algebra::view(theta, n));
+  out.b = kTipWeight * linear.transpose() * eigen::view(way) + kTurnWeight * turning.transpose() * eigen::view(turn) -
+          kPenalty * push.gradient + kNearWeight * (eigen::view(aim.near_rad, n) - eigen::view(theta, n));
   for (Eigen::Index k = 0; k < n; ++k) {
-    if (((aim.held_mask >> k) & 1u) != 0) algebra::fix_theta(k, 0.0, out.A, out.b);
+    if (((aim.held_mask >> k) & 1u) != 0) eigen::fix_theta(k, 0.0, out.A, out.b);
   }
   return out;
 }
@@ -249,9 +248,9 @@ TipEquations tip_equations(const Room& room, const PoseAim& aim, const ThetaVect
 SettledPose settle(const Room& room, const PoseAim& aim, ThetaVector theta, std::int32_t iterations) {
   for (std::int32_t i = 0; i < iterations; ++i) {
     const TipEquations equations = tip_equations(room, aim, theta);
-    const Eigen::LLT<algebra::ThetaMatrix> factor(equations.A);
+    const Eigen::LLT<eigen::ThetaMatrix> factor(equations.A);
     if (factor.info() != Eigen::Success) break;
-    const algebra::ThetaColumn step = factor.solve(equations.b);
+    const eigen::ThetaColumn step = factor.solve(equations.b);
     for (Eigen::Index k = 0; k < step.size(); ++k) {
       const double limit = room.table().segment[Index(k) / 2].theta_limit_rad;
       theta[Index(k)] = std::clamp(theta[Index(k)] + std::clamp(step[k], -0.1, 0.1), -limit, limit);
@@ -261,4 +260,4 @@ SettledPose settle(const Room& room, const PoseAim& aim, ThetaVector theta, std:
   return {theta, norm({error[0], error[1], error[2]}), room.look(theta).nearest.distance_m};
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -8,7 +8,7 @@
 
 #include "host/planning/planner/problem/room.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -48,4 +48,4 @@ struct SettledPose {
 // Gauss-Newton from `theta_rad`, `iterations` steps.
 SettledPose settle(const Room& room, const PoseAim& aim, ThetaVector theta_rad, std::int32_t iterations);
 
-}  // namespace liana::plan
+}  // namespace liana::planner

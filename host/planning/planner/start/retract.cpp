@@ -6,7 +6,7 @@
 #include "firmware_like/cable/motion/servo_ik.hpp"
 #include "host/planning/planner/start/relax.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
@@ -52,4 +52,4 @@ Path retract(const Room& room, const ThetaVector& theta_rad, std::uint32_t held_
   return path;
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -7,7 +7,7 @@
 
 #include "host/planning/planner/problem/room.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -19,4 +19,4 @@ constexpr double kRetractShare = 0.75;   // of the arm's length, at most
 // thetas of the mask.
 Path retract(const Room& room, const ThetaVector& theta_rad, std::uint32_t held_mask, double margin_m);
 
-}  // namespace liana::plan
+}  // namespace liana::planner

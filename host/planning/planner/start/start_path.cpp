@@ -7,7 +7,7 @@
 #include "host/planning/planner/start/relax.hpp"
 #include "host/planning/planner/start/retract.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
@@ -102,4 +102,4 @@ Path start_path(const Room& room, const PlanRequest& request, const PathEnds& en
   return relax(room, request, path);
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -9,7 +9,7 @@
 
 #include "host/planning/planner/problem/room.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -31,4 +31,4 @@ Path straight_path(const PlanRequest& request, const PathEnds& ends);
 Path start_path(const Room& room, const PlanRequest& request, const PathEnds& ends, StartKind kind,
                 const PlanControl& control);
 
-}  // namespace liana::plan
+}  // namespace liana::planner

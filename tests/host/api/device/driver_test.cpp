@@ -21,8 +21,8 @@ class AtADevice : public testing::Test {
   }
   const ClockRelation& clock() { return door_.devices()[0]->clock(); }
 
-  DoorPlace place_;
-  Door door_;
+  DeviceEndpoint place_;
+  DeviceServer door_;
   Driver driver_;
 };
 

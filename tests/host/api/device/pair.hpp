@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "host/api/device/door.hpp"
+#include "host/api/device/device_server.hpp"
 #include "host/api/device/driver.hpp"
 
 namespace liana::device {
@@ -18,7 +18,7 @@ inline Capability hand_controller(const std::string& name) {
 }
 
 // `name` keeps the sockets of tests that run at once apart.
-inline DoorPlace place_of_test(const std::string& name) {
+inline DeviceEndpoint place_of_test(const std::string& name) {
   return {"/tmp/liana_door_" + name + "_" + std::to_string(::getpid()), {}};
 }
 

@@ -9,17 +9,17 @@
 namespace liana::cli {
 namespace {
 
-cable::RobotTable two_segments() {
-  cable::RobotTable robot;
+cable::RobotParams two_segments() {
+  cable::RobotParams robot;
   robot.segment_count = 2;
-  for (cable::SegmentTable& segment : robot.segment) segment.theta_limit_rad = 20.0 * std::numbers::pi / 180.0;
+  for (cable::SegmentParams& segment : robot.segment) segment.theta_limit_rad = 20.0 * std::numbers::pi / 180.0;
   return robot;
 }
 
 std::string refusal(const std::function<void()>& call) {
   try {
     call();
-  } catch (const system::BadInput& error) {
+  } catch (const launcher::BadInput& error) {
     return error.what();
   }
   return "";
@@ -40,7 +40,7 @@ TEST(Arguments, AnglesAreConvertedToRadiansAndMayStandOnTheLimit) {
 }
 
 TEST(Arguments, AnglesOverTheLimitOrOfTheWrongNumberAreRefusedByName) {
-  const cable::RobotTable robot = two_segments();
+  const cable::RobotParams robot = two_segments();
   EXPECT_NE(refusal([&] { parse_theta_deg("--theta-deg", "0,0,20.001,0", robot); }).find("theta 3 within +-20 deg"),
             std::string::npos);
   EXPECT_NE(refusal([&] { parse_theta_deg("--theta-deg", "0,0,0", robot); }).find("4 numbers"), std::string::npos);
@@ -63,13 +63,13 @@ TEST(Arguments, HeldAnglesAreCountedFromOneAndMayCarryAValue) {
 }
 
 TEST(Arguments, HoldsOutsideTheRobotAreRefused) {
-  const cable::RobotTable robot = two_segments();
+  const cable::RobotParams robot = two_segments();
   for (const char* text : {"0", "5", "1,1", "1=21", "x", "1=", ""})
     EXPECT_NE(refusal([&] { parse_hold(text, robot); }), "") << text;
 }
 
 TEST(Arguments, AControlPointHasANodeAPlaceAndAPositiveWeight) {
-  const cable::RobotTable robot = two_segments();
+  const cable::RobotParams robot = two_segments();
   const ControlPointArgument point = parse_control_point("2:1,2,3:0.5", robot);
   EXPECT_EQ(point.node, 2);
   EXPECT_EQ(point.position_m[1], 2.0);

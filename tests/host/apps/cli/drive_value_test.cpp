@@ -9,8 +9,8 @@
 namespace liana::cli {
 namespace {
 
-desk::Answer answer_of(const std::string& bytes) {
-  desk::Answer answer;
+commissioning::Answer answer_of(const std::string& bytes) {
+  commissioning::Answer answer;
   answer.bytes.assign(bytes.begin(), bytes.end());
   return answer;
 }
@@ -48,7 +48,7 @@ TEST(DriveValue, WhatIsWrittenFitsInItsBitsAndMayBeHexadecimal) {
   for (const Row& row : {Row{"256", 8, 0}, Row{"-129", 8, 0}, Row{"0x100", 8, 0}, Row{"0x", 16, 0}, Row{"0x-1", 16, 0},
                          Row{"0x10000", 16, 0}, Row{"1e3", 32, 0}, Row{"0x1FFFFFFFF", 32, 0}, Row{"", 32, 0},
                          Row{"0xFFFFFFFFFFFFFFFFFF", 32, 0}, Row{"12 ", 32, 0}})
-    EXPECT_THROW(value_of(row.text, row.bits), system::BadInput) << row.text;
+    EXPECT_THROW(value_of(row.text, row.bits), launcher::BadInput) << row.text;
 }
 
 }  // namespace

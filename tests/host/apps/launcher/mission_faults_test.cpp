@@ -11,7 +11,7 @@
 #include "host/base/json/json.hpp"
 #include "tests/message.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 std::string refusal_of(const Json& mission, const std::string& name) {
@@ -43,4 +43,4 @@ TEST(MissionFaults, OfAMissionWithoutAnyAreRefused) {
 }
 
 }  // namespace
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -5,7 +5,7 @@
 
 #include "host/apps/launcher/errors.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 std::string choice_refusal(const OperatorChoice& choice) {
@@ -47,4 +47,4 @@ TEST(OperatorChoice, ADelayThatIsNoneIsRefusedWithWhatIsAllowed) {
 }
 
 }  // namespace
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -11,7 +11,7 @@
 
 #include "host/apps/launcher/system_layout.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 namespace fs = std::filesystem;
@@ -114,4 +114,4 @@ TEST_F(Runs, WhereNoneCanBeKeptTheReasonIsSaid) {
 }
 
 }  // namespace
-}  // namespace liana::system
+}  // namespace liana::launcher

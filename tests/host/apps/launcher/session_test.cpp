@@ -16,7 +16,7 @@
 #include "host/base/net/socket.hpp"
 #include "tests/message.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 // Answers as lianad does: welcome, states, and after a stop DISABLED.
@@ -111,7 +111,7 @@ TEST_F(Session, AMissionThatEndsByItselfLeavesTheOutcomeToItsReport) {
   add("lianad", "exec sleep 0.5");
   add("liana-mission", "echo '{}' > " + plan_.file("mission.json"));
   RunSession session(plan_);
-  const RunEnd end = session.run();
+  const RunResult end = session.run();
   EXPECT_EQ(end.outcome, "");
   EXPECT_TRUE(daemon.saw("shutdown"));
   EXPECT_EQ(session.welcome()["config_hash"], "abc");
@@ -134,7 +134,7 @@ TEST_F(Session, ADyingBenchEndsTheRunWithItsNameAndLastLines) {
   add("lianad", "exec sleep 0.5");
   add("liana-bench", "sleep 0.2; echo first; echo cable 7 tore >&2; exit 3");
   add_living("liana-mission");
-  const RunEnd end = RunSession(plan_).run();
+  const RunResult end = RunSession(plan_).run();
   EXPECT_EQ(end.outcome, "failed");
   EXPECT_TRUE(names(end.message, {"liana-bench", "code 3"}));
   EXPECT_NE(end.message.find("cable 7 tore"), std::string::npos) << end.message;
@@ -145,7 +145,7 @@ TEST_F(Session, OfABenchAndALianadThatFailAlikeTheBenchIsTheReasonWithItsOwnWord
   add("lianad", "sleep 0.3; echo 'lianad: no bus' >&2; exit 1");
   add("liana-bench", "sleep 0.2; echo 'liana-bench: cable 7 tore' >&2; echo goodbye; exit 1");
   add_living("liana-mission");
-  const RunEnd end = RunSession(plan_).run();
+  const RunResult end = RunSession(plan_).run();
   EXPECT_TRUE(names(end.message.substr(0, end.message.find('\n')), {"liana-bench", "code 1", "cable 7 tore"}));
 }
 
@@ -154,7 +154,7 @@ TEST_F(Session, AProgramThatIsKilledEndsTheMissionToo) {
   add("lianad", "exec sleep 0.5");
   add("liana-operator", "sleep 0.1; kill -9 $$");
   add_living("liana-mission");
-  const RunEnd end = RunSession(plan_).run();
+  const RunResult end = RunSession(plan_).run();
   EXPECT_EQ(end.outcome, "failed");
   EXPECT_TRUE(names(end.message, {"liana-operator", "signal 9"}));
   EXPECT_TRUE(daemon.saw("mission_control"));
@@ -175,14 +175,14 @@ TEST_F(Session, AKilledMissionRunnerFailsTheRun) {
   const FakeDaemon daemon(plan_.api_socket());
   add("lianad", "exec sleep 0.5");
   add("liana-mission", "kill -9 $$");
-  const RunEnd end = RunSession(plan_).run();
+  const RunResult end = RunSession(plan_).run();
   EXPECT_EQ(end.outcome, "failed");
   EXPECT_TRUE(names(end.message, {"mission runner", "signal 9"}));
 }
 
 TEST_F(Session, AProgramThatRefusesItsInputAtTheStartIsBadInput) {
   add("liana-bus", "echo buses.json: rate_hz: 0 >&2; exit 2");
-  const RunEnd end = RunSession(plan_).run();
+  const RunResult end = RunSession(plan_).run();
   EXPECT_TRUE(end.bad_input);
   EXPECT_NE(end.message.find("rate_hz"), std::string::npos) << end.message;
 }
@@ -193,7 +193,7 @@ TEST_F(Session, ABenchThatRefusesItsInputEndsTheRunAtOnce) {
   add("liana-bench", "echo faults.json: drive: 99 >&2; exit 2");
   add_living("liana-mission");
   const auto begin = std::chrono::steady_clock::now();
-  const RunEnd end = RunSession(plan_).run();
+  const RunResult end = RunSession(plan_).run();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   EXPECT_TRUE(end.bad_input) << end.message;
   EXPECT_LT(took.count(), 10.0) << "of which it waited 14 before";
@@ -203,7 +203,7 @@ TEST_F(Session, AnInterruptedRunSaysOnlyWhatIsKnownOfTheArm) {
   const FakeDaemon daemon(plan_.api_socket(), true);
   add("lianad", "exec sleep 0.5");
   add("liana-mission", "kill -TERM " + std::to_string(getpid()) + "; exec sleep 60");
-  const RunEnd end = RunSession(plan_).run();
+  const RunResult end = RunSession(plan_).run();
   EXPECT_EQ(end.outcome, "aborted");
   EXPECT_TRUE(names(end.message, {"lianad", "ENABLED", "0.50 s"}));
 }
@@ -212,7 +212,7 @@ TEST_F(Session, CtrlCBecomesAStopOfTheArm) {
   const FakeDaemon daemon(plan_.api_socket());
   add("lianad", "exec sleep 0.5");
   add("liana-mission", "kill -INT " + std::to_string(getpid()) + "; exec sleep 60");
-  const RunEnd end = RunSession(plan_).run();
+  const RunResult end = RunSession(plan_).run();
   EXPECT_EQ(end.outcome, "aborted");
   EXPECT_TRUE(daemon.saw("stop"));
   EXPECT_TRUE(names(end.message, {"interrupted", "DISABLED"}));
@@ -226,7 +226,7 @@ TEST_F(Session, AProgramThatStandsStillIsNamedAndCtrlCEndsTheRunWithinSeconds) {
   add("liana-mission", "sleep 1; kill -INT $PPID; exec sleep 60");
   RunSession session(plan_);
   const auto begin = std::chrono::steady_clock::now();
-  const RunEnd end = session.run();
+  const RunResult end = session.run();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   EXPECT_EQ(end.outcome, "aborted");
   EXPECT_LT(took.count(), 8.0) << "of which it waited 26 before";
@@ -275,4 +275,4 @@ TEST(Silence, IsBrokenOrSaidAgainAndAgain) {
 }
 
 }  // namespace
-}  // namespace liana::system
+}  // namespace liana::launcher

@@ -6,7 +6,7 @@
 #include "host/apps/launcher/tables.hpp"
 #include "tests/message.hpp"
 
-namespace liana::system {
+namespace liana::launcher {
 namespace {
 
 template <class Action>
@@ -79,4 +79,4 @@ TEST(Buses, AreTheUsersElseTheRobotsOwnElseMadeForItsDrives) {
 }
 
 }  // namespace
-}  // namespace liana::system
+}  // namespace liana::launcher

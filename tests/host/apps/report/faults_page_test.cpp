@@ -11,7 +11,7 @@ namespace liana::report {
 namespace {
 
 FaultTimes shipped() {
-  const cable::RobotTable table = system::robot_for_kinematics("zhu2022").table;
+  const cable::RobotParams table = launcher::robot_for_kinematics("zhu2022").table;
   return {table.tick_s, table.segment_count};
 }
 

@@ -238,11 +238,10 @@ TEST_F(RunReport, ASuccessHasToKeepTensionAndSpeedAndNamesTheFirstThatItDidNot) 
 TEST_F(RunReport, CriteriaAreTheTablesTheMotorsOnlyWhereCablesAreAsPlannedWith) {
   const Json robot =
       Json::parse(R"({"tension":{"floor_motor_N":15,"floor_anywhere_N":1},"limits":{"tip_speed_slit_m_s":0.03}})");
-  EXPECT_EQ(criteria_of(robot, "nominal").least_motor_tension_N, 15.0);
-  EXPECT_FALSE(criteria_of(robot, "worn").least_motor_tension_N);
+  EXPECT_EQ(criteria_of(robot, "nominal").min_motor_tension_N, 15.0);
+  EXPECT_FALSE(criteria_of(robot, "worn").min_motor_tension_N);
   EXPECT_EQ(criteria_of(robot, "worn").least_tension_N, 1.0);
-  EXPECT_DOUBLE_EQ(*criteria_of(robot, "worn").most_slit_speed_m_s, 0.0315)
-      << "it swings about the 0.03 that are asked";
+  EXPECT_DOUBLE_EQ(*criteria_of(robot, "worn").max_slit_speed_m_s, 0.0315) << "it swings about the 0.03 that are asked";
   const Criteria serial = criteria_of(Json::parse(R"({"kind":"serial"})"), "nominal");
   EXPECT_FALSE(serial.least_tension_N);
   EXPECT_EQ(serial.least_clearance_m, 0.0);

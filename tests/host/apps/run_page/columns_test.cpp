@@ -11,7 +11,7 @@
 #include "host/apps/run_page/deflate.hpp"
 #include "host/base/json/json.hpp"
 
-namespace liana::view {
+namespace liana::run_page {
 namespace {
 
 std::string from_base64(const std::string& text) {
@@ -96,4 +96,4 @@ TEST(Base64, IsThatOfTheStandard) {
 }
 
 }  // namespace
-}  // namespace liana::view
+}  // namespace liana::run_page

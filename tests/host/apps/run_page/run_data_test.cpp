@@ -5,7 +5,7 @@
 
 #include "host/api/telemetry/record.hpp"
 
-namespace liana::view {
+namespace liana::run_page {
 namespace {
 
 Json state_at(int tick) {
@@ -23,7 +23,7 @@ RunData short_run() {
   run.events = {{{"kind", "step"}, {"number", 1}, {"subject", "approach"}, {"tick", 20}},
                 {{"kind", "fault"}, {"number", 3002}, {"subject", "drive 3"}, {"tick", 60}}};
   for (std::uint64_t i = 1; i <= 20; ++i) {
-    report::CommandLife life;
+    report::CommandRecord life;
     life.command = i;
     life.tick = 5 * i;
     run.commands.push_back(life);
@@ -81,4 +81,4 @@ TEST(PageOfARun, IsMadeOfARunThatLeftNothing) {
 TEST(PageOfARun, IsRefusedWithoutItsMark) { EXPECT_THROW(page_of(short_run(), "<body></body>"), std::runtime_error); }
 
 }  // namespace
-}  // namespace liana::view
+}  // namespace liana::run_page

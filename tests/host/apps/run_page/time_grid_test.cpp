@@ -7,7 +7,7 @@
 
 #include "host/api/telemetry/record.hpp"
 
-namespace liana::view {
+namespace liana::run_page {
 namespace {
 
 std::string record_at(double tick) {
@@ -48,4 +48,4 @@ TEST(TimeGrid, HasNothingWhereRecordsAreMissing) {
 TEST(TimeGrid, IsEmptyWithoutRecords) { EXPECT_EQ(grid_of({}, 0.004).rows, 0u); }
 
 }  // namespace
-}  // namespace liana::view
+}  // namespace liana::run_page

@@ -66,11 +66,11 @@ TEST_F(Log, TheNewestTenAreShownWithoutFaultsAndRefusedRequests) {
 TEST_F(Log, WhoFloodsIsCountedAndKeepsNoOtherKindOut) {
   for (int i = 0; i < 1000; ++i) add(EventKind::kTool, std::to_string(i));
   add(EventKind::kStop, "the stop");
-  EXPECT_EQ(told_.size(), EventLog::kMostPerInterval + 1);
+  EXPECT_EQ(told_.size(), EventLog::kMaxPerInterval + 1);
   EXPECT_EQ(told_.back().text, "the stop");
   next_interval();
   EXPECT_EQ(told_.back().kind, EventKind::kLeftOut);
-  EXPECT_EQ(told_.back().number, 1000 - EventLog::kMostPerInterval);
+  EXPECT_EQ(told_.back().number, 1000 - EventLog::kMaxPerInterval);
   EXPECT_EQ(told_.back().subject, "tool");
   add(EventKind::kTool, "again");
   EXPECT_EQ(told_.back().text, "again");
@@ -149,7 +149,7 @@ TEST_F(Log, WhoMakesUpNamesFillsNeitherMemoryNorDisk) {
   }
   intervals(3.0);
   const double seconds = 100'000 / 20 * 5 * kPeriod_s;
-  EXPECT_LT(static_cast<double>(told_.size()), 2.0 * seconds * Standing<Event>::kMostKeys / EventLog::kOver_s);
+  EXPECT_LT(static_cast<double>(told_.size()), 2.0 * seconds * Standing<Event>::kMaxKeys / EventLog::kOver_s);
   double cases = 0.0;
   for (const Event& event : told_) cases += std::max(1.0, value(event, "times"));
   EXPECT_EQ(cases, 100'000.0);

@@ -9,7 +9,7 @@
 
 #include "tests/message.hpp"
 
-namespace liana::places {
+namespace liana::install_paths {
 namespace {
 
 namespace fs = std::filesystem;
@@ -74,4 +74,4 @@ TEST_F(Places, AFolderThatTheSearchPathCannotHoldIsRefused) {
 }
 
 }  // namespace
-}  // namespace liana::places
+}  // namespace liana::install_paths

@@ -38,7 +38,7 @@ TEST(PlainReader, MemberGivenTwiceCountsLastOrIsLeftToTheLibrary) {
 }
 
 TEST(PlainReader, LevelsBeyondTheDeepestAreLeftToTheLibrary) {
-  const std::string open(Json::kMostLevels, '['), close(Json::kMostLevels, ']');
+  const std::string open(Json::kMaxLevels, '['), close(Json::kMaxLevels, ']');
   EXPECT_EQ(read(open + close), open + close);
   EXPECT_EQ(read("[" + open + close + "]"), "left to the library");
 }

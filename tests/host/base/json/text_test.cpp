@@ -90,9 +90,9 @@ TEST(JsonText, TextThatIsNoUtf8IsRefusedInBothDirections) {
 }
 
 TEST(JsonText, NestingIsAcceptedUpToTheLimitAndAnErrorBeyond) {
-  EXPECT_EQ(Json::parse(nested(Json::kMostLevels, "[", "]")).dump().size(), 2u * Json::kMostLevels);
-  EXPECT_NE(parse_refusal(nested(Json::kMostLevels + 1, "[", "]")).find("200 levels"), std::string::npos);
-  EXPECT_NE(parse_refusal("{\"a\":" + nested(Json::kMostLevels, "[", "]") + "}"), "");
+  EXPECT_EQ(Json::parse(nested(Json::kMaxLevels, "[", "]")).dump().size(), 2u * Json::kMaxLevels);
+  EXPECT_NE(parse_refusal(nested(Json::kMaxLevels + 1, "[", "]")).find("200 levels"), std::string::npos);
+  EXPECT_NE(parse_refusal("{\"a\":" + nested(Json::kMaxLevels, "[", "]") + "}"), "");
   for (const int levels : {400'000, 3'000'000}) {
     EXPECT_NE(parse_refusal(nested(levels, "[", "")), "");
     EXPECT_NE(parse_refusal(nested(levels, "[", "]")), "");
@@ -103,8 +103,8 @@ TEST(JsonText, NestingIsAcceptedUpToTheLimitAndAnErrorBeyond) {
 
 TEST(JsonText, LevelsThatAreClosedDoNotCount) {
   std::string text = "[";
-  for (int i = 0; i < 10 * Json::kMostLevels; ++i) text += "[{}],";
-  EXPECT_EQ(Json::parse(text + "0]").size(), 10u * Json::kMostLevels + 1);
+  for (int i = 0; i < 10 * Json::kMaxLevels; ++i) text += "[{}],";
+  EXPECT_EQ(Json::parse(text + "0]").size(), 10u * Json::kMaxLevels + 1);
 }
 
 TEST(JsonText, MemberGivenTwiceCountsLastOrIsRefusedByName) {

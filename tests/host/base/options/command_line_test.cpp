@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace liana::command_line {
+namespace liana::options {
 namespace {
 
 // A program with one command, and what a command line made of it.
@@ -71,4 +71,4 @@ TEST(CommandLine, TheProgramSaysItsNameTheProblemAndWhereMoreStands) {
 }
 
 }  // namespace
-}  // namespace liana::command_line
+}  // namespace liana::options

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace liana::draw {
+namespace liana::svg {
 namespace {
 
 TEST(Axes, PutTheEndsOfTheRangesOnTheEdges) {
@@ -40,4 +40,4 @@ TEST(Ticks, OfLogarithmsAreAtLeastThreeWhereverTheRangeLies) {
 }
 
 }  // namespace
-}  // namespace liana::draw
+}  // namespace liana::svg

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace liana::draw {
+namespace liana::svg {
 namespace {
 
 TEST(Svg, TextCannotBreakTheDocument) {
@@ -40,4 +40,4 @@ TEST(Svg, ALineNeedsTwoPoints) {
 }
 
 }  // namespace
-}  // namespace liana::draw
+}  // namespace liana::svg

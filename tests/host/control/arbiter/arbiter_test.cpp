@@ -8,7 +8,7 @@
 #include <string>
 
 #include "host/api/server/request_error.hpp"
-#include "host/control/arbiter/serial_kind.hpp"
+#include "host/control/arbiter/serial_traits.hpp"
 #include "tests/firmware_like/micro_arm.hpp"
 
 namespace liana::arbiter {
@@ -37,7 +37,7 @@ class SerialArbitration : public testing::Test {
     return "accepted";
   }
 
-  serial::RobotTable table_ = serial::micro::table();
+  serial::RobotParams table_ = serial::micro::table();
   Arbiter<serial::SerialArm> arbiter_{table_};
   liana::Outputs<serial::SerialArm> now_{};
   std::uint64_t tick_ = 0;

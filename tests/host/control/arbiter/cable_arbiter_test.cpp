@@ -54,7 +54,7 @@ class Arbitration : public testing::Test {
     return "accepted";
   }
 
-  RobotTable table_;
+  RobotParams table_;
   CableArbiter arbiter_;
   cable::Outputs now_{};
   std::uint64_t tick_ = 0;
@@ -170,8 +170,8 @@ TEST_F(Arbitration, HeldVariablesAndShapeTravelWithTheTipGoal) {
 TEST_F(Arbitration, ASearchLeadsTheNodesToTheBestShapeAndThenGivesTheTargetsThemselves) {
   NodeTargets nodes{};
   nodes[0] = {3, {0.7, 0.3, 0.3}, 1.0, 0.0};
-  const solve::GoalIkResult best =
-      solve::solve_goal(table_, {now_.tip_command, now_.theta_command_rad, 0, {}, nodes, {}});
+  const inverse_kinematics::GoalIkResult best =
+      inverse_kinematics::solve_goal(table_, {now_.tip_command, now_.theta_command_rad, 0, {}, nodes, {}});
   ASSERT_TRUE(best.converged);
   const ArmKinematics arm = forward_kinematics(table_, best.theta_rad);
   arbiter_.shape(now_, nodes, {}, true);
@@ -376,7 +376,7 @@ TEST_F(Arbitration, TheMappingOfTheDeviceInUseChangesOnlyWhileTheDeadmanIsOpen) 
   const Pose before = steered(0.05)->tip_in_base;
   DeviceUse other = arbiter_.device().in_use();
   for (const ClutchMapping mapping :
-       {ClutchMapping{2.0, 1.0}, ClutchMapping{1.0, 0.5}, ClutchMapping{1.0, 1.0, SteerFrame::kCamera}}) {
+       {ClutchMapping{2.0, 1.0}, ClutchMapping{1.0, 0.5}, ClutchMapping{1.0, 1.0, TeleopFrame::kCamera}}) {
     other.mapping = mapping;
     EXPECT_EQ(code_of([&] { arbiter_.use_device(now_, other); }), "busy");
   }
@@ -388,7 +388,7 @@ TEST_F(Arbitration, TheMappingOfTheDeviceInUseChangesOnlyWhileTheDeadmanIsOpen) 
 }
 
 TEST_F(Arbitration, AnotherDeviceOrNoneTakesOverFromAHandThatSteers) {
-  for (const device::Kind kind : {device::Kind::kHandles, device::Kind::kNone}) {
+  for (const device::Kind kind : {device::Kind::kVrControllers, device::Kind::kNone}) {
     use_hand();
     ASSERT_TRUE(steered(0.0));
     DeviceUse other;
@@ -427,9 +427,9 @@ class AtTheSlit : public Arbitration {
 TEST_F(AtTheSlit, VrIsRefusedInsideUnlessItIsToSteerAnywhereAndTheHandControllerIsNot) {
   slit_.mouth_u_m -= 0.02;
   CableArbiter arbiter(table_, SpeedZone(slit_, 0.03));
-  EXPECT_EQ(code_of([&] { arbiter.use_device(now_, use(device::Kind::kHandles)); }), "refused");
+  EXPECT_EQ(code_of([&] { arbiter.use_device(now_, use(device::Kind::kVrControllers)); }), "refused");
   EXPECT_EQ(arbiter.device().in_use().kind, device::Kind::kNone);
-  EXPECT_EQ(code_of([&] { arbiter.use_device(now_, use(device::Kind::kHandles, true)); }), "accepted");
+  EXPECT_EQ(code_of([&] { arbiter.use_device(now_, use(device::Kind::kVrControllers, true)); }), "accepted");
   EXPECT_EQ(code_of([&] { arbiter.use_device(now_, use(device::Kind::kHandController)); }), "accepted");
   EXPECT_EQ(code_of([&] { arbiter.use_device(now_, use(device::Kind::kNone)); }), "accepted");
 }
@@ -437,7 +437,7 @@ TEST_F(AtTheSlit, VrIsRefusedInsideUnlessItIsToSteerAnywhereAndTheHandController
 // req:A33
 TEST_F(AtTheSlit, VrThatSteersIntoItIsLetGoAtTheMouth) {
   CableArbiter arbiter(table_, SpeedZone(slit_, 0.03));
-  arbiter.use_device(now_, use(device::Kind::kHandles));
+  arbiter.use_device(now_, use(device::Kind::kVrControllers));
   for (int i = 0; i < 3; ++i) {
     right_hand(arbiter, 0.1 * i);
     EXPECT_TRUE(arbiter.next_setpoint(tick_ += 5, now_)) << "in front of it";
@@ -484,7 +484,7 @@ TEST_F(Arbitration, ATipThatNothingHasSlowedIsAskedForItsWholeSpeedAtOnceAndForL
 }
 
 // A way in along theta 1: 20 intervals of 1 mrad each.
-class WayOut : public Arbitration {
+class RetractRequest : public Arbitration {
  protected:
   static constexpr double kStep_rad = 0.001;
 
@@ -513,7 +513,7 @@ class WayOut : public Arbitration {
   const double start_ = now_.theta_command_rad[0] + kStep_rad;
 };
 
-TEST_F(WayOut, LeadsBackAlongWhatWasCommandedAndSaysSo) {
+TEST_F(RetractRequest, LeadsBackAlongWhatWasCommandedAndSaysSo) {
   EXPECT_EQ(code_of([&] { arbiter_.retract(now_, 0); }), "refused") << "nothing was stored yet";
   go_in();
   arbiter_.retract(now_, 0);
@@ -524,7 +524,7 @@ TEST_F(WayOut, LeadsBackAlongWhatWasCommandedAndSaysSo) {
   EXPECT_TRUE(arbiter_.has_retracted());
 }
 
-TEST_F(WayOut, BeginsWhereTheArmHasComeToRest) {
+TEST_F(RetractRequest, BeginsWhereTheArmHasComeToRest) {
   go_in();
   now_.at_rest = 0;
   arbiter_.retract(now_, 0);
@@ -541,7 +541,7 @@ TEST_F(WayOut, BeginsWhereTheArmHasComeToRest) {
   EXPECT_EQ(now_.theta_command_rad[0], start_);
 }
 
-TEST_F(WayOut, EndsWhereTheCommandStoodAtTheTickAskedFor) {
+TEST_F(RetractRequest, EndsWhereTheCommandStoodAtTheTickAskedFor) {
   for (int i = 0; i < 20; ++i) {
     now_.theta_command_rad[0] += kStep_rad;
     next();
@@ -553,7 +553,7 @@ TEST_F(WayOut, EndsWhereTheCommandStoodAtTheTickAskedFor) {
 }
 
 // An arm at rest may swing on; what is refused because of that has to wait until it has died away.
-TEST_F(WayOut, StartsAgainFromALongerRestEachTimeItIsRefusedAndGivesUpInTheEnd) {
+TEST_F(RetractRequest, StartsAgainFromALongerRestEachTimeItIsRefusedAndGivesUpInTheEnd) {
   go_in();
   arbiter_.retract(now_, 0);
   int refusals = 0;
@@ -567,7 +567,7 @@ TEST_F(WayOut, StartsAgainFromALongerRestEachTimeItIsRefusedAndGivesUpInTheEnd) 
   EXPECT_FALSE(next());
 }
 
-TEST_F(WayOut, GoesAllTheWayAfterARefusal) {
+TEST_F(RetractRequest, GoesAllTheWayAfterARefusal) {
   go_in();
   arbiter_.retract(now_, 0);
   wait_for_rest();
@@ -581,7 +581,7 @@ TEST_F(WayOut, GoesAllTheWayAfterARefusal) {
 }
 
 // A stop goes on along the path: what it passes is behind the arm, and no cusp of the path.
-TEST_F(WayOut, AskedForAgainGoesOnFromWhereTheStopEnds) {
+TEST_F(RetractRequest, AskedForAgainGoesOnFromWhereTheStopEnds) {
   go_in();
   arbiter_.retract(now_, 0);
   wait_for_rest();
@@ -602,7 +602,7 @@ TEST_F(WayOut, AskedForAgainGoesOnFromWhereTheStopEnds) {
   EXPECT_EQ(now_.theta_command_rad[0], start_);
 }
 
-TEST_F(WayOut, SaysWhatItIsDoingAndHowMuchIsLeft) {
+TEST_F(RetractRequest, SaysWhatItIsDoingAndHowMuchIsLeft) {
   EXPECT_EQ(arbiter_.retract_state().phase, RetractPhase::kNone);
   go_in();
   arbiter_.retract(now_, 0);
@@ -617,12 +617,12 @@ TEST_F(WayOut, SaysWhatItIsDoingAndHowMuchIsLeft) {
   EXPECT_EQ(arbiter_.retract_state().points_left, 0u);
   const auto news = arbiter_.take_way_news();
   ASSERT_EQ(news.size(), 2u);
-  EXPECT_EQ(news[0].what, event::WayEvent::kBegins);
+  EXPECT_EQ(news[0].what, event::RetractEvent::kBegins);
   EXPECT_EQ(news[0].points, 19u);
-  EXPECT_EQ(news[1].what, event::WayEvent::kArrives);
+  EXPECT_EQ(news[1].what, event::RetractEvent::kArrives);
 }
 
-TEST_F(WayOut, IsNoLongerRetractedOnceTheArmHasMovedOn) {
+TEST_F(RetractRequest, IsNoLongerRetractedOnceTheArmHasMovedOn) {
   go_in();
   arbiter_.retract(now_, 0);
   wait_for_rest();
@@ -633,7 +633,7 @@ TEST_F(WayOut, IsNoLongerRetractedOnceTheArmHasMovedOn) {
   EXPECT_FALSE(arbiter_.has_retracted());
 }
 
-TEST_F(WayOut, IsNotBackBeforeTheArmIsAtRestThere) {
+TEST_F(RetractRequest, IsNotBackBeforeTheArmIsAtRestThere) {
   go_in();
   arbiter_.retract(now_, 0);
   wait_for_rest();
@@ -651,27 +651,27 @@ TEST_F(WayOut, IsNotBackBeforeTheArmIsAtRestThere) {
 }
 
 // The way in began at once at full speed; who stands in his friction would spring ahead.
-TEST_F(WayOut, GetsFasterNoMoreThanATenthOfTheFastestRateEachSecond) {
+TEST_F(RetractRequest, GetsFasterNoMoreThanATenthOfTheFastestRateEachSecond) {
   go_in();
   arbiter_.retract(now_, 0);
   wait_for_rest();
   constexpr double dt_s = 0.02;
-  const double most_rad = 0.1 * zhu2022::table().limits.theta_rate_rad_s * dt_s * dt_s;
+  const double max_rad = 0.1 * zhu2022::table().limits.theta_rate_rad_s * dt_s * dt_s;
   double before_rad = 0.0, fastest_rad = 0.0;
   for (int i = 0; i < 200; ++i) {
     const auto setpoint = next();
     if (!setpoint) break;
     const double step_rad = std::fabs(setpoint->joint_rad[0] - now_.theta_command_rad[0]);
-    EXPECT_LE(step_rad, before_rad + 1.0001 * most_rad + 1e-12) << "interval " << i;
+    EXPECT_LE(step_rad, before_rad + 1.0001 * max_rad + 1e-12) << "interval " << i;
     before_rad = step_rad;
     fastest_rad = std::max(fastest_rad, step_rad);
     now_.theta_command_rad = setpoint->joint_rad;
   }
   EXPECT_TRUE(arbiter_.has_retracted());
-  EXPECT_GT(fastest_rad, 10.0 * most_rad) << "it does get faster";
+  EXPECT_GT(fastest_rad, 10.0 * max_rad) << "it does get faster";
 }
 
-TEST_F(WayOut, EndsAndSaysWhyWhenTheArmDoesNotComeToRestOrIsNotEnabledAnyMoreOrIsHeld) {
+TEST_F(RetractRequest, EndsAndSaysWhyWhenTheArmDoesNotComeToRestOrIsNotEnabledAnyMoreOrIsHeld) {
   go_in();
   now_.at_rest = 0;
   arbiter_.retract(now_, 0);
@@ -688,11 +688,11 @@ TEST_F(WayOut, EndsAndSaysWhyWhenTheArmDoesNotComeToRestOrIsNotEnabledAnyMoreOrI
   EXPECT_EQ(arbiter_.retract_state().phase, RetractPhase::kEnded);
   EXPECT_TRUE(names(arbiter_.retract_state().reason, {"enabled"}));
   EXPECT_FALSE(arbiter_.has_retracted());
-  EXPECT_EQ(arbiter_.take_way_news().back().what, event::WayEvent::kEnds);
+  EXPECT_EQ(arbiter_.take_way_news().back().what, event::RetractEvent::kEnds);
 }
 
 // Brakes hold the drums, the arm swings a little, and is enabled beside its path.
-TEST_F(WayOut, SurvivesAStopAndIsJoinedAgainByAMoveOfItsOwn) {
+TEST_F(RetractRequest, SurvivesAStopAndIsJoinedAgainByAMoveOfItsOwn) {
   go_in();
   const ThetaVector end = now_.theta_command_rad;
   now_.state = OperatingState::kDisabled;
@@ -702,7 +702,7 @@ TEST_F(WayOut, SurvivesAStopAndIsJoinedAgainByAMoveOfItsOwn) {
   next();
   const auto kept = arbiter_.take_way_news();
   ASSERT_EQ(kept.size(), 1u);
-  EXPECT_EQ(kept[0].what, event::WayEvent::kKept);
+  EXPECT_EQ(kept[0].what, event::RetractEvent::kKept);
   EXPECT_GT(kept[0].distance_m, 0.005);
   EXPECT_LT(kept[0].distance_m, kJoin_m);
   arbiter_.retract(now_, 0);
@@ -726,21 +726,21 @@ TEST_F(WayOut, SurvivesAStopAndIsJoinedAgainByAMoveOfItsOwn) {
   EXPECT_TRUE(arbiter_.has_retracted());
 }
 
-TEST_F(WayOut, OfAnArmMovedBackByHandLeadsOnFromTheNearestPoint) {
+TEST_F(RetractRequest, OfAnArmMovedBackByHandLeadsOnFromTheNearestPoint) {
   for (int i = 0; i < 8; ++i) go_in();
   now_.state = OperatingState::kDisabled;
   next();
   now_.state = OperatingState::kEnabled;
   now_.theta_command_rad[0] = start_ + 40 * kStep_rad;
   next();
-  EXPECT_EQ(arbiter_.path_memory().size(), 41u);
+  EXPECT_EQ(arbiter_.path_history().size(), 41u);
   arbiter_.retract(now_, 0);
   wait_for_rest();
   follow();
   EXPECT_EQ(now_.theta_command_rad[0], start_);
 }
 
-TEST_F(WayOut, OfAnArmEnabledFarFromItIsGivenUpAndNobodyIsToldThatItIsBack) {
+TEST_F(RetractRequest, OfAnArmEnabledFarFromItIsGivenUpAndNobodyIsToldThatItIsBack) {
   go_in();
   const std::uint64_t before = tick_;
   now_.state = OperatingState::kDisabled;
@@ -748,7 +748,7 @@ TEST_F(WayOut, OfAnArmEnabledFarFromItIsGivenUpAndNobodyIsToldThatItIsBack) {
   now_.state = OperatingState::kEnabled;
   now_.theta_command_rad[0] += 0.1;
   next();
-  EXPECT_EQ(arbiter_.take_way_news().back().what, event::WayEvent::kLost);
+  EXPECT_EQ(arbiter_.take_way_news().back().what, event::RetractEvent::kLost);
   EXPECT_EQ(code_of([&] { arbiter_.retract(now_, 0); }), "refused");
   EXPECT_EQ(code_of([&] { arbiter_.retract(now_, before); }), "refused");
   EXPECT_FALSE(arbiter_.has_retracted());
@@ -760,7 +760,7 @@ TEST_F(WayOut, OfAnArmEnabledFarFromItIsGivenUpAndNobodyIsToldThatItIsBack) {
   EXPECT_TRUE(names(arbiter_.retract_state().reason, {"path", "farther"}));
 }
 
-TEST_F(WayOut, AsFarAsTheArmStandsAlreadyIsDoneAtOnce) {
+TEST_F(RetractRequest, AsFarAsTheArmStandsAlreadyIsDoneAtOnce) {
   go_in();
   arbiter_.retract(now_, tick_ + 5);
   wait_for_rest();
@@ -770,7 +770,7 @@ TEST_F(WayOut, AsFarAsTheArmStandsAlreadyIsDoneAtOnce) {
 }
 
 // A hold that was refused would otherwise be asked for again by the next tip goal, and never come to be.
-TEST_F(WayOut, HoldsNothingAnyMore) {
+TEST_F(RetractRequest, HoldsNothingAnyMore) {
   go_in();
   arbiter_.hold_theta(now_, 1u << 8, ThetaVector{});
   EXPECT_TRUE(next());
@@ -784,7 +784,7 @@ TEST_F(WayOut, HoldsNothingAnyMore) {
 }
 
 // Otherwise the operator grips again as soon as the way back ends, and steers in again.
-TEST_F(WayOut, TakesTheDeviceAwayFromTheOperator) {
+TEST_F(RetractRequest, TakesTheDeviceAwayFromTheOperator) {
   use_hand();
   steered(0.2);
   go_in();

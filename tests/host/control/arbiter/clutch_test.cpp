@@ -60,7 +60,7 @@ TEST(Clutch, RotationIsScaledAboutTheSameAxis) {
 TEST(Clutch, InTheTipsFrameTheHandsAxesAreThoseOfTheTipOnEngaging) {
   const Pose tip{{1.0, 0.0, 0.0}, quaternion_of({0.0, 0.0, 0.5 * kPi})};
   const Pose hand{add(kHand.position_m, {0.01, 0.0, 0.0}), multiply(quaternion_of({0.2, 0.0, 0.0}), kHand.quaternion)};
-  const Pose goal = goal_of({4.0, 0.5, SteerFrame::kTip}, tip, hand);
+  const Pose goal = goal_of({4.0, 0.5, TeleopFrame::kTip}, tip, hand);
   EXPECT_NEAR(norm(subtract(goal.position_m, {1.0, 0.04, 0.0})), 0.0, 1e-15);
   const Vec3 turn = rotation_vector(multiply(goal.quaternion, conjugate(tip.quaternion)));
   EXPECT_NEAR(norm(subtract(turn, {0.0, 0.1, 0.0})), 0.0, 1e-12);
@@ -69,7 +69,7 @@ TEST(Clutch, InTheTipsFrameTheHandsAxesAreThoseOfTheTipOnEngaging) {
 // The tip is turned by a quarter about z, half of what the hand does, and then led along the hand's x.
 TEST(Clutch, InTheCamerasFrameTheAxesTurnAlongWithTheTip) {
   for (const auto& [frame, way] :
-       {std::pair{SteerFrame::kTip, Vec3{0.02, 0.0, 0.0}}, std::pair{SteerFrame::kCamera, Vec3{0.0, 0.02, 0.0}}}) {
+       {std::pair{TeleopFrame::kTip, Vec3{0.02, 0.0, 0.0}}, std::pair{TeleopFrame::kCamera, Vec3{0.0, 0.02, 0.0}}}) {
     const ClutchMapping mapping{2.0, 0.5, frame};
     Clutch clutch;
     clutch.engage({}, {});
@@ -96,7 +96,7 @@ struct CountedTurn {
 
 // req:C4
 TEST(Clutch, AHandThatTurnsOnAndOnTurnsTheTipOnAndOn) {
-  for (const SteerFrame frame : {SteerFrame::kBase, SteerFrame::kTip, SteerFrame::kCamera}) {
+  for (const TeleopFrame frame : {TeleopFrame::kBase, TeleopFrame::kTip, TeleopFrame::kCamera}) {
     for (const double rotation_scale : {0.05, 0.2, 1.0, 3.0}) {
       const Pose tip{kTip.position_m, {1.0, 0.0, 0.0, 0.0}};
       Clutch clutch;
@@ -125,7 +125,7 @@ TEST(Clutch, AGoalLeadsTheTipByAQuarterTurnAtMostAndItComesAllTheWay) {
       hand.quaternion = multiply(quaternion_of({hand_rad, 0.0, 0.0}), kHand.quaternion);
       const Pose goal = clutch.follow({}, hand, tip);
       const Vec3 ahead = rotation_vector(multiply(goal.quaternion, conjugate(tip.quaternion)));
-      ASSERT_LE(norm(ahead), kMostLead_rad + 1e-9) << i;
+      ASSERT_LE(norm(ahead), kMaxLead_rad + 1e-9) << i;
       ASSERT_GE(sign * ahead[0], -1e-9) << "never the other way round";
       const double step_rad = std::min(norm(ahead), 0.004);
       tip.quaternion = multiply(quaternion_of({std::copysign(step_rad, ahead[0]), 0.0, 0.0}), tip.quaternion);
@@ -146,7 +146,7 @@ TEST(Clutch, AHandThatTurnsBackTakesBackWhatTheTipHasNotDone) {
     return rotation_vector(multiply(goal.quaternion, conjugate(kTip.quaternion)))[0];
   };
   for (int i = 1; i <= 100; ++i) lead_rad(0.03 * i);
-  EXPECT_NEAR(lead_rad(3.0), kMostLead_rad, 1e-9);
+  EXPECT_NEAR(lead_rad(3.0), kMaxLead_rad, 1e-9);
   for (int i = 1; i <= 90; ++i) lead_rad(3.0 - 0.03 * i);
   EXPECT_NEAR(lead_rad(0.3), 0.3, 1e-9);
 }

@@ -35,7 +35,7 @@ struct Mode {
 constexpr std::array kModes{
     Mode{"nobody", device::Kind::kNone, 0, true, 1.0, false},
     Mode{"a line", device::Kind::kNone, kX4 | kX5, true, 1.0, true},
-    Mode{"vr, 10+0", device::Kind::kHandles, 0, true, 4.0, false},
+    Mode{"vr, 10+0", device::Kind::kVrControllers, 0, true, 4.0, false},
     Mode{"hand, 10+0", device::Kind::kHandController, 0, true, 1.0, false},
     Mode{"hand, 9+1", device::Kind::kHandController, kX5, true, 1.0, false},
     Mode{"hand, 8+2", device::Kind::kHandController, kX4 | kX5, true, 0.5, false},
@@ -43,7 +43,7 @@ constexpr std::array kModes{
     Mode{"hand, 8+2, no fixtures", device::Kind::kHandController, kX4 | kX5, false, 1.0, false}};
 
 std::vector<config::SceneFixture> slit_plane() {
-  const solve::SlitMouth mouth = panel_slit();
+  const inverse_kinematics::SlitMouth mouth = panel_slit();
   config::SceneFixture plane{"slit_plane",
                              config::FixtureKind::kPlane,
                              {mouth.frame_in_base.position_m, mouth.frame_in_base.quaternion},
@@ -67,7 +67,8 @@ class LedArm {
   explicit LedArm(std::uint64_t seed)
       : random_(seed),
         rig_(zhu2022::radians(zhu2022::kPressRod_deg)),
-        arbiter_(rig_.robot, {}, SearchResult::kInItsInterval, {}, fixture::Guidance(rig_.robot, slit_plane(), 0.03)) {
+        arbiter_(rig_.robot, {}, SearchResult::kInItsInterval, {},
+                 virtual_fixtures::Guidance(rig_.robot, slit_plane(), 0.03)) {
     rig_.enable();
     home_m_ = rig_.out.tip_command.position_m;
     before_ = rig_.out;
@@ -84,7 +85,8 @@ class LedArm {
     scale_ = mode.scale;
     if (mode.scale != arbiter_.device().in_use().mapping.scale) arbiter_.use_device(rig_.out, {});  // or it is refused
     arbiter_.use_device(rig_.out, use);
-    arbiter_.choose_fixtures(mode.fixtures ? fixture::Choice{} : fixture::Choice{std::vector<std::string>{}});
+    arbiter_.choose_fixtures(mode.fixtures ? virtual_fixtures::Choice{}
+                                           : virtual_fixtures::Choice{std::vector<std::string>{}});
     arbiter_.hold_theta(rig_.out, mode.held_mask, {});
     if (mode.line) {
       Pose goal = rig_.out.tip_command;

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/control/arbiter/cable_kind.hpp"
+#include "host/control/arbiter/cable_traits.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::arbiter {
@@ -16,7 +16,7 @@ namespace {
 
 using Move = JointMove<CableArm>;
 
-const RobotTable kTable = zhu2022::table();
+const RobotParams kTable = zhu2022::table();
 
 TEST(JointMove, JointRatesAndTipSpeedStayUnderTheirLimits) {
   const ThetaVector from = zhu2022::radians(zhu2022::kPrepare_deg), to = zhu2022::radians(zhu2022::kPanelEdge_deg);

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "firmware_like/math/trig.hpp"
-#include "host/control/arbiter/cable_kind.hpp"
-#include "host/control/arbiter/serial_kind.hpp"
+#include "host/control/arbiter/cable_traits.hpp"
+#include "host/control/arbiter/serial_traits.hpp"
 #include "host/model/config/config.hpp"
 #include "tests/firmware_like/micro_arm.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
@@ -24,7 +24,7 @@ std::vector<Joints<Arm>> wandering(const typename Arm::Table& table, const Joint
   std::vector<Joints<Arm>> points{start};
   for (std::size_t k = 1; k < count; ++k) {
     Joints<Arm> point = points.back();
-    for (std::size_t i = 0; i < ArmKind<Arm>::joint_count(table); ++i)
+    for (std::size_t i = 0; i < ArmTraits<Arm>::joint_count(table); ++i)
       point[i] += (static_cast<double>(random() % 2001) - 1000.0) * 1e-3 * 1.5 * kDegree;
     points.push_back(point);
   }
@@ -40,10 +40,10 @@ struct Motion {
 template <class Arm>
 Motion<Arm> motion_along(const typename Arm::Table& table, const std::vector<Joints<Arm>>& points,
                          const SpeedZone& zone, double rate_rad_s) {
-  using Kind = ArmKind<Arm>;
-  const RoundedPath<Arm> path(table, points);
+  using Kind = ArmTraits<Arm>;
+  const BlendedPath<Arm> path(table, points);
   Motion<Arm> out{{points.front(), points.front()}};
-  for (const double along : path_law<Arm>(table, zone, path, rate_rad_s)) out.joint_rad.push_back(path.at(along));
+  for (const double along : path_timing<Arm>(table, zone, path, rate_rad_s)) out.joint_rad.push_back(path.at(along));
   out.joint_rad.push_back(out.joint_rad.back());
   const double dt_s = interval_s(table);
   for (std::size_t k = 1; k + 1 < out.joint_rad.size(); ++k) {
@@ -61,15 +61,15 @@ Motion<Arm> motion_along(const typename Arm::Table& table, const std::vector<Joi
   return out;
 }
 
-const cable::RobotTable kCable = cable::zhu2022::table();
+const cable::RobotParams kCable = cable::zhu2022::table();
 const cable::ThetaVector kPrepare = cable::zhu2022::radians(cable::zhu2022::kPrepare_deg);
 
-TEST(RoundedPath, EndsAtItsEndsAndStaysNearItsStraightPieces) {
+TEST(BlendedPath, EndsAtItsEndsAndStaysNearItsStraightPieces) {
   const auto points = wandering<cable::CableArm>(kCable, kPrepare, 20);
-  const RoundedPath<cable::CableArm> path(kCable, points);
+  const BlendedPath<cable::CableArm> path(kCable, points);
   EXPECT_EQ(path.at(0.0), points.front());
   EXPECT_EQ(path.at(path.length_rad()), points.back());
-  double along_rad = 0.0, most_off_m = 0.0;
+  double along_rad = 0.0, max_off_m = 0.0;
   for (std::size_t k = 0; k + 1 < points.size(); ++k) {
     double length_rad = 0.0;
     for (std::size_t i = 0; i < points[k].size(); ++i) length_rad += std::pow(points[k + 1][i] - points[k][i], 2.0);
@@ -77,18 +77,18 @@ TEST(RoundedPath, EndsAtItsEndsAndStaysNearItsStraightPieces) {
     for (int share = 0; share < 50; ++share) {
       const auto straight = between(points[k], points[k + 1], share / 50.0);
       const auto rounded = path.at(along_rad + length_rad * share / 50.0);
-      most_off_m = std::max(most_off_m, ArmKind<cable::CableArm>::apart_m(kCable, straight, rounded));
+      max_off_m = std::max(max_off_m, ArmTraits<cable::CableArm>::apart_m(kCable, straight, rounded));
     }
     along_rad += length_rad;
   }
   EXPECT_NEAR(along_rad, path.length_rad(), 1e-9);
-  EXPECT_LE(most_off_m, 1.02 * kPathOff_m);
-  EXPECT_GT(most_off_m, 0.5 * kPathOff_m) << "it uses what it may";
+  EXPECT_LE(max_off_m, 1.02 * kPathOff_m);
+  EXPECT_GT(max_off_m, 0.5 * kPathOff_m) << "it uses what it may";
 }
 
-TEST(RoundedPath, HasNoCorners) {
+TEST(BlendedPath, HasNoCorners) {
   const auto points = wandering<cable::CableArm>(kCable, kPrepare, 10);
-  const RoundedPath<cable::CableArm> path(kCable, points);
+  const BlendedPath<cable::CableArm> path(kCable, points);
   const double step_rad = 1e-6;
   cable::ThetaVector before = path.at(0.0), here = path.at(step_rad);
   for (double along_rad = 2.0 * step_rad; along_rad < path.length_rad(); along_rad += step_rad) {
@@ -100,7 +100,7 @@ TEST(RoundedPath, HasNoCorners) {
   }
 }
 
-TEST(PathLaw, KeepsEveryLimitOfACableArmAndUsesThem) {
+TEST(PathTiming, KeepsEveryLimitOfACableArmAndUsesThem) {
   const auto points = wandering<cable::CableArm>(kCable, kPrepare, 20);
   const auto motion = motion_along<cable::CableArm>(kCable, points, {}, 1.0);
   EXPECT_LE(motion.share_of_rate, 1.0);
@@ -110,8 +110,8 @@ TEST(PathLaw, KeepsEveryLimitOfACableArmAndUsesThem) {
   EXPECT_EQ(motion.joint_rad.back(), points.back());
 }
 
-TEST(PathLaw, KeepsEveryLimitOfASerialArm) {
-  const serial::RobotTable table = serial::micro::table();
+TEST(PathTiming, KeepsEveryLimitOfASerialArm) {
+  const serial::RobotParams table = serial::micro::table();
   const auto points = wandering<serial::SerialArm>(table, serial::micro::radians(serial::micro::kBent_deg), 15);
   const auto motion = motion_along<serial::SerialArm>(table, points, {}, 1.0);
   EXPECT_LE(motion.share_of_rate, 1.0);
@@ -120,7 +120,7 @@ TEST(PathLaw, KeepsEveryLimitOfASerialArm) {
   EXPECT_EQ(motion.joint_rad.back(), points.back());
 }
 
-TEST(PathLaw, DoesNotStopAtPointsThatLieOnOneLine) {
+TEST(PathTiming, DoesNotStopAtPointsThatLieOnOneLine) {
   cable::ThetaVector to = kPrepare;
   to[0] += 6.0 * kDegree;
   to[5] -= 3.0 * kDegree;
@@ -132,7 +132,7 @@ TEST(PathLaw, DoesNotStopAtPointsThatLieOnOneLine) {
 }
 
 // req:A9
-TEST(PathLaw, SlowsTheTipDownWhereTheSceneWantsIt) {
+TEST(PathTiming, SlowsTheTipDownWhereTheSceneWantsIt) {
   config::SceneSlit everywhere;
   everywhere.u_axis = {1.0, 0.0, 0.0};
   everywhere.normal = {0.0, 0.0, 1.0};
@@ -148,15 +148,15 @@ TEST(PathLaw, SlowsTheTipDownWhereTheSceneWantsIt) {
   EXPECT_GT(slow.joint_rad.size(), 2 * fast.joint_rad.size());
 }
 
-TEST(PathLaw, ALowerRateTakesLonger) {
+TEST(PathTiming, ALowerRateTakesLonger) {
   const auto points = wandering<cable::CableArm>(kCable, kPrepare, 5);
   EXPECT_GT(motion_along<cable::CableArm>(kCable, points, {}, 0.0005).joint_rad.size(),
             2 * motion_along<cable::CableArm>(kCable, points, {}, 1.0).joint_rad.size());
 }
 
-TEST(PathLaw, NoWayIsOverAtOnce) {
-  const RoundedPath<cable::CableArm> path(kCable, {kPrepare, kPrepare});
-  EXPECT_EQ(path_law<cable::CableArm>(kCable, {}, path, 1.0).size(), 1u);
+TEST(PathTiming, NoWayIsOverAtOnce) {
+  const BlendedPath<cable::CableArm> path(kCable, {kPrepare, kPrepare});
+  EXPECT_EQ(path_timing<cable::CableArm>(kCable, {}, path, 1.0).size(), 1u);
   EXPECT_EQ(path.at(0.0), kPrepare);
 }
 

@@ -9,7 +9,7 @@ namespace liana::arbiter {
 namespace {
 
 TEST(SerialArbiter, WhatTheArmCarriesIsInEverySetpointUntilAnotherIsTold) {
-  const serial::RobotTable table = serial::micro::table();
+  const serial::RobotParams table = serial::micro::table();
   SerialArbiter arbiter(table);
   SerialArbiter::Now now{};
   now.state = OperatingState::kEnabled;

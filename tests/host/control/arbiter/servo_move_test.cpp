@@ -6,14 +6,14 @@
 
 #include "host/api/server/request_error.hpp"
 #include "host/control/arbiter/arbiter.hpp"
-#include "host/control/arbiter/serial_kind.hpp"
+#include "host/control/arbiter/serial_traits.hpp"
 #include "tests/firmware_like/micro_arm.hpp"
 #include "tests/message.hpp"
 
 namespace liana::arbiter {
 namespace {
 
-using servo::ServoPhase;
+using visual_servo::ServoPhase;
 
 // An arm that stands still, whatever it is asked for, and a camera that sees the target where the tip should be, or
 // `off_m` farther along its x.
@@ -42,9 +42,9 @@ class ServoMoves : public testing::Test {
     return "accepted";
   }
 
-  serial::RobotTable table_ = serial::micro::table();
+  serial::RobotParams table_ = serial::micro::table();
   Arbiter<serial::SerialArm> arbiter_{table_};
-  servo::ServoRequest request_;
+  visual_servo::ServoRequest request_;
   liana::Outputs<serial::SerialArm> now_{};
   std::uint64_t tick_ = 100;
 };

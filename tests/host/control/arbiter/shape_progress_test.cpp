@@ -22,7 +22,7 @@ class Progress : public testing::Test {
     }
   }
 
-  RobotTable table_ = zhu2022::table();
+  RobotParams table_ = zhu2022::table();
   std::int32_t window_ = static_cast<std::int32_t>(kShapeSettled_s / (table_.tick_s * table_.interval_ticks)) + 1;
   ShapeProgress progress_{table_};
   Vec3 node_m_ = forward_kinematics(table_, ThetaVector{}).node_in_base[3].position_m;

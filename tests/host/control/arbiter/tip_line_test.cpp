@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "host/control/arbiter/cable_kind.hpp"
+#include "host/control/arbiter/cable_traits.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::arbiter {
@@ -15,7 +15,7 @@ namespace {
 
 TEST(TipLine, IsStraightKeepsTheSpeedAndArrivesExactly) {
   const Pose from{{1.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, to{{1.3, 0.4, 0.0}, quaternion_of({0.0, 0.0, 0.3})};
-  const TipLine line(ArmKind<CableArm>::tip_bounds(zhu2022::table()), from, to, 0.05);
+  const TipLine line(ArmTraits<CableArm>::tip_bounds(zhu2022::table()), from, to, 0.05);
   double fastest = 0.0;
   for (double t = 0.0; t < line.duration_s(); t += 0.01) {
     const Vec3 p = line.at(t).position_m;

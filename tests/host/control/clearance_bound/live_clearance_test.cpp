@@ -7,7 +7,7 @@
 #include "tests/host/control/clearance_bound/true_world.hpp"
 #include "tests/rounds.hpp"
 
-namespace liana::live_clearance {
+namespace liana::clearance_bound {
 namespace {
 
 const ThetaVector kEdge_rad = zhu2022::radians(zhu2022::kPanelEdge_deg);
@@ -30,7 +30,7 @@ Course course(TrueWorld& world, Spoil spoil, const config::SceneConfig& scene = 
   Course out;
   std::uint64_t tick = 0;
   const auto judge = [&](const Claim& claim, const ThetaVector& measured_rad) {
-    if (has_camera && claim.sureness != Sureness::kCamera) return;
+    if (has_camera && claim.sureness != Confidence::kCamera) return;
     ++out.claims;
     out.above += claim.clearance.distance_m > world.true_clearance_m(measured_rad);
     out.mean_bound_m += claim.clearance.bound_m;
@@ -92,7 +92,7 @@ TEST(Outlook, OfADistanceThatIsFoundByItTheRestIsTrueAlsoWhereTheSceneStandsBesi
     LiveClearance live(zhu2022_config(), scene);
     std::uint64_t tick = 0;
     const auto judge = [&](const Claim& claim, const ThetaVector& measured_rad) {
-      if (claim.sureness != Sureness::kCamera) return;
+      if (claim.sureness != Confidence::kCamera) return;
       const Outlook outlook = live.outlook();
       ThetaVector believed_rad = measured_rad;
       for (std::size_t i = 0; i < believed_rad.size(); ++i) believed_rad[i] += outlook.theta_off_rad[i];
@@ -144,8 +144,8 @@ TEST(Outlook, TakesMoreOffWhenTheCameraIsGoneAndKeepsWhereTheSceneWasSeen) {
          1e3 * live.outlook().prediction_m);
 }
 
-TEST(SceneStand, WhatSeemsToGoIsTakenOffAndWhatIsFoundInTheFirstPicturesIsNot) {
-  SceneStand stand(0.004);
+TEST(SceneRegistrationCheck, WhatSeemsToGoIsTakenOffAndWhatIsFoundInTheFirstPicturesIsNot) {
+  SceneRegistrationCheck stand(0.004);
   const Vec3 tip_m{2.5, 0.3, 0.1};
   const auto seen_at = [](double x_m) { return Pose{{x_m, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}; };
   std::uint64_t tick = 1000;
@@ -177,7 +177,7 @@ TEST(Outlook, LeavesASceneThatSeemsToFollowTheArmWhereItWas) {
       if (*frame) (*frame)->position_m = add((*frame)->position_m, drift_m);
   };
   travel(live, world, kSlit_rad, kSlit_rad, 1000, tick, ignore, drifting);
-  ASSERT_EQ(live.claim().trouble, CameraTrouble::kNone) << "each picture fits the one before";
+  ASSERT_EQ(live.claim().trouble, CameraStatus::kNone) << "each picture fits the one before";
   ASSERT_GT(gone_m(live.shift_m()), 0.003);
   const Pose stands = live.outlook().drawing_in_base;
   const Vec3 judged_m = subtract(compose(stands, {pivot_m, {1.0, 0.0, 0.0, 0.0}}).position_m, pivot_m);
@@ -195,17 +195,17 @@ TEST(LiveClearance, SaysHowSureItIsAndTheBoundGrowsWhenTheCameraIsGone) {
   LiveClearance live(zhu2022_config(), panel_slit());
   std::uint64_t tick = 0;
   const auto ignore = [](const Claim&, const ThetaVector&) {};
-  EXPECT_EQ(live.look(tick, kSlit_rad).sureness, Sureness::kMeasured);
+  EXPECT_EQ(live.look(tick, kSlit_rad).sureness, Confidence::kMeasured);
   EXPECT_FALSE(live.claim().picture_age_s);
   tick += 5;
   travel(live, world, kSlit_rad, kSlit_rad, 100, tick, ignore, nothing_spoiled);
-  EXPECT_EQ(live.claim().sureness, Sureness::kCamera);
-  EXPECT_EQ(live.claim().trouble, CameraTrouble::kNone);
+  EXPECT_EQ(live.claim().sureness, Confidence::kCamera);
+  EXPECT_EQ(live.claim().trouble, CameraStatus::kNone);
   const double with_m = live.claim().clearance.bound_m;
   const Vec3 shift_m = live.shift_m();
   travel(live, world, kSlit_rad, kSlit_rad, 50, tick, ignore, swallow);
-  EXPECT_EQ(live.claim().sureness, Sureness::kCameraLost);
-  EXPECT_EQ(live.claim().trouble, CameraTrouble::kNoPicture);
+  EXPECT_EQ(live.claim().sureness, Confidence::kCameraLost);
+  EXPECT_EQ(live.claim().trouble, CameraStatus::kNoPicture);
   EXPECT_GT(*live.claim().picture_age_s, 1.0);
   const double soon_m = live.claim().clearance.bound_m;
   EXPECT_GT(soon_m, with_m);
@@ -283,4 +283,4 @@ TEST(LiveClearance, TheSameInputsGiveTheSameBits) {
 }
 
 }  // namespace
-}  // namespace liana::live_clearance
+}  // namespace liana::clearance_bound

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace liana::live_clearance {
+namespace liana::clearance_bound {
 namespace {
 
 constexpr double kTick_s = 0.004;
@@ -40,4 +40,4 @@ TEST(ArmHistory, TheFirstEntryStands) {
 }
 
 }  // namespace
-}  // namespace liana::live_clearance
+}  // namespace liana::clearance_bound

@@ -5,14 +5,14 @@
 
 #include "tests/host/control/clearance_bound/true_world.hpp"
 
-namespace liana::live_clearance {
+namespace liana::clearance_bound {
 namespace {
 
 constexpr double kInterval_s = 0.04;  // of pictures
 
 // Tip against slit as it is believed, less how it is: metres at the tip.
 double tip_error_m(const Registration& registration, const TrueWorld& world, const ThetaVector& measured_rad) {
-  const RobotTable table = zhu2022::table();
+  const RobotParams table = zhu2022::table();
   const CableLayout layout = cable_layout(table);
   const ThetaVector believed_rad = changed(angles_of_lengths(table, layout, measured_rad), measured_rad,
                                            registration.length_error_m(), table.cable_count());
@@ -123,4 +123,4 @@ TEST(Registration, ASceneWithoutSlitAndRodLearnsNothing) {
 }
 
 }  // namespace
-}  // namespace liana::live_clearance
+}  // namespace liana::clearance_bound

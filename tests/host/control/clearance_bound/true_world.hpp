@@ -13,7 +13,7 @@
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/host/model/config/tables.hpp"
 
-namespace liana::live_clearance {
+namespace liana::clearance_bound {
 
 inline const config::SceneConfig& panel_slit() {
   static const config::SceneConfig kScene =
@@ -90,7 +90,7 @@ class TrueWorld {
 
   std::mt19937_64 generator_;
   Size size_;
-  RobotTable table_ = zhu2022::table();
+  RobotParams table_ = zhu2022::table();
   CableLayout layout_ = cable_layout(table_);
   config::SceneConfig scene_;
   CableVector length_m_{};
@@ -122,4 +122,4 @@ void travel(LiveClearance& live, TrueWorld& world, const ThetaVector& from_rad, 
 
 inline void nothing_spoiled(std::optional<Picture>&) {}
 
-}  // namespace liana::live_clearance
+}  // namespace liana::clearance_bound

@@ -9,7 +9,7 @@
 #include "host/control/realtime/tick_guard.hpp"
 #include "tests/host/control/verification/sim_arm.hpp"
 
-namespace liana::control {
+namespace liana::realtime {
 namespace {
 
 std::unique_ptr<int> g_planted;  // global, so that no compiler can leave the allocation out
@@ -61,7 +61,7 @@ TEST(AllocGuard, OutsideATickEverythingIsAllowed) {
 // A thousand ticks with enabling, motion requests, a silent drive, a fault and its clearing.
 // req:A10
 TEST(AllocGuard, TicksAllocateNothingAlsoWhenThingsGoWrong) {
-  auto arm = std::make_unique<verify::SimArm>();
+  auto arm = std::make_unique<verification::SimArm>();
   const auto run = [&](int ticks) {
     for (int i = 0; i < ticks; ++i) {
       const TickGuard inside;
@@ -79,4 +79,4 @@ TEST(AllocGuard, TicksAllocateNothingAlsoWhenThingsGoWrong) {
 }
 
 }  // namespace
-}  // namespace liana::control
+}  // namespace liana::realtime

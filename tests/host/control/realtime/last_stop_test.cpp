@@ -7,11 +7,11 @@
 
 #include "tests/host/control/verification/sim_arm.hpp"
 
-namespace liana::control {
+namespace liana::realtime {
 namespace {
 
 TEST(LastStop, AnArmWhoseServiceFailedIsSwitchedOff) {
-  const auto arm = std::make_unique<verify::SimArm>();
+  const auto arm = std::make_unique<verification::SimArm>();
   ASSERT_TRUE(arm->enable());
   int ticks = 0;
   stop_without_service(arm->link, 2500, [&] {
@@ -23,7 +23,7 @@ TEST(LastStop, AnArmWhoseServiceFailedIsSwitchedOff) {
 }
 
 TEST(LastStop, EndsAtItsLimitAndWhenThereAreNoTicks) {
-  const auto arm = std::make_unique<verify::SimArm>();
+  const auto arm = std::make_unique<verification::SimArm>();
   ASSERT_TRUE(arm->enable());
   int ticks = 0;
   stop_without_service(arm->link, 3, [&] {
@@ -36,7 +36,7 @@ TEST(LastStop, EndsAtItsLimitAndWhenThereAreNoTicks) {
 }
 
 TEST(LastStop, WhatAThreadThrowsIsKeptAsItsProblem) {
-  ThreadEnd good, bad, odd;
+  ThreadResult good, bad, odd;
   run_guarded([] {}, good);
   run_guarded([] { throw std::runtime_error("no memory"); }, bad);
   run_guarded([] { throw 7; }, odd);
@@ -47,4 +47,4 @@ TEST(LastStop, WhatAThreadThrowsIsKeptAsItsProblem) {
 }
 
 }  // namespace
-}  // namespace liana::control
+}  // namespace liana::realtime

@@ -6,7 +6,7 @@
 #include "host/control/realtime/latest_value.hpp"
 #include "host/control/realtime/spsc_ring.hpp"
 
-namespace liana::control {
+namespace liana::realtime {
 namespace {
 
 TEST(SpscRing, KeepsOrderAndRefusesWhenFull) {
@@ -89,4 +89,4 @@ TEST(LatestValue, ValuesAreNeverTornAndNeverGoBack) {
 }
 
 }  // namespace
-}  // namespace liana::control
+}  // namespace liana::realtime

@@ -7,7 +7,7 @@
 
 #include "tests/host/control/verification/sim_arm.hpp"
 
-namespace liana::control {
+namespace liana::realtime {
 namespace {
 
 TEST(StopFlag, IsTakenOnceHoweverOftenItWasPressed) {
@@ -22,7 +22,7 @@ TEST(StopFlag, IsTakenOnceHoweverOftenItWasPressed) {
 }
 
 TEST(TickCore, AStopActsInTheNextTickThoughTheQueueOfRequestsIsFull) {
-  const auto arm = std::make_unique<verify::SimArm>();
+  const auto arm = std::make_unique<verification::SimArm>();
   ASSERT_TRUE(arm->enable());
   while (arm->link.requests.push(Request::kClear)) {
   }
@@ -32,8 +32,8 @@ TEST(TickCore, AStopActsInTheNextTickThoughTheQueueOfRequestsIsFull) {
 }
 
 TEST(TickCore, ARequestThatWaitsKeepsItsPlaceAndAStopOvertakesItAllTheSame) {
-  const auto arm = std::make_unique<verify::SimArm>();
-  const auto link = std::make_unique<ArmLink<cable::CableArm>>(arm->table());
+  const auto arm = std::make_unique<verification::SimArm>();
+  const auto link = std::make_unique<ArmMailbox<cable::CableArm>>(arm->table());
   const auto core = std::make_unique<TickCore<cable::CableArm>>(arm->table(), *link);
   const auto inputs = std::make_unique<Inputs<cable::CableArm>>();
   link->requests.push(Request::kClear);
@@ -47,7 +47,7 @@ TEST(TickCore, ARequestThatWaitsKeepsItsPlaceAndAStopOvertakesItAllTheSame) {
 }
 
 TEST(TickCore, WhatWasAskedForBeforeAStopDoesNotFollowIt) {
-  const auto arm = std::make_unique<verify::SimArm>();
+  const auto arm = std::make_unique<verification::SimArm>();
   for (int i = 0; i < 10; ++i) arm->interval();
   arm->link.requests.push(Request::kEnable);
   arm->link.stop.press();
@@ -58,4 +58,4 @@ TEST(TickCore, WhatWasAskedForBeforeAStopDoesNotFollowIt) {
 }
 
 }  // namespace
-}  // namespace liana::control
+}  // namespace liana::realtime

@@ -5,7 +5,7 @@
 #include "host/base/json/json.hpp"
 #include "tests/message.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 namespace {
 
 std::string reason_of(const Json& reason) { return stop_reason(&reason); }
@@ -43,4 +43,4 @@ TEST(EmergencyStop, AReasonIsShownOnOneLineWithoutTerminalEscapes) {
 }
 
 }  // namespace
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -6,7 +6,7 @@
 #include "tests/host/control/verification/sim_arm.hpp"
 #include "tests/message.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 using namespace cable;
 namespace {
@@ -15,14 +15,14 @@ namespace {
 class HomingOfAnArm : public ::testing::Test {
  protected:
   HomingOfAnArm() {
-    robot_.table = verify::SimArm().table();
+    robot_.table = verification::SimArm().table();
     robot_.named_poses_deg["fixture"] = {12, -9, 7, -8, 12, -3, 12, -10, -12, -2};
     cable::CableVector tension_N{};
     tension_N.fill(30.0);
     const cable::CableVector out_m =
         calibration::beyond_zero_m(robot_.table, calibration::named_pose_rad(robot_, "fixture"), tension_N);
     for (std::size_t i = 0; i < 15; ++i) {
-      const cable::DriveTable& drive = robot_.table.drive[i];
+      const cable::DriveParams& drive = robot_.table.drive[i];
       DriveFeedback& report = report_.inputs.drive[i];
       report.feedback_age_ticks = 0;
       report.position_counts =
@@ -33,13 +33,13 @@ class HomingOfAnArm : public ::testing::Test {
   }
   // Drive 4 reports so much more.
   void turn(double change_m) {
-    const cable::DriveTable& drive = robot_.table.drive[4];
+    const cable::DriveParams& drive = robot_.table.drive[4];
     report_.inputs.drive[4].position_counts +=
         static_cast<std::int32_t>(change_m / (drive.direction * drive.metres_per_count));
   }
 
   config::RobotConfig robot_;
-  control::ArmReport<cable::CableArm> report_;
+  realtime::ArmTickStatus<cable::CableArm> report_;
   cable::EstimatorState estimator_;
 };
 
@@ -88,4 +88,4 @@ TEST_F(HomingOfAnArm, IsRefusedUntilThePoseFitsOnceThenTheArmMayLeaveIt) {
 }
 
 }  // namespace
-}  // namespace liana::daemon
+}  // namespace liana::server

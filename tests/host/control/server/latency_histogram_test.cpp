@@ -12,7 +12,7 @@
 #include "host/base/json/json.hpp"
 #include "host/control/server/timing_message.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 namespace {
 
 std::uint32_t nearest_rank(std::vector<std::uint32_t> times, double share) {
@@ -23,13 +23,13 @@ std::uint32_t nearest_rank(std::vector<std::uint32_t> times, double share) {
 TEST(LatencyHistogram, PercentilesAreThoseOfTheSortedTimes) {
   std::mt19937 random(1);
   for (const std::size_t count : {1u, 2u, 3u, 99u, 100u, 101u, 5000u}) {
-    control::LatencyHistogram histogram;
+    realtime::LatencyHistogram histogram;
     std::vector<std::uint32_t> times;
     for (std::size_t i = 0; i < count; ++i) {
-      times.push_back(static_cast<std::uint32_t>(random() % (random() % control::kLatencyBuckets + 1)));
+      times.push_back(static_cast<std::uint32_t>(random() % (random() % realtime::kLatencyBuckets + 1)));
       histogram.record(times.back());
     }
-    const control::LatencyCounts counts = histogram.counts();
+    const realtime::LatencyCounts counts = histogram.counts();
     EXPECT_EQ(counts.total(), count);
     for (const double share : {0.01, 0.5, 0.99, 1.0})
       EXPECT_EQ(counts.percentile_us(share), nearest_rank(times, share)) << count << " " << share;
@@ -38,19 +38,19 @@ TEST(LatencyHistogram, PercentilesAreThoseOfTheSortedTimes) {
 }
 
 TEST(LatencyHistogram, WhatLiesBeyondTheBucketsIsCountedAndItsWorstIsExact) {
-  control::LatencyHistogram histogram;
-  for (int i = 0; i < 98; ++i) histogram.record(control::kLatencyBuckets - 1);
+  realtime::LatencyHistogram histogram;
+  for (int i = 0; i < 98; ++i) histogram.record(realtime::kLatencyBuckets - 1);
   histogram.record(123456);
-  histogram.record(control::kLatencyBuckets);
-  const control::LatencyCounts counts = histogram.counts();
-  EXPECT_EQ(counts.count[control::kLatencyBuckets], 2u);
-  EXPECT_EQ(counts.percentile_us(0.98), control::kLatencyBuckets - 1);
+  histogram.record(realtime::kLatencyBuckets);
+  const realtime::LatencyCounts counts = histogram.counts();
+  EXPECT_EQ(counts.count[realtime::kLatencyBuckets], 2u);
+  EXPECT_EQ(counts.percentile_us(0.98), realtime::kLatencyBuckets - 1);
   EXPECT_EQ(counts.percentile_us(0.99), 123456u) << "the worst bounds what has no bucket of its own";
   EXPECT_EQ(counts.worst_us, 123456u);
 }
 
 TEST(LatencyHistogram, AResetForgetsCountsAndWorst) {
-  control::LatencyHistogram histogram;
+  realtime::LatencyHistogram histogram;
   for (const std::uint32_t time_us : {5u, 5u, 900u, 70000u}) histogram.record(time_us);
   histogram.reset();
   EXPECT_EQ(histogram.counts().total(), 0u);
@@ -65,7 +65,7 @@ TEST(LatencyHistogram, AResetForgetsCountsAndWorst) {
 
 TEST(LatencyHistogram, NothingIsLostWhileAnotherThreadReadsAndResets) {
   constexpr std::uint64_t kTimes = 200000;
-  const auto histogram = std::make_unique<control::LatencyHistogram>();
+  const auto histogram = std::make_unique<realtime::LatencyHistogram>();
   std::atomic<bool> done{false};
   std::thread writer([&] {
     for (std::uint64_t i = 0; i < kTimes; ++i) histogram->record(static_cast<std::uint32_t>(i % 100));
@@ -78,16 +78,16 @@ TEST(LatencyHistogram, NothingIsLostWhileAnotherThreadReadsAndResets) {
     last = total;
   }
   writer.join();
-  const control::LatencyCounts counts = histogram->counts();
+  const realtime::LatencyCounts counts = histogram->counts();
   EXPECT_EQ(counts.total(), kTimes);
   for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(counts.count[i], kTimes / 100);
 }
 
 TEST(TimingMessage, ListsOnlyBucketsThatHoldSomething) {
-  control::LatencyHistogram wakeup, tick;
+  realtime::LatencyHistogram wakeup, tick;
   for (const std::uint32_t time_us : {3u, 3u, 8u}) wakeup.record(time_us);
   for (const std::uint32_t time_us : {40u, 41u, 5000u}) tick.record(time_us);
-  const Json message = timing_message(wakeup.counts(), tick.counts(), control::Overruns{1, 2, 3, 9});
+  const Json message = timing_message(wakeup.counts(), tick.counts(), realtime::Overruns{1, 2, 3, 9});
   EXPECT_EQ(message["ticks"], 3);
   EXPECT_EQ(message["wakeup_us"], Json::parse(R"({"median":3,"p99":8,"worst":8,"buckets":[[3,2],[8,1]]})"));
   EXPECT_EQ(message["tick_us"]["buckets"], Json::parse("[[40,1],[41,1],[2048,1]]"));
@@ -97,12 +97,12 @@ TEST(TimingMessage, ListsOnlyBucketsThatHoldSomething) {
 }
 
 TEST(TimingMessage, FitsIntoAPacketAfterADayInEveryBucket) {
-  control::LatencyCounts counts;
+  realtime::LatencyCounts counts;
   counts.count.fill(9'999'999);
   counts.worst_us = 4'000'000'000u;
-  EXPECT_LT(timing_message(counts, counts, control::Overruns{}).dump().size(),
+  EXPECT_LT(timing_message(counts, counts, realtime::Overruns{}).dump().size(),
             65536u - 200u);  // and the answer's own fields
 }
 
 }  // namespace
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -7,7 +7,7 @@
 
 #include "host/api/server/request_error.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 namespace {
 
@@ -57,7 +57,7 @@ TEST(Owner, EveryRefusalNamesTheOwnerAndItsProcess) {
 }
 
 TEST(Owner, MotionIsTakenByNameAfterAStopOrSilenceAndWithoutItAfterBoth) {
-  const double silent_s = kMostSilence_s, heard_s = kMostSilence_s - 0.1;
+  const double silent_s = kMaxSilence_s, heard_s = kMaxSilence_s - 0.1;
   const struct {
     TakeOver how;
     bool taken;
@@ -85,4 +85,4 @@ TEST(Owner, MotionIsTakenByNameAfterAStopOrSilenceAndWithoutItAfterBoth) {
 }
 
 }  // namespace
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -10,14 +10,14 @@
 
 #include "host/api/server/client.hpp"
 #include "host/base/event/event_json.hpp"
-#include "host/control/server/cable_desk.hpp"
-#include "host/control/server/host_trouble.hpp"
+#include "host/control/server/cable_arm_server.hpp"
+#include "host/control/server/host_warning.hpp"
 #include "host/control/server/service.hpp"
 #include "tests/host/api/server/robots.hpp"
 #include "tests/host/control/verification/sim_arm.hpp"
 #include "tests/message.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 namespace {
 
 std::vector<std::string> summaries(const std::vector<event::Event>& events) {
@@ -29,7 +29,7 @@ std::vector<std::string> summaries(const std::vector<event::Event>& events) {
 }
 
 TEST(Faults, EachIsAnEventWhenItAppearsAndAgainAfterAClear) {
-  FaultWatch watch;
+  FaultMonitor watch;
   FaultList list;
   EXPECT_TRUE(watch.changes(list).empty());
   latch(list, {FaultNumber::kDriveFault, 3, 0x2310, 100});
@@ -48,7 +48,7 @@ TEST(Faults, EachIsAnEventWhenItAppearsAndAgainAfterAClear) {
 }
 
 TEST(Faults, ThoseWithoutAPlaceAreCounted) {
-  FaultWatch watch;
+  FaultMonitor watch;
   FaultList list;
   for (std::int16_t drive = 0; drive < FaultList::kCapacity + 5; ++drive)
     latch(list, {FaultNumber::kDriveSilent, drive, 0, 7});
@@ -64,8 +64,8 @@ TEST(HostTroubles, EachChangeSaysWhichBusAndHowMuch) {
   buses.buses.resize(2);
   buses.buses[0].name = "can0";
   buses.buses[1].name = "can1";
-  HostTrouble trouble;
-  control::CycleReport report;
+  HostWarning trouble;
+  realtime::TickStatus report;
   EXPECT_TRUE(trouble.changes(buses, report).empty());
   report.bus[0].state = bus::BusState::kErrorPassive;
   report.bus[1].errors = 4;
@@ -88,15 +88,15 @@ TEST(HostTroubles, EachChangeSaysWhichBusAndHowMuch) {
 
 // req:C12
 TEST(Events, AVerdictSaysWhichEndRefusedAndHowNearTheLimitIs) {
-  verify::Verdict verdict;
-  verdict.code = verify::Refusal::kTipSpeed;
+  verification::Verdict verdict;
+  verdict.code = verification::Refusal::kTipSpeed;
   verdict.text = "too fast";
   verdict.share = 1.25;
   const event::Event event = verdict_event(17, verdict);
   EXPECT_EQ(summaries({event}), (std::vector<std::string>{"verdict 203 simulation"}));
   EXPECT_EQ(event.values, (std::vector<event::EventValue>{{"command", 17.0}, {"share", 1.25}}));
   EXPECT_TRUE(names(event.text, {"17", "203", "tip_speed", "too fast"}));
-  verdict.code = verify::Refusal::kTooSlow;
+  verdict.code = verification::Refusal::kTooSlow;
   EXPECT_EQ(verdict_event(18, verdict).subject, "execution");
 }
 
@@ -133,7 +133,7 @@ class ServiceTellsEvents : public testing::Test {
     config.buses.rate_hz = 1.0 / arm_.table().tick_s;
     config.buses.command_interval_s = arm_.table().interval_ticks * arm_.table().tick_s;
     config.serials = [] { return std::vector<std::uint32_t>(15, 7); };
-    config.boot_problems = [] { return std::vector<control::BootProblem>{}; };
+    config.boot_problems = [] { return std::vector<realtime::BootProblem>{}; };
     return config;
   }
   void intervals(int count) {
@@ -170,8 +170,8 @@ class ServiceTellsEvents : public testing::Test {
     intervals(20);
   }
 
-  verify::SimArm arm_;
-  CableDesk desk_;
+  verification::SimArm arm_;
+  CableArmServer desk_;
   Service service_;
   api::ApiClient client_ = api::ApiClient::connect(path());
   std::vector<event::Event> heard_;
@@ -189,14 +189,14 @@ TEST_F(ServiceTellsEvents, ARefusedVerdictIsAnEventAndAReleasedOneIsNone) {
   hear();
   const std::vector<event::Event> verdicts = heard(event::EventKind::kVerdict);
   ASSERT_EQ(verdicts.size(), 1u);
-  EXPECT_EQ(verdicts[0].number, event::number_of(verify::Refusal::kTooSlow));
+  EXPECT_EQ(verdicts[0].number, event::number_of(verification::Refusal::kTooSlow));
   EXPECT_EQ(verdicts[0].subject, "execution");
   EXPECT_GT(verdicts[0].values[0].value, 0.0);
 }
 
 // req:C12
 TEST(Faults, ThatFindNoPlaceAreNotAnEventOfEveryInterval) {
-  FaultWatch watch;
+  FaultMonitor watch;
   FaultList list;
   std::vector<event::Event> told;
   event::EventLog log([&told](const event::Event& event) { told.push_back(event); }, 0.004);
@@ -229,7 +229,7 @@ TEST_F(ServiceTellsEvents, TheyAreNumberedWithoutGapsWhateverComesFirst) {
     const auto times = std::ranges::find(stop.values, "times", &event::EventValue::name);
     stops += times == stop.values.end() ? 1 : static_cast<std::int64_t>(times->value);
   }
-  for (const auto& [tick, count] : stops_at_tick) EXPECT_LE(count, event::EventLog::kMostPerInterval) << tick;
+  for (const auto& [tick, count] : stops_at_tick) EXPECT_LE(count, event::EventLog::kMaxPerInterval) << tick;
   for (const event::Event& left_out : heard(event::EventKind::kLeftOut)) stops += left_out.number;
   EXPECT_EQ(stops, 60);
   EXPECT_EQ(heard(event::EventKind::kOwner).back().number, event::number_of(event::OwnerEvent::kReleased));
@@ -237,4 +237,4 @@ TEST_F(ServiceTellsEvents, TheyAreNumberedWithoutGapsWhateverComesFirst) {
 }
 
 }  // namespace
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -12,17 +12,17 @@
 #include "host/api/server/client.hpp"
 #include "host/api/server/request_table.hpp"
 #include "host/api/server/request_text.hpp"
-#include "host/control/server/cable_desk.hpp"
+#include "host/control/server/cable_arm_server.hpp"
 #include "tests/host/api/server/robots.hpp"
 #include "tests/host/control/verification/sim_arm.hpp"
 #include "tests/message.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 
 using namespace cable;
 namespace {
 
-ServiceConfig config_for(const verify::SimArm& arm, timing::TimeMode mode) {
+ServiceConfig config_for(const verification::SimArm& arm, timing::TimeMode mode) {
   ServiceConfig config;
   config.time_mode = mode;
   config.api_path = testing::TempDir() + "liana_service_" + std::to_string(::getpid());
@@ -33,12 +33,12 @@ ServiceConfig config_for(const verify::SimArm& arm, timing::TimeMode mode) {
   config.buses.command_interval_s = arm.table().interval_ticks * arm.table().tick_s;
   config.serials = [] { return std::vector<std::uint32_t>(15, 7); };
   config.boot_problems = [] {
-    return std::vector<control::BootProblem>{{3, FaultNumber::kDriveMissing, "node 4 on can0: silent"}};
+    return std::vector<realtime::BootProblem>{{3, FaultNumber::kDriveMissing, "node 4 on can0: silent"}};
   };
   return config;
 }
 
-config::RobotConfig robot_of(const verify::SimArm& arm) {
+config::RobotConfig robot_of(const verification::SimArm& arm) {
   config::RobotConfig robot;
   robot.table = arm.table();
   return robot;
@@ -47,7 +47,7 @@ config::RobotConfig robot_of(const verify::SimArm& arm) {
 class ServiceOverSocket : public testing::Test {
  protected:
   explicit ServiceOverSocket(timing::TimeMode mode = timing::TimeMode::kFast)
-      : arm_(std::make_unique<verify::SimArm>()),
+      : arm_(std::make_unique<verification::SimArm>()),
         config_(config_for(*arm_, mode)),
         desk_(robot_of(*arm_), config::SceneConfig{}, "", mode, arm_->link,
               {device::devices_path(config_.api_path), std::nullopt}),
@@ -116,9 +116,9 @@ class ServiceOverSocket : public testing::Test {
     return {{"op", "move_jp"}, {"goal_deg", goal}};
   }
 
-  std::unique_ptr<verify::SimArm> arm_;
+  std::unique_ptr<verification::SimArm> arm_;
   ServiceConfig config_;
-  CableDesk desk_;
+  CableArmServer desk_;
   Service service_;
   int id_ = 0;
 };
@@ -227,7 +227,7 @@ TEST_F(ServiceOverSocket, AnOwnerThatStandsStillLosesMotionByNameAndTheArmHolds)
   ASSERT_GT(arm_->now().tip_speed_m_s, 1e-3) << "the arm moves";
   EXPECT_EQ(ask(second, {{"op", "acquire"}, {"from", "client"}}), "not_owner") << "the owner was heard just now";
   const auto begin = std::chrono::steady_clock::now();
-  while (std::chrono::steady_clock::now() - begin < std::chrono::duration<double>(kMostSilence_s)) {
+  while (std::chrono::steady_clock::now() - begin < std::chrono::duration<double>(kMaxSilence_s)) {
     service_.idle(0.05);
     while (second.receive(0.0)) {
     }
@@ -478,9 +478,9 @@ TEST_F(ServiceOverSocket, TheOperatorSteersAndLettingGoIsAHold) {
   EXPECT_EQ(moving["devices"][0]["name"], "omega");
   EXPECT_TRUE(moving["devices"][0]["in_use"]);
   EXPECT_EQ(moving["mapping"]["scale"], 1.0);
-  const Json& made_of = moving["verdict"]["made_of"];
-  EXPECT_EQ(made_of["newest_us"].get<std::int64_t>() - made_of["oldest_us"].get<std::int64_t>(), 19000);
-  EXPECT_NEAR(made_of["in_force_s"].get<double>() - made_of["released_s"].get<double>(), 0.02, 1e-9);
+  const Json& source_stamp = moving["verdict"]["made_of"];
+  EXPECT_EQ(source_stamp["newest_us"].get<std::int64_t>() - source_stamp["oldest_us"].get<std::int64_t>(), 19000);
+  EXPECT_NEAR(source_stamp["in_force_s"].get<double>() - source_stamp["released_s"].get<double>(), 0.02, 1e-9);
   EXPECT_GT(norm(subtract(arm_->now().tip_command.position_m, start)), 2e-3);
   for (int i = 0; i < 100; ++i) steer(0.01, false);
   EXPECT_FALSE(steer(0.01, false)["device_engaged"]);
@@ -673,8 +673,8 @@ class ServiceInRealTime : public ServiceOverSocket {
 
 TEST_F(ServiceInRealTime, TimingTellsWhatTheRealTimeThreadRecordedSinceTheLastReset) {
   api::ApiClient watcher = join("observer");
-  control::TickTiming& timing = arm_->link.timing;
-  control::ArmReport<cable::CableArm> report = arm_->link.report.value();
+  realtime::TickTiming& timing = arm_->link.timing;
+  realtime::ArmTickStatus<cable::CableArm> report = arm_->link.report.value();
   const auto record = [&](std::uint32_t late_us, std::uint32_t tick_us, std::uint64_t overruns) {
     timing.wakeup_us.record(late_us);
     timing.tick_us.record(tick_us);
@@ -709,4 +709,4 @@ TEST_F(ServiceOverSocket, MissingClientsAreNamed) {
 }
 
 }  // namespace
-}  // namespace liana::daemon
+}  // namespace liana::server

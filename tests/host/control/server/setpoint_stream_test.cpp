@@ -8,7 +8,7 @@
 #include "tests/host/api/server/robots.hpp"
 #include "tests/message.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 namespace {
 
 class Stream : public testing::Test {
@@ -107,4 +107,4 @@ TEST_F(Stream, NobodyIsMissedAtTheGoalAfterAMoveOrWithoutATimeToLive) {
 }
 
 }  // namespace
-}  // namespace liana::daemon
+}  // namespace liana::server

@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-namespace liana::daemon {
+namespace liana::server {
 namespace {
 
 TEST(TickWatch, TellsTheLongestTickSinceTheLastLook) {
-  control::LatencyHistogram ticks;
+  realtime::LatencyHistogram ticks;
   TickWatch watch;
   EXPECT_FALSE(watch.longest_us(ticks.counts()));
   for (const std::uint32_t time_us : {90u, 140u, 60u}) ticks.record(time_us);
@@ -18,14 +18,14 @@ TEST(TickWatch, TellsTheLongestTickSinceTheLastLook) {
 }
 
 TEST(TickWatch, WhatTakesLongerThanAllBucketsIsTheLastOne) {
-  control::LatencyHistogram ticks;
+  realtime::LatencyHistogram ticks;
   TickWatch watch;
   ticks.record(1000000);
-  EXPECT_EQ(watch.longest_us(ticks.counts()), control::kLatencyBuckets);
+  EXPECT_EQ(watch.longest_us(ticks.counts()), realtime::kLatencyBuckets);
 }
 
 TEST(TickWatch, GoesOnAfterTheCountsWereReset) {
-  control::LatencyHistogram ticks;
+  realtime::LatencyHistogram ticks;
   TickWatch watch;
   for (const std::uint32_t time_us : {90u, 140u}) ticks.record(time_us);
   EXPECT_TRUE(watch.longest_us(ticks.counts()));
@@ -35,4 +35,4 @@ TEST(TickWatch, GoesOnAfterTheCountsWereReset) {
 }
 
 }  // namespace
-}  // namespace liana::daemon
+}  // namespace liana::server

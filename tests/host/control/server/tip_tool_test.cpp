@@ -8,7 +8,7 @@
 #include "tests/host/api/server/robots.hpp"
 #include "tests/message.hpp"
 
-namespace liana::daemon {
+namespace liana::server {
 namespace {
 
 class Tool : public testing::Test {
@@ -76,4 +76,4 @@ TEST_F(Tool, AToolThatIsGoneHasFailedItsCommand) {
 }
 
 }  // namespace
-}  // namespace liana::daemon
+}  // namespace liana::server

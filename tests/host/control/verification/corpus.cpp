@@ -8,7 +8,7 @@
 #include "host/model/simulation/straight_way.hpp"
 #include "tests/host/control/verification/corpus_parts.hpp"
 
-namespace liana::verify::corpus {
+namespace liana::verification::corpus {
 
 using namespace cable;
 using zhu2022::Random;
@@ -16,7 +16,7 @@ using zhu2022::Random;
 namespace {
 
 // How long a way takes whose rate rises to `rate_rad_s` by the table's acceleration.
-double duration_s(const RobotTable& table, double way_rad, double rate_rad_s) {
+double duration_s(const RobotParams& table, double way_rad, double rate_rad_s) {
   return way_rad / rate_rad_s + rate_rad_s / table.limits.theta_accel_rad_s2;
 }
 
@@ -27,7 +27,7 @@ double to_point_m(const Vec3& a, const Vec3& b, const Vec3& p) {
 }
 
 // Distance of the arm's axis from a point.
-double axis_m(const RobotTable& table, const ThetaVector& theta_rad, const Vec3& point) {
+double axis_m(const RobotParams& table, const ThetaVector& theta_rad, const Vec3& point) {
   const LinkPoints arm = link_points(table, theta_rad);
   double least = 1e9;
   for (std::size_t k = 0; k + 1 < static_cast<std::size_t>(arm.count); ++k)
@@ -44,7 +44,7 @@ double least_m(const Command& command, const Vec3& point) {
 }
 
 // Least distance of the axes of links that are `apart` or more apart, each by 21 points; at one pose.
-double least_of_itself_m(const RobotTable& table, const ThetaVector& theta_rad, std::size_t apart) {
+double least_of_itself_m(const RobotParams& table, const ThetaVector& theta_rad, std::size_t apart) {
   const LinkPoints arm = link_points(table, theta_rad);
   double least = 1e9;
   for (std::size_t a = 0; a + 1 < static_cast<std::size_t>(arm.count); ++a) {
@@ -88,7 +88,7 @@ std::vector<Command> joint_rates(std::uint64_t seed) {
     const std::size_t k = i / 2;
     const ThetaVector from_rad = random.theta(zhu2022::table(), 3.0);
     both_sides(out, [&](bool outside) {
-      RobotTable table = patient();
+      RobotParams table = patient();
       table.limits.theta_rate_rad_s = 0.2 * kDegree;
       const double rate_rad_s = (outside ? 1.02 : 0.99) * table.limits.theta_rate_rad_s;
       const double way_rad = (i % 2 == 0 ? 1.5 : -1.5) * kDegree;
@@ -112,7 +112,7 @@ std::vector<Command> tip_speeds(std::uint64_t seed) {
   for (std::size_t i = 0; i < 2 * kThetas; ++i) {
     const std::size_t k = i / 2;
     const ThetaVector from_rad = random.theta(zhu2022::table(), 5.0);
-    RobotTable table = patient();
+    RobotParams table = patient();
     table.limits.tip_speed_m_s = 0.03;
     const double lever_m = norm(forward_kinematics(table, from_rad).tip_jacobian.linear[k]);
     if (lever_m < 0.5) continue;  // the way would be too long for one lever
@@ -139,12 +139,12 @@ std::vector<Command> node_speeds(std::uint64_t seed) {
   Random random(100 * seed + 14);
   for (std::size_t i = 0; i < 10; ++i) {
     const ThetaVector from_rad = random.theta(zhu2022::table(), 8.0);
-    RobotTable table = patient();
+    RobotParams table = patient();
     table.limits.tip_speed_m_s = 0.001;
     const ArmKinematics arm = forward_kinematics(table, from_rad);
     Eigen::Matrix<double, 6, 10> jacobian;
-    jacobian.topRows<3>() = algebra::view(arm.tip_jacobian.linear, 10);
-    jacobian.bottomRows<3>() = algebra::view(arm.tip_jacobian.angular, 10);
+    jacobian.topRows<3>() = eigen::view(arm.tip_jacobian.linear, 10);
+    jacobian.bottomRows<3>() = eigen::view(arm.tip_jacobian.angular, 10);
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian, Eigen::ComputeFullV);
     const Eigen::VectorXd way = svd.matrixV().col(9);
     double fastest_m = 0.0;
@@ -212,7 +212,7 @@ std::vector<Command> thin_plates(std::uint64_t seed) {
   Random random(100 * seed + 16);
   for (std::size_t i = 0; i < 30; ++i) {
     const ThetaVector from_rad = random.theta(zhu2022::table(), 5.0);
-    RobotTable table = patient();
+    RobotParams table = patient();
     table.limits.theta_accel_rad_s2 = kDegree;
     const std::size_t k = 8 + i % 2;
     Command command{named("foil", i, true), table, 1e-5, {}, from_rad, turned(from_rad, k, 0.5 * kDegree), 1.5,
@@ -253,7 +253,7 @@ std::vector<Command> ways_out(std::uint64_t seed) {
 std::vector<Command> self_contacts(std::uint64_t seed) {
   std::vector<Command> out;
   Random random(100 * seed + 17);
-  const RobotTable table = patient();
+  const RobotParams table = patient();
   for (std::size_t i = 0; out.size() < 40 && i < 200; ++i) {
     ThetaVector open_rad{}, closed_rad{};
     for (std::size_t k = 0; k < kThetas; ++k) closed_rad[k] = random.uniform(-19.0, 19.0) * kDegree;
@@ -332,14 +332,14 @@ const std::array<Class, 12> kClasses{{{"JointAngle", joint_angles, 40},
 
 SimulationVerdict verdict_of(const Command& command) {
   const double interval_s = command.table.interval_ticks * command.table.tick_s;
-  const simulate::JointSequence way =
-      simulate::straight_way(command.table, command.from_rad, command.to_rad, command.duration_s, interval_s);
-  simulate::StartState start;
+  const simulation::JointSequence way =
+      simulation::straight_way(command.table, command.from_rad, command.to_rad, command.duration_s, interval_s);
+  simulation::StartState start;
   start.theta_rad = command.from_rad;
-  simulate::Simulation simulation({command.table, command.link_radius_m, 0.4, 0.2}, command.scene);
+  simulation::Simulation simulation({command.table, command.link_radius_m, 0.4, 0.2}, command.scene);
   const MotionRules rules{command.table, command.scene, {}, {}};
   TooNear too_near;
   return judge_simulated(rules, way, true, simulation.run(start, way), too_near);
 }
 
-}  // namespace liana::verify::corpus
+}  // namespace liana::verification::corpus

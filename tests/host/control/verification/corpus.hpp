@@ -11,11 +11,11 @@
 #include "host/model/simulation/simulation.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana::verify::corpus {
+namespace liana::verification::corpus {
 
 struct Command {
   std::string name;
-  cable::RobotTable table;
+  cable::RobotParams table;
   double link_radius_m = 0.03;
   config::SceneConfig scene;
   cable::ThetaVector from_rad{}, to_rad{};
@@ -38,4 +38,4 @@ extern const std::array<Class, 12> kClasses;
 // What the simulation end says of it.
 SimulationVerdict verdict_of(const Command& command);
 
-}  // namespace liana::verify::corpus
+}  // namespace liana::verification::corpus

@@ -5,7 +5,7 @@
 #include "host/model/config/convex_shape.hpp"
 #include "tests/host/control/verification/corpus_parts.hpp"
 
-namespace liana::verify::corpus {
+namespace liana::verification::corpus {
 namespace {
 
 constexpr int kPoses = 250;
@@ -42,7 +42,7 @@ struct Body {
     return std::min({at(low), at(0.0), at(1.0)});
   }
 
-  double from_arm_m(const RobotTable& table, const ThetaVector& theta_rad) const {
+  double from_arm_m(const RobotParams& table, const ThetaVector& theta_rad) const {
     const LinkPoints arm = link_points(table, theta_rad);
     double least = 1e9;
     for (std::size_t k = 0; k + 1 < static_cast<std::size_t>(arm.count); ++k) {
@@ -143,4 +143,4 @@ std::vector<Command> convex_bodies(std::uint64_t seed) {
   return beside("convex body", Random(100 * seed + 21), 3, convex_of, put_convex);
 }
 
-}  // namespace liana::verify::corpus
+}  // namespace liana::verification::corpus

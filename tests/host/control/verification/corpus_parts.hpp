@@ -6,7 +6,7 @@
 
 #include "tests/host/control/verification/corpus.hpp"
 
-namespace liana::verify::corpus {
+namespace liana::verification::corpus {
 
 using namespace cable;
 using zhu2022::Random;
@@ -14,8 +14,8 @@ using zhu2022::Random;
 constexpr std::size_t kThetas = zhu2022::kThetas;
 
 // Limits that no command here comes near to, but for the one that is looked at.
-inline RobotTable patient() {
-  RobotTable table = zhu2022::table();
+inline RobotParams patient() {
+  RobotParams table = zhu2022::table();
   table.limits.tip_speed_m_s = 10.0;
   table.limits.tip_speed_slit_m_s = 10.0;
   table.limits.tip_rate_rad_s = 10.0;
@@ -45,4 +45,4 @@ void both_sides(std::vector<Command>& out, const Make& make) {
   for (const bool outside : {false, true}) out.push_back(make(outside));
 }
 
-}  // namespace liana::verify::corpus
+}  // namespace liana::verification::corpus

@@ -5,7 +5,7 @@
 
 #include "tests/rounds.hpp"
 
-namespace liana::verify::corpus {
+namespace liana::verification::corpus {
 namespace {
 
 class Corpus : public testing::TestWithParam<Class> {};
@@ -28,4 +28,4 @@ INSTANTIATE_TEST_SUITE_P(Classes, Corpus, testing::ValuesIn(kClasses),
                          [](const testing::TestParamInfo<Class>& info) { return info.param.name; });
 
 }  // namespace
-}  // namespace liana::verify::corpus
+}  // namespace liana::verification::corpus

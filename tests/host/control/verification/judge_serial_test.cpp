@@ -8,7 +8,7 @@
 #include "tests/firmware_like/micro_arm.hpp"
 #include "tests/message.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 namespace {
 
 using serial::JointVector;
@@ -23,13 +23,13 @@ class ASerialArmBesideABall : public testing::Test {
   void ball_at(double turned_deg, double off_m) {
     JointVector joint_rad = bent_;
     joint_rad[0] += turned_deg * kDegree;
-    const Vec3 tip_m = simulate::serial_axis(model_.table, joint_rad).tip_m();
+    const Vec3 tip_m = simulation::serial_axis(model_.table, joint_rad).tip_m();
     const Vec3 ahead = scale({-tip_m[1], tip_m[0], 0.0}, 1.0 / std::hypot(tip_m[0], tip_m[1]));
     double near_m = 0.2, far_m = 3.0;
     for (int i = 0; i < 60; ++i) {
       const double middle_m = 0.5 * (near_m + far_m);
       scene_.spheres = {{"ball", add(tip_m, scale(ahead, middle_m)), 0.1}};
-      simulate::SerialSimulation simulation(model_, scene_);
+      simulation::SerialSimulation simulation(model_, scene_);
       const double here_m = simulation.run(joint_rad, {0.02, {joint_rad, joint_rad}}).distances.scene.distance_m;
       (here_m < off_m ? near_m : far_m) = middle_m;
     }
@@ -37,7 +37,7 @@ class ASerialArmBesideABall : public testing::Test {
   }
 
   SimulationVerdict turns(double from_deg, double to_deg, std::size_t rows = 200) {
-    simulate::ToldRows<JointVector> told{0.02, {}};
+    simulation::ToldRows<JointVector> told{0.02, {}};
     for (std::size_t row = 0; row < rows; ++row) {
       told.rows_rad.push_back(bent_);
       told.rows_rad.back()[0] +=
@@ -46,15 +46,15 @@ class ASerialArmBesideABall : public testing::Test {
     return judged(told);
   }
 
-  SimulationVerdict judged(const simulate::ToldRows<JointVector>& told) {
-    simulate::SerialSimulation simulation(model_, scene_);
+  SimulationVerdict judged(const simulation::ToldRows<JointVector>& told) {
+    simulation::SerialSimulation simulation(model_, scene_);
     SimulationVerdict verdict;
     verdict.margins = margins_unknown();
     judge_serial(model_.table, simulation, told, simulation.run(told.rows_rad.front(), told), too_near_, verdict);
     return verdict;
   }
 
-  simulate::SerialModel model_{serial::micro::table(), kRadius_m, {}, {}, ""};
+  simulation::SerialModel model_{serial::micro::table(), kRadius_m, {}, {}, ""};
   config::SceneConfig scene_;
   JointVector bent_ = serial::micro::radians(serial::micro::kBent_deg);
   TooNear too_near_;
@@ -99,7 +99,7 @@ TEST_F(ASerialArmBesideABall, WithoutABodyNothingIsSaidOfClearance) {
 
 // req:C8
 TEST_F(ASerialArmBesideABall, MayNotTouchItself) {
-  simulate::ToldRows<JointVector> told{0.02, {}};
+  simulation::ToldRows<JointVector> told{0.02, {}};
   for (int row = 0; row <= 400; ++row)
     told.rows_rad.push_back(serial::micro::radians({0, 0, 0, 150.0 + 0.075 * row, 0, 0, 0}));
   const SimulationVerdict verdict = judged(told);
@@ -109,7 +109,7 @@ TEST_F(ASerialArmBesideABall, MayNotTouchItself) {
 
 TEST_F(ASerialArmBesideABall, ThatTouchesItselfAlreadyMayUnfoldAndNotFoldOn) {
   const auto bends = [this](std::size_t joint, double from_deg, double to_deg) {
-    simulate::ToldRows<JointVector> told{0.02, {}};
+    simulation::ToldRows<JointVector> told{0.02, {}};
     for (int row = 0; row <= 100; ++row) {
       told.rows_rad.push_back(bent_);
       told.rows_rad.back()[joint] = (from_deg + (to_deg - from_deg) * row / 100.0) * kDegree;
@@ -135,7 +135,7 @@ TEST_F(ASerialArmBesideABall, AngleAndRateThatDrivesAreToldAreHeldAgainstTheTabl
 }
 
 TEST_F(ASerialArmBesideABall, ANumberThatIsNoneIsRefused) {
-  simulate::ToldRows<JointVector> told{0.02, {bent_, bent_, bent_}};
+  simulation::ToldRows<JointVector> told{0.02, {bent_, bent_, bent_}};
   told.rows_rad[1][2] = std::nan("");
   EXPECT_FALSE(judged(told).passed());
 }
@@ -143,7 +143,7 @@ TEST_F(ASerialArmBesideABall, ANumberThatIsNoneIsRefused) {
 // Folded back on itself from the start: unfolding is let through, and said.
 TEST_F(ASerialArmBesideABall, ThatTouchesItselfFromTheStartIsLedApartAndItIsSaid) {
   scene_.spheres.clear();
-  simulate::ToldRows<JointVector> told{0.02, {}};
+  simulation::ToldRows<JointVector> told{0.02, {}};
   for (int row = 0; row < 200; ++row)
     told.rows_rad.push_back(serial::micro::radians({0, 0, 0, 180 - 0.02 * row, 0, 0, 0}));
   const SimulationVerdict apart = judged(told);
@@ -154,4 +154,4 @@ TEST_F(ASerialArmBesideABall, ThatTouchesItselfFromTheStartIsLedApartAndItIsSaid
 }
 
 }  // namespace
-}  // namespace liana::verify
+}  // namespace liana::verification

@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-namespace liana::verify {
+namespace liana::verification {
 namespace {
 
 // req:C8
@@ -49,4 +49,4 @@ TEST(RefusalTable, ThePageHoldsWhatTheCodePrints) {
 }
 
 }  // namespace
-}  // namespace liana::verify
+}  // namespace liana::verification

@@ -1,11 +1,11 @@
 // Only the release step makes telecommands, and only with both verdicts.
-#include "host/control/verification/release_step.hpp"
+#include "host/control/verification/issue_step.hpp"
 
 #include <gtest/gtest.h>
 
 #include <type_traits>
 
-namespace liana::verify {
+namespace liana::verification {
 
 namespace {
 
@@ -37,8 +37,8 @@ cable::Setpoint hold() {
 }
 
 // req:A20 req:C6 req:C10
-TEST(ReleaseStep, BothVerdictsReleaseWhatWasJudged) {
-  ReleaseStep<cable::CableArm> release;
+TEST(IssueStep, BothVerdictsReleaseWhatWasJudged) {
+  IssueStep<cable::CableArm> release;
   const Candidate<cable::CableArm> candidate = release.candidate(hold(), 7, 100, 5);
   const auto telecommand = release.release(candidate, execution(1), simulation(1));
   ASSERT_TRUE(telecommand);
@@ -50,16 +50,16 @@ TEST(ReleaseStep, BothVerdictsReleaseWhatWasJudged) {
 }
 
 // req:A20 req:C12
-TEST(ReleaseStep, OneRefusalIsEnough) {
-  ReleaseStep<cable::CableArm> release;
+TEST(IssueStep, OneRefusalIsEnough) {
+  IssueStep<cable::CableArm> release;
   const Candidate<cable::CableArm> candidate = release.candidate(hold(), 7, 100, 5);
   EXPECT_FALSE(release.release(candidate, execution(1, Refusal::kGate), simulation(1)));
   EXPECT_FALSE(release.release(candidate, execution(1), simulation(1, Refusal::kTipSpeed)));
 }
 
 // req:A20 req:C6
-TEST(ReleaseStep, VerdictsOnOtherCandidatesDoNotCount) {
-  ReleaseStep<cable::CableArm> release;
+TEST(IssueStep, VerdictsOnOtherCandidatesDoNotCount) {
+  IssueStep<cable::CableArm> release;
   const Candidate<cable::CableArm> old = release.candidate(hold(), 7, 100, 5);
   const Candidate<cable::CableArm> candidate = release.candidate(hold(), 7, 105, 5);
   EXPECT_FALSE(release.release(candidate, execution(1), simulation(2)));
@@ -67,18 +67,18 @@ TEST(ReleaseStep, VerdictsOnOtherCandidatesDoNotCount) {
   EXPECT_FALSE(release.release(old, execution(1), simulation(1))) << "a newer candidate exists";
 }
 
-TEST(ReleaseStep, NothingIsReleasedTwice) {
-  ReleaseStep<cable::CableArm> release;
+TEST(IssueStep, NothingIsReleasedTwice) {
+  IssueStep<cable::CableArm> release;
   const Candidate<cable::CableArm> candidate = release.candidate(hold(), 7, 100, 5);
   EXPECT_TRUE(release.release(candidate, execution(1), simulation(1)));
   EXPECT_FALSE(release.release(candidate, execution(1), simulation(1)));
 }
 
-TEST(ReleaseStep, AnEmptyVerdictIsNoVerdict) {
-  ReleaseStep<cable::CableArm> release;
+TEST(IssueStep, AnEmptyVerdictIsNoVerdict) {
+  IssueStep<cable::CableArm> release;
   const Candidate<cable::CableArm> candidate = release.candidate(hold(), 7, 100, 5);
   EXPECT_FALSE(release.release(candidate, ExecutionVerdict{}, SimulationVerdict{}));
 }
 
 }  // namespace
-}  // namespace liana::verify
+}  // namespace liana::verification

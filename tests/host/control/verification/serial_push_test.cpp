@@ -12,14 +12,14 @@
 #include "host/control/verification/verify.hpp"
 #include "tests/firmware_like/micro_arm.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 namespace {
 
 using serial::SerialArm;
 
-serial::RobotTable torque_table() {
-  serial::RobotTable table = serial::micro::table();
-  table.torque.gives_torque = 1;
+serial::RobotParams torque_table() {
+  serial::RobotParams table = serial::micro::table();
+  table.torque.is_torque_controlled = 1;
   table.torque.position_gain_per_s = 2.0;
   table.torque.most_joint_Nm = 100.0;
   table.torque.most_force_N = 60.0;
@@ -84,7 +84,7 @@ class PushTwin {
 
   // Of the execution, else of the motion, else "passed".
   std::string verdict(const serial::Setpoint& setpoint) {
-    ReleaseStep<SerialArm> release;
+    IssueStep<SerialArm> release;
     image_.controller = controller_;
     image_.next_tick = now_;
     for (std::uint64_t i = 0; i < sequence_; ++i) release.candidate(setpoint, 1, now_, 5);  // those of before
@@ -110,9 +110,9 @@ class PushTwin {
     image_.last_inputs = inputs;
   }
 
-  serial::RobotTable table_ = torque_table();
+  serial::RobotParams table_ = torque_table();
   Controller<SerialArm> controller_;
-  TwinImage<SerialArm> image_{table_};
+  TwinSnapshot<SerialArm> image_{table_};
   serial::Sensors says_{};
   std::uint64_t now_ = 1;
   std::uint64_t sequence_ = 0;
@@ -158,4 +158,4 @@ TEST(PushTwin, AForceOverTheTablesShowsAsTheFaultThatItWouldBe) {
 }
 
 }  // namespace
-}  // namespace liana::verify
+}  // namespace liana::verification

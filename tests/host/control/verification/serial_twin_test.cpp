@@ -9,7 +9,7 @@
 #include "tests/firmware_like/serial_rig.hpp"
 #include "tests/host/control/verification/sim_arm.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 namespace {
 
 using serial::SerialArm;
@@ -88,7 +88,7 @@ class ArmAndTwin {
  private:
   Random random_;
   SimSerialArm arm_;
-  ReleaseStep<SerialArm> release_;
+  IssueStep<SerialArm> release_;
   std::vector<serial::Telecommand> released_;
   Prediction<SerialArm> prediction_;
 };
@@ -121,4 +121,4 @@ TEST(TwinOfASerialArm, LeavesTheArmItselfAlone) {
 }
 
 }  // namespace
-}  // namespace liana::verify
+}  // namespace liana::verification

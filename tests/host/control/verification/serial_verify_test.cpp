@@ -11,15 +11,15 @@
 #include "tests/firmware_like/micro_arm.hpp"
 #include "tests/message.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 namespace {
 
 using serial::SerialArm;
 using Change = std::function<void(serial::Outputs&)>;
 
 // Its third joint's range is not symmetric, so that a limit on the angle alone would be the wrong one.
-serial::RobotTable uneven_table() {
-  serial::RobotTable table = serial::micro::table();
+serial::RobotParams uneven_table() {
+  serial::RobotParams table = serial::micro::table();
   table.joint[2].low_rad = -0.2;
   table.joint[2].high_rad = 1.0;
   table.torque.most_travel_m = 0.2;
@@ -27,7 +27,7 @@ serial::RobotTable uneven_table() {
   table.torque.most_force_N = 60.0;
   return table;
 }
-const serial::RobotTable kUnevenTable = uneven_table();
+const serial::RobotParams kUnevenTable = uneven_table();
 
 struct JudgedTwice {
   Refusal execution, simulation;
@@ -36,7 +36,7 @@ struct JudgedTwice {
 
 // A prediction of five quiet ticks and a stop of three, with one tick changed.
 JudgedTwice judge_twice(const Change& change, std::size_t at) {
-  ReleaseStep<SerialArm> release;
+  IssueStep<SerialArm> release;
   serial::Setpoint setpoint;
   setpoint.kind = CommandKind::kTip;
   const Candidate<SerialArm> candidate = release.candidate(setpoint, 1, 100, 5);
@@ -64,27 +64,27 @@ struct Row {
 const double kRate = kUnevenTable.joint[4].rate_rad_s, kWay = kTargetSpeedMargin * kRate * kUnevenTable.tick_s;
 
 // Changes a tick to one of a push.
-Change pushing(const std::function<void(serial::PushReport&)>& change) {
+Change pushing(const std::function<void(serial::InsertStatus&)>& change) {
   return [change](serial::Outputs& outputs) {
-    outputs.push.phase = serial::PushPhase::kPressing;
+    outputs.push.phase = serial::InsertPhase::kPressing;
     change(outputs.push);
   };
 }
 
 const Row kRows[] = {
     {"214: a push too far",
-     pushing([](serial::PushReport& p) { p.travel_m = -0.2011; }),
-     pushing([](serial::PushReport& p) { p.travel_m = 0.2009; }),
+     pushing([](serial::InsertStatus& p) { p.travel_m = -0.2011; }),
+     pushing([](serial::InsertStatus& p) { p.travel_m = 0.2009; }),
      Refusal::kPushTube,
      {"push", "axis", "-201.1 mm", "201 mm"}},
     {"214: beside it",
-     pushing([](serial::PushReport& p) { p.aside_m = 0.0311; }),
-     pushing([](serial::PushReport& p) { p.aside_m = 0.0309; }),
+     pushing([](serial::InsertStatus& p) { p.aside_m = 0.0311; }),
+     pushing([](serial::InsertStatus& p) { p.aside_m = 0.0309; }),
      Refusal::kPushTube,
      {"push", "beside"}},
     {"214: with more force",
-     pushing([](serial::PushReport& p) { p.set_N = 60.0 * kOver; }),
-     pushing([](serial::PushReport& p) { p.set_N = 60.0; }),
+     pushing([](serial::InsertStatus& p) { p.set_N = 60.0 * kOver; }),
+     pushing([](serial::InsertStatus& p) { p.set_N = 60.0; }),
      Refusal::kPushTube,
      {"push", "force", "60"}},
     {"107: a joint beyond the gate",
@@ -169,4 +169,4 @@ TEST(VerifyASerialArm, AJointThatTheArmHasNotIsNotJudged) {
 }
 
 }  // namespace
-}  // namespace liana::verify
+}  // namespace liana::verification

@@ -11,7 +11,7 @@
 #include "tests/firmware_like/micro_arm.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 
 // What a drive shows that is switched on and waits, at this position.
 inline DriveFeedback waiting_drive(std::int32_t position_counts) {
@@ -23,7 +23,7 @@ inline DriveFeedback waiting_drive(std::int32_t position_counts) {
 }
 
 // The cable arm's drives at the prepare pose.
-inline DriveFeedbacks drives_at_start(const cable::RobotTable& table) {
+inline DriveFeedbacks drives_at_start(const cable::RobotParams& table) {
   DriveFeedbacks drives{};
   const cable::CableLayout layout = cable_layout(table);
   const cable::CableGeometry geometry =
@@ -36,7 +36,7 @@ inline DriveFeedbacks drives_at_start(const cable::RobotTable& table) {
 }
 
 // The small arm's drives at these joint angles.
-inline DriveFeedbacks drives_at(const serial::RobotTable& table, const serial::JointVector& joint_rad) {
+inline DriveFeedbacks drives_at(const serial::RobotParams& table, const serial::JointVector& joint_rad) {
   DriveFeedbacks drives{};
   for (std::size_t i = 0; i < table.joints(); ++i)
     drives[i] = waiting_drive(to_counts(counts_at_joint(table.drive[i], joint_rad[i])).value);
@@ -48,7 +48,7 @@ class ArmWithoutBuses {
  public:
   ArmWithoutBuses(const typename Arm::Table& table, const DriveFeedbacks& drives)
       : table_(table), link(table_), core_(table_, link), drives_(table_, inputs_with(drives)) {
-    report_.boot = control::BootPhase::kDone;
+    report_.boot = realtime::BootPhase::kDone;
     link.report.publish(report_);
     link.report.refresh();
     link.image.refresh();
@@ -88,12 +88,12 @@ class ArmWithoutBuses {
   typename Arm::Table table_;
 
  public:
-  control::ArmLink<Arm> link;
+  realtime::ArmMailbox<Arm> link;
 
  private:
-  control::TickCore<Arm> core_;
+  realtime::TickCore<Arm> core_;
   NominalDrives<Arm> drives_;
-  control::ArmReport<Arm> report_{};
+  realtime::ArmTickStatus<Arm> report_{};
   Outputs<Arm> outputs_{};
 };
 
@@ -108,4 +108,4 @@ struct SimSerialArm : ArmWithoutBuses<serial::SerialArm> {
       : ArmWithoutBuses(serial::micro::table(), drives_at(serial::micro::table(), joint_rad)) {}
 };
 
-}  // namespace liana::verify
+}  // namespace liana::verification

@@ -6,7 +6,7 @@
 
 #include "host/control/verification/judge_simulated.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 namespace {
 
 class AnArmBesideABody : public testing::Test {
@@ -24,8 +24,8 @@ class AnArmBesideABody : public testing::Test {
   }
 
   // Of a motion between these distances, nearest at `least_m`, past bodies beside it.
-  Refusal goes(double start_m, double least_m, double end_m, std::vector<simulate::BodyBeside> bodies = {}) {
-    simulate::Motion motion;
+  Refusal goes(double start_m, double least_m, double end_m, std::vector<simulation::BodyBeside> bodies = {}) {
+    simulation::Motion motion;
     if (travel_m_ > 0.0) motion.moments.resize(2);
     if (travel_m_ > 0.0) motion.moments.back().node_in_base_m[0] = {travel_m_, 0.0, 0.0};
     motion.distances.bodies = std::move(bodies);
@@ -34,7 +34,7 @@ class AnArmBesideABody : public testing::Test {
     motion.distances.scene_at_start_m = start_m;
     motion.distances.scene_at_end_m = end_m;
     motion.distances.self.distance_m = 1.0;
-    simulate::JointSequence told;
+    simulation::JointSequence told;
     told.rows_rad.resize(1);
     told.interval_s = 0.02;
     return judge_simulated(rules_, told, true, motion, too_near_).code;
@@ -107,4 +107,4 @@ TEST_F(AnArmBesideABody, ThatTouchesOneBodyIsLetOutOfItAndIntoNoOther) {
 }
 
 }  // namespace
-}  // namespace liana::verify
+}  // namespace liana::verification

@@ -5,11 +5,11 @@
 
 #include <memory>
 
-#include "host/control/verification/simulation_end.hpp"
+#include "host/control/verification/simulation_verifier.hpp"
 #include "host/control/verification/verify.hpp"
 #include "tests/host/control/verification/sim_arm.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 
 namespace {
 
@@ -49,8 +49,8 @@ class TwinOfAnArm : public testing::Test {
   }
 
   std::unique_ptr<SimArm> arm_;
-  SimulationEnd<cable::CableArm> simulation_{{arm_->table(), 0.03, 0.4, 0.2}, {arm_->table(), {}, {}, {}}};
-  ReleaseStep<cable::CableArm> release_;
+  SimulationVerifier<cable::CableArm> simulation_{{arm_->table(), 0.03, 0.4, 0.2}, {arm_->table(), {}, {}, {}}};
+  IssueStep<cable::CableArm> release_;
   std::vector<cable::Telecommand> released_;
 };
 
@@ -105,13 +105,13 @@ TEST_F(TwinOfAnArm, TheSameCommandHasTheSameVerdictToTheBit) {
 
 // req:C9
 TEST_F(TwinOfAnArm, TheSimulationHoldsTheArmAsItIsBelievedToBeAgainstTheSceneWhereItIsSeen) {
-  const cable::RobotTable& table = arm_->table();
+  const cable::RobotParams& table = arm_->table();
   MotionRules rules{table, {}, {}, {}};
   rules.scene.margins.prediction_m = 0.007;
   const cable::Outputs& now = arm_->link.image.value().last_outputs;
   const Vec3 tip_m = forward_kinematics(table, now.theta_measured_rad).tip_in_base.position_m;
   rules.scene.spheres = {{"ball", add(tip_m, {0.10, 0.0, 0.0}), 0.05}};
-  SimulationEnd<cable::CableArm> end({table, 0.03, 0.4, 0.2}, rules);
+  SimulationVerifier<cable::CableArm> end({table, 0.03, 0.4, 0.2}, rules);
   const Candidate<cable::CableArm> stays = candidate(shifted_tip(0.0));
   const Prediction<cable::CableArm> prediction = predict(stays);
   const auto margins_m = [&](const cable::ThetaVector& theta_off_rad, const Vec3& shift_m, double prediction_m) {
@@ -170,4 +170,4 @@ TEST_F(TwinOfAnArm, TheArmItselfIsNotTouched) {
 }
 
 }  // namespace
-}  // namespace liana::verify
+}  // namespace liana::verification

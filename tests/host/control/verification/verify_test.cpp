@@ -9,11 +9,11 @@
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/message.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 
 namespace {
 
-const cable::RobotTable kTable = cable::zhu2022::table();
+const cable::RobotParams kTable = cable::zhu2022::table();
 
 struct Judged {
   Refusal execution;
@@ -23,7 +23,7 @@ struct Judged {
 // A prediction of five quiet ticks and a stop, with `change` applied to one tick of the command (2) and one of the stop
 // (6).
 Judged judge(const std::function<void(cable::Outputs&)>& change, std::size_t at = 2, bool comes_to_rest = true) {
-  ReleaseStep<cable::CableArm> release;
+  IssueStep<cable::CableArm> release;
   cable::Setpoint setpoint;
   setpoint.kind = CommandKind::kTip;
   const Candidate<cable::CableArm> candidate = release.candidate(setpoint, 1, 100, 5);
@@ -122,7 +122,7 @@ TEST(Verify, ARefusalNamesWhatWhereAndTheLimit) {
 
 // req:C11
 TEST(Verify, AVerdictAfterTheIntervalBeganIsTooSlow) {
-  ReleaseStep<cable::CableArm> release;
+  IssueStep<cable::CableArm> release;
   const Candidate<cable::CableArm> candidate = release.candidate(cable::Setpoint{}, 1, 100, 5);
   ExecutionVerdict verdict;
   judge_time(candidate.first_tick(), 99, verdict);
@@ -132,4 +132,4 @@ TEST(Verify, AVerdictAfterTheIntervalBeganIsTooSlow) {
 }
 
 }  // namespace
-}  // namespace liana::verify
+}  // namespace liana::verification

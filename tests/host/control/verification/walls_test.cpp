@@ -5,7 +5,7 @@
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/message.hpp"
 
-namespace liana::verify {
+namespace liana::verification {
 namespace {
 
 class ATipBetweenWalls : public testing::Test {
@@ -19,19 +19,19 @@ class ATipBetweenWalls : public testing::Test {
 
   // Of a motion through these places of the tip, off the middle; room is 20 mm.
   SimulationVerdict goes(const std::vector<double>& off_m, double x_m = 2.0) {
-    simulate::Motion motion;
+    simulation::Motion motion;
     motion.solved = true;
     motion.distances.scene.distance_m = motion.distances.scene_at_start_m = motion.distances.scene_at_end_m = 1.0;
     motion.distances.self.distance_m = 1.0;
     for (const double y_m : off_m) {
-      simulate::Moment moment;
+      simulation::Moment moment;
       moment.time_s = 0.01 * static_cast<double>(motion.moments.size());
       moment.node_in_base_m[4] = {x_m, y_m, 0.0};
       moment.tension_N.fill(100.0);
       motion.moments.push_back(moment);
     }
-    motion.least_passed_share.fill(1.0);
-    const simulate::JointSequence told{{0.02, {{}}}, {}, {}};
+    motion.min_passed_share.fill(1.0);
+    const simulation::JointSequence told{{0.02, {{}}}, {}, {}};
     return judge_simulated(rules_, told, true, motion, too_near_);
   }
 
@@ -62,4 +62,4 @@ TEST_F(ATipBetweenWalls, StandsWhereTheSceneIsSeenToStand) {
 }
 
 }  // namespace
-}  // namespace liana::verify
+}  // namespace liana::verification

@@ -9,10 +9,10 @@
 #include "firmware_like/math/trig.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana::fixture {
+namespace liana::virtual_fixtures {
 namespace {
 
-const RobotTable kRobot = zhu2022::table();
+const RobotParams kRobot = zhu2022::table();
 constexpr std::uint32_t kPlanar = 1u << 6 | 1u << 8;  // X4 and X5
 
 // The tip after all angles have gone this far on a line from theta.
@@ -48,7 +48,7 @@ TEST(Ease, SlowsTheWayToAJointLimitByHowNearItIsAndNamesTheAngle) {
     }
     before = to.share;
   }
-  EXPECT_NEAR(before, kLeastShare, 1e-9) << "never stuck";
+  EXPECT_NEAR(before, kMinShare, 1e-9) << "never stuck";
 }
 
 TEST(Ease, LeavesTheWayBackFromALimitAsFastAsEver) {
@@ -74,7 +74,7 @@ TEST(Ease, SlowsTheWayToTheStraightArmAndNotTheWayBack) {
   for (const double share : {1.0, 0.1, 0.05, 0.02}) {
     const Ease to = ease(kRobot, bent(share), kPlanar, forward_kinematics(kRobot, bent(0.7 * share)).tip_in_base);
     EXPECT_LE(to.share, before) << share;
-    EXPECT_EQ(to.cause, to.share < 1.0 ? EaseCause::kSingular : EaseCause::kNone);
+    EXPECT_EQ(to.cause, to.share < 1.0 ? SlowdownCause::kSingular : SlowdownCause::kNone);
     before = to.share;
     const Ease out = ease(kRobot, bent(share), kPlanar, forward_kinematics(kRobot, bent(1.3 * share)).tip_in_base);
     EXPECT_EQ(out.share, 1.0) << share;
@@ -89,4 +89,4 @@ TEST(Ease, OfAGoalThatIsReachedIsNone) {
 }
 
 }  // namespace
-}  // namespace liana::fixture
+}  // namespace liana::virtual_fixtures

@@ -8,12 +8,12 @@
 #include "host/control/virtual_fixtures/pitch_budget.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana::fixture {
+namespace liana::virtual_fixtures {
 namespace {
 
 // req:A47
 TEST(PitchBudget, Leaves320MillidegreesToOneSegmentAnd84ToTwoFor20Millimetres) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   EXPECT_NEAR(pitch_lever_m(robot, 1), 3.6, 1e-12);
   EXPECT_NEAR(pitch_lever_m(robot, 2), 13.6, 1e-12);
   EXPECT_NEAR(pitch_budget(robot, 1, 0.02, {}, {}).allowed_rad / kDegree, 0.32, 0.005);
@@ -22,7 +22,7 @@ TEST(PitchBudget, Leaves320MillidegreesToOneSegmentAnd84ToTwoFor20Millimetres) {
 }
 
 TEST(PitchBudget, UsesTheLargestErrorOfThePlanarPitchesAlone) {
-  const RobotTable robot = zhu2022::table();
+  const RobotParams robot = zhu2022::table();
   ThetaVector believed{}, commanded{};
   believed[4] = 0.1;  // segment 3 is free
   believed[9] = 0.1;  // a yaw
@@ -69,4 +69,4 @@ TEST(BeyondWalls, StandWhereTheSceneIsSeenToStand) {
 }
 
 }  // namespace
-}  // namespace liana::fixture
+}  // namespace liana::virtual_fixtures

@@ -12,7 +12,7 @@
 #include "tests/host/control/virtual_fixtures/interval.hpp"
 #include "tests/host/model/config/tables.hpp"
 
-namespace liana::fixture {
+namespace liana::virtual_fixtures {
 namespace {
 
 constexpr std::uint32_t kX5 = 1u << 8, kX4X5 = kX5 | 1u << 6;
@@ -38,7 +38,7 @@ class InTheSlit : public testing::Test {
     for (int i = 0; i < 1000; ++i) guidance_.guide(now_.tip_in_base, now_, kInterval_s);
   }
 
-  RobotTable robot_ = zhu2022::table();
+  RobotParams robot_ = zhu2022::table();
   config::SceneConfig scene_;
   Guidance guidance_;
   Commanded now_;
@@ -113,8 +113,8 @@ TEST_F(InTheSlit, TheTipTurnsOnlyAsFarAsTheRootOfThePlanarPartStaysInReach) {
     Pose goal = now_.tip_in_base;
     goal.quaternion = normalize(multiply(quaternion_of(scale(n, turn)), goal.quaternion));
     const Pose led = guidance_.guide(goal, now_, kInterval_s);
-    const solve::SlitMouth mouth{guidance_.plane()->frame_in_base, 2.15, 0.02, 100.0};
-    EXPECT_TRUE(solve::some_yaw_fits(robot_, {2, led, now_.theta_rad}, mouth)) << turn;
+    const inverse_kinematics::SlitMouth mouth{guidance_.plane()->frame_in_base, 2.15, 0.02, 100.0};
+    EXPECT_TRUE(inverse_kinematics::some_yaw_fits(robot_, {2, led, now_.theta_rad}, mouth)) << turn;
     const double came = norm(rotation_vector(multiply(led.quaternion, conjugate(now_.tip_in_base.quaternion))));
     EXPECT_EQ(guidance_.is_yaw_limited(), came < std::fabs(turn) - 1e-6) << turn;
     if (std::fabs(turn) < 0.1) {
@@ -132,4 +132,4 @@ TEST_F(InTheSlit, OfAHandThatLetsGoNothingIsKept) {
 }
 
 }  // namespace
-}  // namespace liana::fixture
+}  // namespace liana::virtual_fixtures

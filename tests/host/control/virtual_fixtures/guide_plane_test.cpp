@@ -8,7 +8,7 @@
 
 #include "firmware_like/math/trig.hpp"
 
-namespace liana::fixture {
+namespace liana::virtual_fixtures {
 namespace {
 
 constexpr Vec3 kX{1.0, 0.0, 0.0}, kY{0.0, 1.0, 0.0};
@@ -82,4 +82,4 @@ TEST(InPlane, CountsYawFromTheFramesXAboutItsNormal) {
 }
 
 }  // namespace
-}  // namespace liana::fixture
+}  // namespace liana::virtual_fixtures

@@ -10,7 +10,7 @@
 #include "firmware_like/math/trig.hpp"
 #include "tests/host/control/virtual_fixtures/interval.hpp"
 
-namespace liana::fixture {
+namespace liana::virtual_fixtures {
 namespace {
 
 GuidePlane level(double y_m) { return {{{0.0, y_m, 0.0}}, {1.0, 0.0, 0.0, 0.0}, -kPi, kPi}; }
@@ -84,4 +84,4 @@ TEST(Guide, NeverStepsByMoreThanHandAndBleedWhateverComesAndGoes) {
 }
 
 }  // namespace
-}  // namespace liana::fixture
+}  // namespace liana::virtual_fixtures

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::servo {
+namespace liana::visual_servo {
 namespace {
 
 constexpr double kStep_s = 0.02;
@@ -131,4 +131,4 @@ TEST(Approach, BrakesToRestWithinItsAcceleration) {
 }
 
 }  // namespace
-}  // namespace liana::servo
+}  // namespace liana::visual_servo

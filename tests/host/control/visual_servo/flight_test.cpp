@@ -14,7 +14,7 @@
 #include "firmware_like/operator_input/tip_filter.hpp"
 #include "host/control/visual_servo/target_servo.hpp"
 
-namespace liana::servo {
+namespace liana::visual_servo {
 namespace {
 
 constexpr double kTick_s = 0.004;
@@ -217,4 +217,4 @@ TEST(Flight, ABetterCameraErrsLess) {
 }
 
 }  // namespace
-}  // namespace liana::servo
+}  // namespace liana::visual_servo

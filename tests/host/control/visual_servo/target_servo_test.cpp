@@ -5,7 +5,7 @@
 #include <functional>
 #include "tests/message.hpp"
 
-namespace liana::servo {
+namespace liana::visual_servo {
 namespace {
 
 constexpr double kInterval_s = 0.02;
@@ -193,4 +193,4 @@ TEST(TargetServo, WhoEndsItSaysWhy) {
 }
 
 }  // namespace
-}  // namespace liana::servo
+}  // namespace liana::visual_servo

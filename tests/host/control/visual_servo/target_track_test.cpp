@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace liana::servo {
+namespace liana::visual_servo {
 namespace {
 
 const Pose kTracked{{3.0, 1.0, -0.5}, quaternion_of({0.2, -0.1, 0.4})};
@@ -108,4 +108,4 @@ TEST(TargetTrack, OnABaseThatSwingsPlaceAndAttitudeAreThoseOfItsMiddle) {
 }
 
 }  // namespace
-}  // namespace liana::servo
+}  // namespace liana::visual_servo

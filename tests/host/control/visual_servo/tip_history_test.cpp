@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace liana::servo {
+namespace liana::visual_servo {
 namespace {
 
 Pose at_x(double x) { return {{x, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}; }
@@ -35,4 +35,4 @@ TEST(TipHistory, BeginsAnewWhenTimeGoesBack) {
 }
 
 }  // namespace
-}  // namespace liana::servo
+}  // namespace liana::visual_servo

@@ -27,10 +27,10 @@ config::BusesConfig small_table() {
 }
 
 BusThread::BusThread(const config::BusesConfig& table, timing::TimeMode mode, const std::string& log_directory,
-                     bus_sim::FaultScript script) {
+                     bus_simulator::FaultScript script) {
   static std::atomic<int> count = 0;
   path_ = "/tmp/liana-bus-test-" + std::to_string(getpid()) + "-" + std::to_string(count++);
-  bus_sim::BusHubOptions options;
+  bus_simulator::BusHubOptions options;
   options.time_mode = mode;
   options.period_us = static_cast<std::uint32_t>(table.period_us());
   options.script = std::move(script);
@@ -38,11 +38,11 @@ BusThread::BusThread(const config::BusesConfig& table, timing::TimeMode mode, co
   for (const config::BusConfig& bus : table.buses)
     options.wires.push_back({bus.name, static_cast<std::uint32_t>(bus.bitrate)});
   thread_ = std::thread([this, options] {
-    bus_sim::BusHub hub(options, bus_sim::admit_participants(path_, bus_sim::welcome_of(options)));
+    bus_simulator::BusHub hub(options, bus_simulator::admit_participants(path_, bus_simulator::welcome_of(options)));
     if (options.time_mode == timing::TimeMode::kReal) {
-      bus_sim::run_real(hub);
+      bus_simulator::run_real(hub);
     } else {
-      bus_sim::run_lockstep(hub, options.time_mode == timing::TimeMode::kPaced);
+      bus_simulator::run_lockstep(hub, options.time_mode == timing::TimeMode::kPaced);
     }
     outcome_ = {hub.end_reason(), hub.now_ns, {}};
     for (std::size_t b = 0; b < options.wires.size(); ++b) outcome_.stats.push_back(hub.sim().stats(b));

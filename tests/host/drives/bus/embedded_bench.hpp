@@ -18,14 +18,14 @@ config::BusesConfig small_table();
 struct BusOutcome {
   std::string end_reason;
   std::uint64_t now_ns = 0;
-  std::vector<bus_sim::WireStats> stats;
+  std::vector<bus_simulator::WireStats> stats;
 };
 
 // A bus process without the process. Ends, and is joined, when its participants have left.
 class BusThread {
  public:
   BusThread(const config::BusesConfig& table, timing::TimeMode mode, const std::string& log_directory = "",
-            bus_sim::FaultScript script = {});
+            bus_simulator::FaultScript script = {});
   ~BusThread();
   const std::string& socket_path() const { return path_; }
   // Waits for the end.

@@ -15,8 +15,8 @@ void put(bus::CanFrame& frame, std::size_t from, std::uint32_t value) {
 
 }  // namespace
 
-canopen::DriveExpectation expectation(int bus, std::uint8_t node) {
-  canopen::DriveExpectation drive;
+canopen::ExpectedDrive expectation(int bus, std::uint8_t node) {
+  canopen::ExpectedDrive drive;
   drive.bus = bus;
   drive.node = node;
   drive.vendor = 0x4C49;
@@ -31,7 +31,7 @@ canopen::DriveExpectation expectation(int bus, std::uint8_t node) {
   return drive;
 }
 
-FakeDrive::FakeDrive(const canopen::DriveExpectation& is) : node(is.node) {
+FakeDrive::FakeDrive(const canopen::ExpectedDrive& is) : node(is.node) {
   const auto add = [this](std::uint32_t index, std::uint32_t sub, int bytes, std::uint32_t value) {
     objects[key(index, sub)] = {bytes, value};
   };

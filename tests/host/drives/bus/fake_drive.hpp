@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "host/drives/bus/can_frame.hpp"
-#include "host/drives/canopen/drive_expectation.hpp"
+#include "host/drives/canopen/expected_drive.hpp"
 
 namespace liana::test {
 
 class FakeDrive {
  public:
-  explicit FakeDrive(const canopen::DriveExpectation& is);
+  explicit FakeDrive(const canopen::ExpectedDrive& is);
 
   // What the drive answers.
   std::vector<bus::CanFrame> receive(const bus::CanFrame& frame);
@@ -48,6 +48,6 @@ class FakeDrive {
 };
 
 // An expectation with every field set.
-canopen::DriveExpectation expectation(int bus, std::uint8_t node);
+canopen::ExpectedDrive expectation(int bus, std::uint8_t node);
 
 }  // namespace liana::test

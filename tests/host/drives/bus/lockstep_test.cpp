@@ -141,7 +141,7 @@ TEST(Lockstep, BothEndsCountTheSameFramesAndBits) {
 
 TEST(Lockstep, AScriptedPauseCostsTheControllerItsDeadlinesAndTheBusGoesOn) {
   BusThread bus_thread(small_table(), timing::TimeMode::kFast, "",
-                       bus_sim::FaultScript({{bus_sim::BusAction::kPause, 0, 3, 5}}));
+                       bus_simulator::FaultScript({{bus_simulator::BusAction::kPause, 0, 3, 5}}));
   PlantThread plant(bus_thread.socket_path(), tpdos_for);
   auto bus = open_patiently(small_table(), timing::TimeMode::kFast, bus_thread.socket_path());
   for (std::uint64_t tick = 0; tick < 10; ++tick) {
@@ -158,9 +158,9 @@ TEST(Lockstep, AScriptedPauseCostsTheControllerItsDeadlinesAndTheBusGoesOn) {
 
 TEST(Lockstep, TheControllersInterfaceSaysWhatSocketCanWouldSay) {
   BusThread bus_thread(small_table(), timing::TimeMode::kFast, "",
-                       bus_sim::FaultScript({{bus_sim::BusAction::kDown, 0, 2, 3},
-                                             {bus_sim::BusAction::kDisturb, 1, 2, 3},
-                                             {bus_sim::BusAction::kRestart, 1, 6, 6}}));
+                       bus_simulator::FaultScript({{bus_simulator::BusAction::kDown, 0, 2, 3},
+                                                   {bus_simulator::BusAction::kDisturb, 1, 2, 3},
+                                                   {bus_simulator::BusAction::kRestart, 1, 6, 6}}));
   PlantThread plant(bus_thread.socket_path(), tpdos_for);
   auto bus = open_patiently(small_table(), timing::TimeMode::kFast, bus_thread.socket_path());
   std::vector<BusState> down, off;
@@ -183,7 +183,7 @@ TEST(Lockstep, TheControllersInterfaceSaysWhatSocketCanWouldSay) {
 
 TEST(Lockstep, AScriptedLossReachesTheControllerAsAMissingTpdo) {
   BusThread bus_thread(small_table(), timing::TimeMode::kFast, "",
-                       bus_sim::FaultScript({{bus_sim::BusAction::kDrop, 0, 3, 4, 0x181}}));
+                       bus_simulator::FaultScript({{bus_simulator::BusAction::kDrop, 0, 3, 4, 0x181}}));
   PlantThread plant(bus_thread.socket_path(), tpdos_for);
   auto bus = open_patiently(small_table(), timing::TimeMode::kFast, bus_thread.socket_path());
   for (std::uint64_t tick = 0; tick < 8; ++tick) {
@@ -219,7 +219,7 @@ TEST(Lockstep, ThePlantStillRunsWhenNoSyncComes) {
 
 TEST(Lockstep, TheSyncFrameThatGetsLostOnOneBusStillLetsTheOtherRun) {
   BusThread bus_thread(small_table(), timing::TimeMode::kFast, "",
-                       bus_sim::FaultScript({{bus_sim::BusAction::kDrop, 1, 0, 100, 0x080}}));
+                       bus_simulator::FaultScript({{bus_simulator::BusAction::kDrop, 1, 0, 100, 0x080}}));
   PlantThread plant(bus_thread.socket_path(), tpdos_for);
   auto bus = open_patiently(small_table(), timing::TimeMode::kFast, bus_thread.socket_path());
   for (std::uint64_t tick = 0; tick < 5; ++tick) {

@@ -5,7 +5,7 @@
 
 #include "host/drives/bus_simulator/bus_sim.hpp"
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 namespace {
 
 constexpr std::uint64_t kSlotNs = 4'000'000;
@@ -208,4 +208,4 @@ TEST(BusFaults, APausedControllerGoesOnWithTheFirstSlotAfterThePause) {
 }
 
 }  // namespace
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

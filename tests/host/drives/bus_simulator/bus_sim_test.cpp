@@ -6,7 +6,7 @@
 #include <fstream>
 #include "tests/message.hpp"
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 namespace {
 
 struct Recorder : FrameSink {
@@ -187,4 +187,4 @@ TEST(FaultScript, RefusesWhatItDoesNotUnderstandAndNamesIt) {
 }
 
 }  // namespace
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

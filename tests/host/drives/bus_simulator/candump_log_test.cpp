@@ -11,7 +11,7 @@
 #include "tests/host/drives/bus/embedded_bench.hpp"
 #include "tests/host/drives/bus/fake_drive.hpp"
 
-namespace liana::bus_sim {
+namespace liana::bus_simulator {
 namespace {
 
 std::string line_of(const bus::CanFrame& frame) {
@@ -39,7 +39,7 @@ TEST(CandumpLog, SaysWhichDirectoryCannotBeWritten) {
 // Boots two fake drives over the embedded bus, stops one of them with an emergency, and leaves the logs in `directory`.
 void record_a_boot(const std::string& directory) {
   const config::BusesConfig table = test::small_table();
-  std::vector<canopen::DriveExpectation> expected{test::expectation(0, 1), test::expectation(1, 2)};
+  std::vector<canopen::ExpectedDrive> expected{test::expectation(0, 1), test::expectation(1, 2)};
   std::vector<test::FakeDrive> drives(expected.begin(), expected.end());
   test::BusThread bus_thread(table, timing::TimeMode::kFast, directory);
   int wakes = 0;
@@ -124,4 +124,4 @@ TEST(CandumpLog, TsharkFindsAMalformedFrameWhenThereIsOne) {
 }
 
 }  // namespace
-}  // namespace liana::bus_sim
+}  // namespace liana::bus_simulator

@@ -87,7 +87,7 @@ TEST(Calibrate, ZerosAndDrumsAreFoundToAMicrometre) {
   for (const CalibrationReading& reading : workshop.readings()) {
     const CableVector wanted_m = beyond_zero_m(workshop.arm.table, reading.theta_rad, reading.tension_N);
     for (std::size_t i = 0; i < 15; ++i) {
-      const DriveTable& before = workshop.arm.table.drive[i];
+      const DriveParams& before = workshop.arm.table.drive[i];
       const double counts = before.zero_counts + reading.position_m[i] / (before.direction * before.metres_per_count);
       const auto whole = static_cast<std::int32_t>(std::lround(counts));
       EXPECT_NEAR(cable::payout_at_counts(calibrated.table.drive[i], 0.0, whole), wanted_m[i], 3e-6) << "cable " << i;
@@ -189,7 +189,7 @@ TEST(Calibrate, PosesThatDoNotTellEnoughAreRefused) {
 // Homing itself, without fixtures: at prepare, an arm whose two cables are exchanged contradicts itself.
 TEST(Calibrate, HomingAloneSeesExchangedCablesOfDifferentSegments) {
   const config::RobotConfig arm = config::nominal_zhu2022();
-  const RobotTable& table = arm.table;
+  const RobotParams& table = arm.table;
   const CableLayout layout = cable_layout(table);
   const ThetaVector truth = named_pose_rad(arm, "prepare");
   CableVector tension_N{};

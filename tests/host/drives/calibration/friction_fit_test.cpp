@@ -21,7 +21,7 @@ namespace {
 // Readings of an arm with this friction and torque gains off by up to 1 %, that turns one segment after the other.
 FrictionFit measured(double true_mu, double time_s) {
   const config::RobotConfig arm = config::nominal_zhu2022();
-  RobotTable truth = arm.table;
+  RobotParams truth = arm.table;
   truth.friction_mu = true_mu;
   const CableLayout layout = cable_layout(truth);
   const ThetaVector start_rad = named_pose_rad(arm, "prepare");

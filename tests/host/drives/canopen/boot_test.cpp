@@ -112,7 +112,7 @@ struct BootBench {
     return describe(mismatches(node), boot->more_mismatches(static_cast<std::size_t>(node - 1)), "can0");
   }
 
-  std::vector<DriveExpectation> expected;
+  std::vector<ExpectedDrive> expected;
   std::vector<FakeDrive> drives;
   MemoryBus bus;
   std::function<void(int)> before_tick;
@@ -305,7 +305,7 @@ TEST(Boot, PatienceIsTheSameInSecondsAtEveryRate) {
   for (const double rate_hz : kRates_hz) {
     const BootTiming timing = boot_timing(rate_hz);
     EXPECT_EQ(timing.reset_ticks, 1.0 * rate_hz);
-    EXPECT_EQ(timing.most_reset_ticks, 4.0 * rate_hz);
+    EXPECT_EQ(timing.max_reset_ticks, 4.0 * rate_hz);
     EXPECT_EQ(timing.boot_up_ticks, 10.0 * rate_hz);
     EXPECT_EQ(timing.sdo_ticks, 1.0 * rate_hz);
     EXPECT_EQ(timing.start_ticks, std::ceil(0.25 * rate_hz));
@@ -412,8 +412,8 @@ TEST(Boot, ADriveThatRefusesMoreThanAnybodyReadsIsToldInPartAndCounted) {
     bench.drive(2).aborts[key(0x1800 + pdo, 1)] = 0x08000022;
   }
   bench.run();
-  EXPECT_EQ(bench.mismatches(2).size(), kMostMismatches);
-  EXPECT_EQ(bench.boot->more_mismatches(1), 2 * 31 - kMostMismatches);
+  EXPECT_EQ(bench.mismatches(2).size(), kMaxMismatches);
+  EXPECT_EQ(bench.boot->more_mismatches(1), 2 * 31 - kMaxMismatches);
   EXPECT_NE(bench.text(2).find("; and " + std::to_string(bench.boot->more_mismatches(1)) + " more"), std::string::npos);
   EXPECT_EQ(AllocationCount::value(), 0);
 }
@@ -533,7 +533,7 @@ TEST(Boot, ADriveThatComesBackAsAnotherIsNamedAndMayComeBackAsItself) {
 
 TEST(Boot, ASerialNumberThatNobodyExpectsIsKept) {
   BootBench bench;
-  for (DriveExpectation& drive : bench.expected) drive.serial.reset();
+  for (ExpectedDrive& drive : bench.expected) drive.serial.reset();
   bench.drive(8).objects[key(0x1018, 4)].value = 31415;
   bench.drive(9).objects.erase(key(0x1018, 4));
   bench.run();

@@ -8,8 +8,8 @@
 namespace liana::canopen {
 namespace {
 
-DriveExpectation torque_drive() {
-  DriveExpectation drive;
+ExpectedDrive torque_drive() {
+  ExpectedDrive drive;
   drive.node = 3;
   drive.type.is_cst = true;
   drive.type.writes = {{{0x3001, 1}, "damping", 4, 3000, true}};
@@ -43,7 +43,7 @@ TEST(TorquePlan, MapsTorqueAndRateAndASecondReportAndAsksForCst) {
 }
 
 TEST(TorquePlan, ACspDriveHasOneReportAndItsSecondIsOff) {
-  DriveExpectation drive = torque_drive();
+  ExpectedDrive drive = torque_drive();
   drive.type.is_cst = false;
   const BootPlan plan(drive);
   EXPECT_EQ(written(plan, 0x6060, 0), 8u);

@@ -45,8 +45,8 @@ std::vector<Vec3> straight_arm(const Vec3& base) {
 
 AlongMotion<ArmClearance> along(const StraightMotion& motion, const config::SceneConfig& scene, double enough_m,
                                 double unseen_m = 0.0) {
-  return least_along({motion.gone_m, 1.0, enough_m, unseen_m},
-                     [&](std::int32_t i) { return arm_clearance(motion.pose(i), kRadius_m, scene); });
+  return min_along({motion.gone_m, 1.0, enough_m, unseen_m},
+                   [&](std::int32_t i) { return arm_clearance(motion.pose(i), kRadius_m, scene); });
 }
 
 // req:C9
@@ -122,8 +122,8 @@ TEST(AlongMotion, OfTheArmItselfTakesBothLinksAsMoving) {
   for (int i = 0; i < rounds(100); ++i) {
     const StraightMotion motion(draw.axis(40, 0.05), draw.axis(40, 0.05), 100);
     const AlongMotion<SelfClearance> found =
-        least_along({motion.gone_m, 2.0, kNoObstacle_m, 0.0},
-                    [&](std::int32_t pose) { return self_clearance(motion.pose(pose), kRadius_m, 8); });
+        min_along({motion.gone_m, 2.0, kNoObstacle_m, 0.0},
+                  [&](std::int32_t pose) { return self_clearance(motion.pose(pose), kRadius_m, 8); });
     for (int k = 0; k <= 1000; ++k)
       EXPECT_GE(self_clearance(motion.at(k / 1000.0), kRadius_m, 8).distance_m(), found.at_least_m - 1e-12);
   }
@@ -135,7 +135,7 @@ TEST(AlongMotion, OfOnePoseIsThatPoseAndOfNoneNothing) {
   const StraightMotion motion(straight_arm({0, 0, 0}), straight_arm({0, 0, 0}), 1);
   EXPECT_NEAR(along(motion, scene, 1.0).at_least_m, 0.07, 1e-12);
   EXPECT_EQ(along(motion, scene, 1.0).looks, 1);
-  EXPECT_EQ(least_along({{}, 1.0, 1.0, 0.0}, [](std::int32_t) { return SelfClearance{}; }).pose, -1);
+  EXPECT_EQ(min_along({{}, 1.0, 1.0, 0.0}, [](std::int32_t) { return SelfClearance{}; }).pose, -1);
 }
 
 TEST(AlongMotion, OfWhatIsNoNumberIsNeverFree) {
@@ -149,10 +149,10 @@ TEST(AlongMotion, OfWhatIsNoNumberIsNeverFree) {
       if (static_cast<std::size_t>(i) == where) points[7][2] = nan;
       return arm_clearance(points, kRadius_m, scene);
     };
-    EXPECT_EQ(least_along({gone_m, 1.0, 1.0, 0.0}, look).at_least_m, -kNoObstacle_m);
+    EXPECT_EQ(min_along({gone_m, 1.0, 1.0, 0.0}, look).at_least_m, -kNoObstacle_m);
     gone_m[where] = nan;
     const auto far = [&](std::int32_t) { return arm_clearance(straight_arm({0, 0, 0}), kRadius_m, scene); };
-    EXPECT_EQ(least_along({gone_m, 1.0, 1.0, 0.0}, far).at_least_m, -kNoObstacle_m);
+    EXPECT_EQ(min_along({gone_m, 1.0, 1.0, 0.0}, far).at_least_m, -kNoObstacle_m);
   }
 }
 
@@ -160,10 +160,10 @@ TEST(AlongMotion, OfWhatIsNoNumberIsNeverFree) {
 TEST(AlongMotion, IsNotAboveAnyPoseHoweverFarItsNeighboursAre) {
   const std::vector<double> gone_m{0.0, 0.1, 0.2};
   const auto look = [](std::int32_t i) { return SelfClearance{i == 1 ? 0.0 : 0.15, 0, 9}; };
-  EXPECT_NEAR(least_along({gone_m, 2.0, 1.0, 0.0}, look).at_least_m, -0.025, 1e-15);
+  EXPECT_NEAR(min_along({gone_m, 2.0, 1.0, 0.0}, look).at_least_m, -0.025, 1e-15);
   const std::vector<double> still_m{0.0, 0.0, 0.0};
   const auto first = [](std::int32_t i) { return SelfClearance{i == 0 ? 0.0 : 0.5, 0, 9}; };
-  EXPECT_EQ(least_along({still_m, 2.0, 1.0, 0.0}, first).at_least_m, 0.0);
+  EXPECT_EQ(min_along({still_m, 2.0, 1.0, 0.0}, first).at_least_m, 0.0);
 }
 
 }  // namespace

@@ -27,11 +27,11 @@ ArmClearance every_pair(AxisPoints points, double radius_m, const config::SceneC
   return out;
 }
 
-SelfClearance every_pair(AxisPoints points, double radius_m, std::int32_t least_apart) {
+SelfClearance every_pair(AxisPoints points, double radius_m, std::int32_t min_apart) {
   SelfClearance out;
   const std::int32_t links = static_cast<std::int32_t>(points.size()) - 1;
   for (std::int32_t a = 0; a < links; ++a) {
-    for (std::int32_t b = a + least_apart; b < links; ++b) {
+    for (std::int32_t b = a + min_apart; b < links; ++b) {
       const double here_m = between_m(link_capsule(points, a, radius_m), link_capsule(points, b, radius_m));
       if (here_m < out.nearest_m) out = {here_m, a, b};
     }
@@ -180,8 +180,8 @@ TEST(SelfClearance, OfTwoCapsulesHoldsWhereTheyAreAlignedOrPoints) {
 }
 
 TEST(SelfClearance, LinksThatCannotTouchAreThoseWhoseJointsCannotBendByHalfATurn) {
-  EXPECT_EQ(least_apart(20.0 * kDegree), 7);  // 6.36 joints of 28.3 deg about their diagonal
-  EXPECT_EQ(least_apart(90.0 * kDegree), 2);
+  EXPECT_EQ(min_apart(20.0 * kDegree), 7);  // 6.36 joints of 28.3 deg about their diagonal
+  EXPECT_EQ(min_apart(90.0 * kDegree), 2);
 }
 
 }  // namespace

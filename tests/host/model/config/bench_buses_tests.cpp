@@ -59,8 +59,8 @@ std::string refusal_of(const char* field, const Json& value) {
 TEST(NamedPoses, StartAndFixturesMayBeNamedAndMustExist) {
   EXPECT_EQ(lab_with("start_pose", "look").start_pose, "look");
   EXPECT_EQ(lab_with("start_pose", nullptr).start_pose, "");
-  EXPECT_EQ(lab_with("fixture_poses", nullptr).fixture_poses, std::vector<std::string>{});
-  EXPECT_EQ(lab_with("fixture_poses", {"zero", "deep"}).fixture_poses, (std::vector<std::string>{"zero", "deep"}));
+  EXPECT_EQ(lab_with("fixture_poses", nullptr).jig_poses, std::vector<std::string>{});
+  EXPECT_EQ(lab_with("fixture_poses", {"zero", "deep"}).jig_poses, (std::vector<std::string>{"zero", "deep"}));
   EXPECT_TRUE(names(refusal_of("start_pose", "nowhere"), {"r", "start_pose", "nowhere", "fixture_a"}));
   EXPECT_TRUE(names(refusal_of("fixture_poses", {"zero"}), {"r", "fixture_poses", "two"}));
   EXPECT_TRUE(names(refusal_of("fixture_poses", {"zero", "zero"}), {"r", "fixture_poses[2]", "zero"}));

@@ -61,7 +61,7 @@ TEST(Scene, TheDriveBoxStandsBehindTheRoot) {
 // req:A47
 TEST(Scene, TheSlitLeavesLinkAxesTheGapLessTheArm) {
   const SceneConfig scene = parse_scene(good_table("scene", "panel_slit").dump(), "s");
-  const solve::SlitMouth mouth = slit_mouth(*scene.slit, 0.03);
+  const inverse_kinematics::SlitMouth mouth = slit_mouth(*scene.slit, 0.03);
   EXPECT_NEAR(mouth.half_gap_m, 0.02, 1e-12);
   EXPECT_NEAR(mouth.depth_m, 1.95, 1e-12);
   const Vec3 along = rotate(mouth.frame_in_base.quaternion, {1.0, 0.0, 0.0});

@@ -127,9 +127,9 @@ TEST(SerialRobot, ABaseIsALockedArmThatSaysHowItGivesWay) {
 TEST(SerialRobot, TorqueDrivesHaveMassesGainsAndBounds) {
   const BusesConfig buses = parse_buses(good_table("buses", "embedded_payload").dump(), "b");
   const SerialRobotConfig robot = parse_serial_robot(good_table("robot", "macro_micro").dump(), "r", buses);
-  const serial::TorqueTable& torque = robot.table.torque;
-  EXPECT_TRUE(gives_torque(robot));
-  EXPECT_FALSE(gives_torque(micro()));
+  const serial::TorqueParams& torque = robot.table.torque;
+  EXPECT_TRUE(is_torque_controlled(robot));
+  EXPECT_FALSE(is_torque_controlled(micro()));
   EXPECT_TRUE(robot.has_wrist_sensor);
   EXPECT_FALSE(micro().has_wrist_sensor);
   EXPECT_EQ(torque.masses.link[6].mass_kg, robot.masses.link[6].mass_kg);

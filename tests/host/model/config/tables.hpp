@@ -17,9 +17,9 @@ constexpr double kDeg = 3.14159265358979323846 / 180.0;
 
 // The project's own table, evaluated.
 inline Json good_table(const std::string& kind, const std::string& name) {
-  script::Activity activity;
-  script::Script script(script::ScriptLimits{}, LIANA_LUA_DIR, activity);
-  return Json::parse(script::evaluate(script, LIANA_LUA_DIR, kind, name));
+  mission_runner::Activity activity;
+  mission_runner::Script script(mission_runner::ScriptLimits{}, LIANA_LUA_DIR, activity);
+  return Json::parse(mission_runner::evaluate(script, LIANA_LUA_DIR, kind, name));
 }
 
 // The shipped cable arm on its shipped buses, as the core is told of it.

@@ -5,23 +5,23 @@
 
 #include "tests/firmware_like/micro_arm.hpp"
 
-namespace liana::solve {
+namespace liana::inverse_kinematics {
 namespace {
 
 using serial::forward_kinematics;
 using serial::JointVector;
-using serial::RobotTable;
+using serial::RobotParams;
 using serial::micro::Random;
 namespace micro = serial::micro;
 
-double error_of(const RobotTable& robot, const Pose& goal, const JointVector& joint) {
+double error_of(const RobotParams& robot, const Pose& goal, const JointVector& joint) {
   const Pose tip = forward_kinematics(robot, joint).tip_in_base;
   return norm(subtract(goal.position_m, tip.position_m)) +
          norm(rotation_vector(multiply(goal.quaternion, conjugate(tip.quaternion))));
 }
 
 TEST(SerialGoalIk, ReachesAtLeast999Of1000PosesFromAnywhere) {
-  const RobotTable robot = micro::table();
+  const RobotParams robot = micro::table();
   Random random(1);
   std::int32_t reached = 0;
   for (std::int32_t i = 0; i < 2000; ++i) {
@@ -37,7 +37,7 @@ TEST(SerialGoalIk, ReachesAtLeast999Of1000PosesFromAnywhere) {
 // The arm is where it should be, or nearly: no other elbow is worth the way.
 // req:C5
 TEST(SerialGoalIk, AGoalNearbyIsReachedWithASmallMove) {
-  const RobotTable robot = micro::table();
+  const RobotParams robot = micro::table();
   Random random(2);
   std::int32_t small = 0;
   for (std::int32_t i = 0; i < 300; ++i) {
@@ -51,7 +51,7 @@ TEST(SerialGoalIk, AGoalNearbyIsReachedWithASmallMove) {
 // A joint that may turn one and a half times round meets most angles twice: the nearer one is taken.
 // req:C5
 TEST(SerialGoalIk, NoJointOfASolutionIsNearerByAWholeTurn) {
-  const RobotTable robot = micro::table();
+  const RobotParams robot = micro::table();
   Random random(4);
   for (std::int32_t i = 0; i < 300; ++i) {
     const JointVector from = micro::random_joints(robot, random);
@@ -67,14 +67,14 @@ TEST(SerialGoalIk, NoJointOfASolutionIsNearerByAWholeTurn) {
 }
 
 TEST(SerialGoalIk, SaysWhenThereIsNoSolutionAndHowFarAwayTheBestIs) {
-  const RobotTable robot = micro::table();
+  const RobotParams robot = micro::table();
   const SerialGoalResult result = solve_goal(robot, {{{5.5, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, {}});
   EXPECT_FALSE(result.converged);
   EXPECT_GT(result.position_error_m + result.attitude_error_rad, 0.5);
 }
 
 TEST(SerialGoalIk, TheSameInputGivesTheSameResult) {
-  const RobotTable robot = micro::table();
+  const RobotParams robot = micro::table();
   Random random(3);
   const SerialGoal goal{forward_kinematics(robot, micro::random_joints(robot, random)).tip_in_base,
                         micro::random_joints(robot, random)};
@@ -84,4 +84,4 @@ TEST(SerialGoalIk, TheSameInputGivesTheSameResult) {
 }
 
 }  // namespace
-}  // namespace liana::solve
+}  // namespace liana::inverse_kinematics

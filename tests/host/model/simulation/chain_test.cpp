@@ -11,20 +11,20 @@
 #include "host/model/simulation/cable_paths.hpp"
 #include "tests/host/model/simulation/simulated_arm.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 namespace {
 
 using zhu2022::Random;
 
-const std::vector<RobotTable>& tables() {
-  static const std::vector<RobotTable> both = {zhu2022::table(), zhu2022::uneven_table()};
+const std::vector<RobotParams>& tables() {
+  static const std::vector<RobotParams> both = {zhu2022::table(), zhu2022::uneven_table()};
   return both;
 }
 
 // req:A35
 TEST(Chain, LinksAreWhereTheCoresClosedFormHasThem) {
   Random random(1);
-  for (const RobotTable& table : tables()) {
+  for (const RobotParams& table : tables()) {
     for (int i = 0; i < 50; ++i) {
       const ThetaVector theta_rad = random.theta(table, 20.0);
       Chain chain;
@@ -32,7 +32,7 @@ TEST(Chain, LinksAreWhereTheCoresClosedFormHasThem) {
       const LinkPoints core = link_points(table, theta_rad);
       ASSERT_EQ(chain.links + 1, core.count);
       for (std::size_t k = 0; k < static_cast<std::size_t>(core.count); ++k)
-        EXPECT_LT((chain.point_m[k] - algebra::view(core.point_in_base[k])).norm(), 1e-12) << "point " << k;
+        EXPECT_LT((chain.point_m[k] - eigen::view(core.point_in_base[k])).norm(), 1e-12) << "point " << k;
     }
   }
 }
@@ -46,7 +46,7 @@ TEST(Chain, TheReducedMassMatrixIsThatOfEightyHinges) {
     const ThetaVector theta_rad = random.theta(zhu2022::table(), 20.0);
     Chain chain;
     place(zhu2022_model(), theta_rad, chain);
-    const algebra::ThetaMatrix mass = mass_matrix(zhu2022_model(), chain);
+    const eigen::ThetaMatrix mass = mass_matrix(zhu2022_model(), chain);
     bench::Theta at{};
     std::copy_n(theta_rad.begin(), at.size(), at.begin());
     bench::ThetaMatrix reference{};
@@ -62,7 +62,7 @@ TEST(Chain, TheReducedMassMatrixIsThatOfEightyHinges) {
 
 TEST(CablePaths, LengthsChangeWithTheAnglesAsTheCoreSays) {
   Random random(3);
-  for (const RobotTable& table : tables()) {
+  for (const RobotParams& table : tables()) {
     const CableLayout layout = cable_layout(table);
     for (int i = 0; i < 50; ++i) {
       const ThetaVector theta_rad = random.theta(table, 20.0);
@@ -101,7 +101,7 @@ TEST(CablePaths, BalancedTensionsHoldTheArmStillAndStayTaut) {
   for (int i = 0; i < 100; ++i) {
     const CablePaths paths = cable_paths(zhu2022_model(), random.theta(zhu2022::table(), 20.0));
     const CableColumn tension_N = balanced_tensions(paths, CableColumn::Constant(15, 40.0), 20.0);
-    const algebra::ThetaColumn torque_Nm = paths.jacobian_m_rad.transpose() * tension_N;
+    const eigen::ThetaColumn torque_Nm = paths.jacobian_m_rad.transpose() * tension_N;
     EXPECT_LT(torque_Nm.cwiseAbs().maxCoeff(), 1e-9);
     EXPECT_GE(tension_N.minCoeff(), 19.9);
     EXPECT_LE(tension_N.maxCoeff(), 150.0);
@@ -109,4 +109,4 @@ TEST(CablePaths, BalancedTensionsHoldTheArmStillAndStayTaut) {
 }
 
 }  // namespace
-}  // namespace liana::simulate
+}  // namespace liana::simulation

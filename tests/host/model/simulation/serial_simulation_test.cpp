@@ -8,7 +8,7 @@
 
 #include "tests/firmware_like/micro_arm.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 namespace {
 
 using serial::JointVector;
@@ -34,7 +34,7 @@ Distances standing(const SerialModel& model, const config::SceneConfig& scene, c
 // req:C8
 TEST(SerialAxis, EndsWhereTheCoresOwnKinematicsHasJointsAndTip) {
   serial::micro::Random random(31);
-  for (const serial::RobotTable& table : {serial::micro::table(), serial::micro::six_joint_table()}) {
+  for (const serial::RobotParams& table : {serial::micro::table(), serial::micro::six_joint_table()}) {
     for (int i = 0; i < 200; ++i) {
       const JointVector joint_rad = serial::micro::random_joints(table, random);
       const SerialAxis axis = serial_axis(table, joint_rad);
@@ -296,4 +296,4 @@ TEST(SerialModel, AnArmBelowThatCarriesIsLookedAtOnItsWholeWay) {
 }
 
 }  // namespace
-}  // namespace liana::simulate
+}  // namespace liana::simulation

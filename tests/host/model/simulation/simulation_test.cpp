@@ -7,7 +7,7 @@
 #include "hil/arm/arm_physics.hpp"
 #include "tests/host/model/simulation/simulated_arm.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 namespace {
 
 using zhu2022::Random;
@@ -27,8 +27,8 @@ JointSequence way(const ThetaVector& from_rad, const ThetaVector& to_rad, double
   return sequence;
 }
 
-ThetaVector turned(ThetaVector theta_rad, double most_deg, std::uint64_t seed) {
-  const ThetaVector change = Random(seed).theta(zhu2022::table(), most_deg);
+ThetaVector turned(ThetaVector theta_rad, double max_deg, std::uint64_t seed) {
+  const ThetaVector change = Random(seed).theta(zhu2022::table(), max_deg);
   for (std::size_t k = 0; k < zhu2022::kThetas; ++k) theta_rad[k] += change[k];
   return theta_rad;
 }
@@ -171,12 +171,12 @@ TEST(Simulation, ASceneThatStandsBesideItsDrawingIsMetWhereItStands) {
 }
 
 TEST(Simulation, TheDrumsLagBehindARampByTheirTimeConstant) {
-  const algebra::ThetaColumn rate = algebra::ThetaColumn::Constant(1, 0.03);
-  algebra::ThetaColumn told = algebra::ThetaColumn::Zero(1);
-  DrumLag<algebra::ThetaColumn> lag(0.03, 0.01, told, 0.0 * rate);
+  const eigen::ThetaColumn rate = eigen::ThetaColumn::Constant(1, 0.03);
+  eigen::ThetaColumn told = eigen::ThetaColumn::Zero(1);
+  DrumLag<eigen::ThetaColumn> lag(0.03, 0.01, told, 0.0 * rate);
   for (int i = 0; i < 100; ++i) lag.step(told += 0.01 * rate);
   EXPECT_NEAR(lag.now()[0], told[0] - 0.03 * 0.03, 1e-12);
-  DrumLag<algebra::ThetaColumn> moving(0.03, 0.01, told, rate);
+  DrumLag<eigen::ThetaColumn> moving(0.03, 0.01, told, rate);
   moving.step(told + 0.01 * rate);
   EXPECT_NEAR(moving.now()[0], told[0] + 0.01 * 0.03 - 0.03 * 0.03, 1e-15) << "a motion that goes on has no jolt";
 }
@@ -218,4 +218,4 @@ TEST(Simulation, AWayThatLeavesThePoseFarBehindIsSolvedAnew) {
 }
 
 }  // namespace
-}  // namespace liana::simulate
+}  // namespace liana::simulation

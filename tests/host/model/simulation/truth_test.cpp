@@ -9,7 +9,7 @@
 #include "tests/closed_loop/fixture.hpp"
 #include "tests/host/model/simulation/simulated_arm.hpp"
 
-namespace liana::simulate {
+namespace liana::simulation {
 namespace {
 
 constexpr std::size_t kAhead = 50;  // intervals: a second
@@ -19,7 +19,7 @@ struct Seen {
   CableVector tension_N, planned_N;
 
   ToldNow told() const {
-    return {algebra::view(told_rad, zhu2022::kThetas), algebra::view(load_Nm, zhu2022::kThetas),
+    return {eigen::view(told_rad, zhu2022::kThetas), eigen::view(load_Nm, zhu2022::kThetas),
             Eigen::Map<const CableColumn>(planned_N.data(), 15)};
   }
 };
@@ -110,4 +110,4 @@ TEST(SimulationAgainstTruth, EveryLinkIsWithinMillimetresASecondLater) {
 }
 
 }  // namespace
-}  // namespace liana::simulate
+}  // namespace liana::simulation

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::haptic::rig {
+namespace liana::haptics::rig {
 namespace {
 
 constexpr FilterBounds kShipped{0.10, 0.14, 0.7};  // lua/robots/zhu2022.lua
@@ -91,4 +91,4 @@ void BilateralRig::step(const Intent& intent) {
   now_us_ += kTick_us;
 }
 
-}  // namespace liana::haptic::rig
+}  // namespace liana::haptics::rig

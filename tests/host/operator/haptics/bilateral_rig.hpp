@@ -6,11 +6,11 @@
 #include <cstdint>
 
 #include "firmware_like/operator_input/tip_filter.hpp"
-#include "host/operator/haptics/hand_loop.hpp"
+#include "host/operator/haptics/haptic_loop.hpp"
 #include "host/operator/haptics/link.hpp"
 #include "host/operator/haptics/omega.hpp"
 
-namespace liana::haptic::rig {
+namespace liana::haptics::rig {
 
 // The tip of a soft arm, along y only a wall is met.
 class SoftArm {
@@ -31,7 +31,7 @@ class SoftArm {
 
 struct RigTable {
   HandLoopTable loop{};
-  HandTable hand{};
+  HandParams hand{};
   LinkTable link{};  // of either direction
   double wall_N_m = 0.0;
   std::uint64_t seed = 1;
@@ -47,7 +47,7 @@ class BilateralRig {
 
   // One millisecond.
   void step(const Intent& intent);
-  HandLoop& loop() { return loop_; }
+  HapticLoop& loop() { return loop_; }
   // Either direction of the link from now on.
   void change_link(const LinkTable& table);
 
@@ -61,7 +61,7 @@ class BilateralRig {
   void advance_arm();
 
   HeldOmega omega_;
-  HandLoop loop_;
+  HapticLoop loop_;
   Link<CommandPacket> forward_;
   Link<StatePacket> back_;
   SoftArm arm_;
@@ -75,4 +75,4 @@ class BilateralRig {
   HandForce force_{};
 };
 
-}  // namespace liana::haptic::rig
+}  // namespace liana::haptics::rig

@@ -8,13 +8,13 @@
 #include "host/base/random/random.hpp"
 #include "host/operator/haptics/omega.hpp"
 
-namespace liana::haptic {
+namespace liana::haptics {
 namespace {
 
 const OmegaTable kOmega{};
 
 // Anywhere in the published workspace, 160 mm across and 110 mm deep.
-Vec3 place_in_workspace(operator_side::RandomStream& random) {
+Vec3 place_in_workspace(simulated::RandomStream& random) {
   const double angle = random.uniform(-kPi, kPi), radius_m = kOmega.radius_m * std::sqrt(random.uniform(0.0, 1.0));
   return {kOmega.centre_m + random.uniform(-kOmega.depth_m, kOmega.depth_m), radius_m * std::cos(angle),
           radius_m * std::sin(angle)};
@@ -22,7 +22,7 @@ Vec3 place_in_workspace(operator_side::RandomStream& random) {
 
 // req:A30
 TEST(Delta, EveryPlaceOfTheWorkspaceIsReachedByAnglesThatLeadBackToIt) {
-  operator_side::RandomStream random(1, 1);
+  simulated::RandomStream random(1, 1);
   for (int i = 0; i < 10000; ++i) {
     const Vec3 place = place_in_workspace(random);
     const auto angles = delta_angles(kOmega.delta, place);
@@ -46,7 +46,7 @@ TEST(Delta, LowerArmsHaveTheirLengthWhateverTheAngles) {
 }
 
 TEST(Delta, JacobianIsWhatDifferencesOfPositionsSay) {
-  operator_side::RandomStream random(2, 1);
+  simulated::RandomStream random(2, 1);
   constexpr double kStep_rad = 1e-6;
   for (int i = 0; i < 1000; ++i) {
     const auto angles = delta_angles(kOmega.delta, place_in_workspace(random));
@@ -64,7 +64,7 @@ TEST(Delta, JacobianIsWhatDifferencesOfPositionsSay) {
 }
 
 TEST(Delta, TorquesTimesSpeedsAreForceTimesVelocity) {
-  operator_side::RandomStream random(3, 1);
+  simulated::RandomStream random(3, 1);
   const auto number = [&] { return random.uniform(-1.0, 1.0); };
   for (int i = 0; i < 100; ++i) {
     const auto jacobian = delta_jacobian(kOmega.delta, *delta_angles(kOmega.delta, place_in_workspace(random)));
@@ -86,4 +86,4 @@ TEST(Delta, OutOfReachThereIsNothing) {
 }
 
 }  // namespace
-}  // namespace liana::haptic
+}  // namespace liana::haptics

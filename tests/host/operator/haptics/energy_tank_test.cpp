@@ -7,7 +7,7 @@
 
 #include "host/base/random/random.hpp"
 
-namespace liana::haptic {
+namespace liana::haptics {
 namespace {
 
 TEST(EnergyTank, PassesAForceThatTakesEnergy) {
@@ -48,7 +48,7 @@ TEST(EnergyTank, LetsAForceThatGivesEnergyDieAwayWithoutAJump) {
 }
 
 TEST(EnergyTank, GivesAForceBackSlowly) {
-  TankTable table;
+  TankParams table;
   table.start_J = 0.0;
   EnergyTank tank(table);
   Vec3 at{};
@@ -68,7 +68,7 @@ TEST(EnergyTank, GivesAForceBackSlowly) {
 // req:C14
 TEST(EnergyTank, NeverGivesMoreThanItHeldWhateverForcesAndMotions) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-    operator_side::RandomStream random(seed, 1);
+    simulated::RandomStream random(seed, 1);
     const auto vector = [&](double most) {
       return Vec3{random.uniform(-most, most), random.uniform(-most, most), random.uniform(-most, most)};
     };
@@ -91,4 +91,4 @@ TEST(EnergyTank, NeverGivesMoreThanItHeldWhateverForcesAndMotions) {
 }
 
 }  // namespace
-}  // namespace liana::haptic
+}  // namespace liana::haptics

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace liana::haptic {
+namespace liana::haptics {
 namespace {
 
 // All tips along x.
@@ -66,4 +66,4 @@ TEST(FeedbackLaw, WhatIsNotSureIsNotFeltAndTheRestWithoutAStep) {
 }
 
 }  // namespace
-}  // namespace liana::haptic
+}  // namespace liana::haptics

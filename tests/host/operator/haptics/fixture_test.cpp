@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "host/operator/haptics/hand_loop.hpp"
+#include "host/operator/haptics/haptic_loop.hpp"
 #include "host/operator/haptics/omega.hpp"
 
-namespace liana::haptic {
+namespace liana::haptics {
 namespace {
 
 constexpr Plane kWall{{0.0, -1.0, 0.0}, -0.01, 1500.0, 10.0};  // free below y = 10 mm
@@ -73,8 +73,8 @@ struct Ripple {
 };
 
 // A hand that presses with a force against the wall for 4 s; the last second is judged.
-Ripple press(double press_N, const Plane& wall, const HandTable& hand) {
-  HandLoop loop(bare());
+Ripple press(double press_N, const Plane& wall, const HandParams& hand) {
+  HapticLoop loop(bare());
   HeldOmega omega({}, hand, {}, 1);
   const double aim_m = 0.01 + press_N / hand.stiffness_N_m + press_N / wall.stiffness_N_m;
   double sum = 0.0, square = 0.0, least_m = 1.0, most_m = -1.0;
@@ -97,10 +97,10 @@ Ripple press(double press_N, const Plane& wall, const HandTable& hand) {
 TEST(Fixture, AWallOf1500NewtonsAMetreDoesNotChatterUnderAnyHandThatPresses) {
   for (const double press_N : {1.0, 4.0, 8.0}) {
     for (const double mass_kg : {0.05, 0.3, 2.0}) {
-      HandTable hand;
+      HandParams hand;
       hand.mass_kg = mass_kg;
       hand.stiffness_N_m = 200.0;
-      hand.least_damping_N_s_m = 0.5;
+      hand.min_damping_N_s_m = 0.5;
       hand.tremor_m = 0.0;
       const Ripple ripple = press(press_N, kWall, hand);
       EXPECT_LT(ripple.force_N, 0.02) << press_N << " N, " << mass_kg << " kg";
@@ -110,12 +110,12 @@ TEST(Fixture, AWallOf1500NewtonsAMetreDoesNotChatterUnderAnyHandThatPresses) {
 }
 
 TEST(Fixture, TheCheckForChatterFindsAWallThatIsTooStiffForItsDamping) {
-  HandTable hand;
+  HandParams hand;
   hand.mass_kg = 0.05;
   hand.stiffness_N_m = 200.0;
-  hand.least_damping_N_s_m = hand.damping_ratio = 0.0;
+  hand.min_damping_N_s_m = hand.damping_ratio = 0.0;
   hand.tremor_m = 0.0;
-  HandLoop loop(bare());
+  HapticLoop loop(bare());
   HeldOmega omega({}, hand, {}, 1);
   double least_m = 1.0, most_m = -1.0;
   for (int ms = 0; ms < 4000; ++ms) {
@@ -131,4 +131,4 @@ TEST(Fixture, TheCheckForChatterFindsAWallThatIsTooStiffForItsDamping) {
 }
 
 }  // namespace
-}  // namespace liana::haptic
+}  // namespace liana::haptics

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana::haptic {
+namespace liana::haptics {
 namespace {
 
 constexpr double kTurn_rad = 0.6;
 
-HandTable steady() {
-  HandTable hand;
+HandParams steady() {
+  HandParams hand;
   hand.stiffness_N_m = 500.0;
   hand.reaction_s = 0.0;
   hand.tremor_m = 0.0;
@@ -60,8 +60,8 @@ TEST(HeldHand, IsPulledTowardsATipThatIsHeldBack) {
     expected[axis] = -200.0 * 0.02 / 500.0;  // K dp against the hand's own stiffness
     EXPECT_LT(norm(subtract(sensed.pose.position_m, expected)), 3e-4) << axis;
     EXPECT_NEAR(held.peak_force_N(), 4.0, 0.1);
-    EXPECT_LT(held.least_energy_J(), 0.0);
-    EXPECT_GT(held.least_energy_J(), -0.1);
+    EXPECT_LT(held.min_energy_J(), 0.0);
+    EXPECT_GT(held.min_energy_J(), -0.1);
   }
 }
 
@@ -77,4 +77,4 @@ TEST(HeldHand, FeelsLessAtALargerScale) {
 }
 
 }  // namespace
-}  // namespace liana::haptic
+}  // namespace liana::haptics

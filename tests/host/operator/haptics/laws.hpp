@@ -5,8 +5,8 @@
 
 #include "host/operator/haptics/feedback_law.hpp"
 
-namespace liana::haptic {
+namespace liana::haptics {
 
 constexpr std::array kLaws{Law::kClaim, Law::kAbstract, Law::kAligned};
 
-}  // namespace liana::haptic
+}  // namespace liana::haptics

@@ -10,7 +10,7 @@
 #include "host/operator/haptics/packets.hpp"
 #include "tests/message.hpp"
 
-namespace liana::haptic {
+namespace liana::haptics {
 namespace {
 
 struct Arrival {
@@ -94,4 +94,4 @@ TEST(Newest, LetsNothingThroughThatIsOlderOrTheSame) {
 }
 
 }  // namespace
-}  // namespace liana::haptic
+}  // namespace liana::haptics

@@ -10,11 +10,11 @@
 
 #include "tests/host/drives/bus/allocation_count.hpp"
 
-namespace liana::haptic {
+namespace liana::haptics {
 namespace {
 
-HandTable calm_hand() {
-  HandTable hand;
+HandParams calm_hand() {
+  HandParams hand;
   hand.tremor_m = 0.0;
   return hand;
 }
@@ -37,7 +37,7 @@ TEST(Omega, MotorsGiveTwelveNewtonsWhateverIsAsked) {
 }
 
 TEST(Omega, ItsReadingIsWithinTheResolutionOfTheDataSheet) {
-  HeldOmega omega({}, HandTable{}, {}, 2);
+  HeldOmega omega({}, HandParams{}, {}, 2);
   double worst_m = 0.0;
   for (int i = 0; i < 5000; ++i) {
     const double t = 1e-3 * i;
@@ -98,7 +98,7 @@ double power(const std::vector<double>& motion_m, double frequency_hz) {
 }
 
 TEST(Hand, TremblesBetweenEightAndTwelveHertzByATenthOfAMillimetre) {
-  HeldOmega omega({}, HandTable{}, {}, 3);
+  HeldOmega omega({}, HandParams{}, {}, 3);
   for (int i = 0; i < 2000; ++i) omega.step({}, at({}));
   std::vector<double> motion_m;
   double square = 0.0, inside = 0.0, all = 0.0;
@@ -118,7 +118,7 @@ TEST(Hand, TremblesBetweenEightAndTwelveHertzByATenthOfAMillimetre) {
 }
 
 TEST(Omega, TheSameSeedGivesTheSameHandAndNothingComesFromTheHeap) {
-  HeldOmega one({}, HandTable{}, {}, 5), two({}, HandTable{}, {}, 5);
+  HeldOmega one({}, HandParams{}, {}, 5), two({}, HandParams{}, {}, 5);
   test::AllocationCount::clear();
   test::AllocationCount::start();
   bool same = true;
@@ -133,4 +133,4 @@ TEST(Omega, TheSameSeedGivesTheSameHandAndNothingComesFromTheHeap) {
 }
 
 }  // namespace
-}  // namespace liana::haptic
+}  // namespace liana::haptics

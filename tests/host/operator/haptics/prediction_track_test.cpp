@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace liana::haptic {
+namespace liana::haptics {
 namespace {
 
 Motion at_x(double x_m) { return {{x_m, 0.0, 0.0}, {2.0 * x_m, 0.0, 0.0}}; }
@@ -39,4 +39,4 @@ TEST(PredictionTrack, KeepsTenSecondsAndIgnoresTimesThatDoNotRise) {
 }
 
 }  // namespace
-}  // namespace liana::haptic
+}  // namespace liana::haptics

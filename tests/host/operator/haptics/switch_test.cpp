@@ -7,18 +7,18 @@
 #include <cstdio>
 #include <random>
 
-#include "host/operator/haptics/hand_loop.hpp"
+#include "host/operator/haptics/haptic_loop.hpp"
 #include "host/operator/haptics/omega.hpp"
 #include "tests/host/operator/haptics/laws.hpp"
 
-namespace liana::haptic {
+namespace liana::haptics {
 namespace {
 
 constexpr double kWallDamping_N_s_m = 10.0;
 // In a millisecond, besides what the damping of a wall is to a hand that comes into it at speed, which is no switch:
 // what the law's rate limit lets through (0.2 N), a wall of 1500 N/m that gets its stiffness in 20 ms under a hand up
 // to 10 mm inside (0.75 N), its damping and that of the air under a hand that accelerates (0.15 N).
-constexpr double kMostStep_N = 1.1;
+constexpr double kMaxStep_N = 1.1;
 
 struct Felt {
   double step_N = 0.0;  // largest change in a millisecond that the tank has no part in
@@ -41,8 +41,8 @@ class SwitchedHand {
   }
 
  private:
-  static HandTable hand() {
-    HandTable table;
+  static HandParams hand() {
+    HandParams table;
     table.stiffness_N_m = 300.0;
     return table;
   }
@@ -92,7 +92,7 @@ class SwitchedHand {
 
   std::mt19937_64 random_;
   HeldOmega omega_;
-  HandLoop loop_{HandLoopTable{}};
+  HapticLoop loop_{HandLoopTable{}};
   HandForce before_{};
   Felt felt_;
   double sensed_m_ = 0.0, tip_m_ = 0.0, wall_m_ = 0.01, next_wall_m_ = 0.01, scale_ = 1.0, anchor_tip_m_ = 0.0,
@@ -106,9 +106,9 @@ class SwitchedHand {
 TEST(HandSwitch, NoForceStepsAtAThousandSwitchesOfLawWallScaleAndButton) {
   const Felt felt = SwitchedHand(11).run(1000);
   std::printf("  measured: at most %.3f N in a millisecond, %.2f N in all\n", felt.step_N, felt.most_N);
-  EXPECT_LE(felt.step_N, kMostStep_N);
+  EXPECT_LE(felt.step_N, kMaxStep_N);
   EXPECT_GT(felt.most_N, 2.0) << "or nothing was felt";
 }
 
 }  // namespace
-}  // namespace liana::haptic
+}  // namespace liana::haptics

@@ -10,7 +10,7 @@
 #include "host/operator/simulated/recorded_vr.hpp"
 #include "tests/message.hpp"
 
-namespace liana::operator_side {
+namespace liana::simulated {
 namespace {
 
 const std::string kRecordings = LIANA_RECORDINGS_DIR;
@@ -144,4 +144,4 @@ TEST(RecordedVr, ReleasesAndGripsAgainWhenTheArmDoesNotFollow) {
 }
 
 }  // namespace
-}  // namespace liana::operator_side
+}  // namespace liana::simulated

@@ -6,14 +6,14 @@
 
 #include "firmware_like/cable/motion/motion.hpp"
 #include "host/api/device/sample.hpp"
-#include "host/control/arbiter/device_steer.hpp"
 #include "host/control/arbiter/speed_zone.hpp"
+#include "host/control/arbiter/teleop_input.hpp"
 
 namespace liana::test {
 
 class LedArm {
  public:
-  LedArm(const cable::RobotTable& table, const cable::ThetaVector& theta_rad, const arbiter::SpeedZone& zone = {})
+  LedArm(const cable::RobotParams& table, const cable::ThetaVector& theta_rad, const arbiter::SpeedZone& zone = {})
       : table_(table), layout_(cable::cable_layout(table)), zone_(zone) {
     cable::reset_motion(table_, theta_rad, motion_);
   }
@@ -45,7 +45,7 @@ class LedArm {
   std::uint32_t limits() const { return limits_; }
 
  private:
-  void ask(const std::optional<arbiter::SteerGoal>& goal) {
+  void ask(const std::optional<arbiter::TeleopGoal>& goal) {
     cable::Setpoint setpoint;
     setpoint.kind = CommandKind::kTip;
     setpoint.tip_in_base = goal ? goal->tip_in_base : motion_.arm.tip_in_base;
@@ -64,10 +64,10 @@ class LedArm {
     return now;
   }
 
-  cable::RobotTable table_;
+  cable::RobotParams table_;
   cable::CableLayout layout_;
   arbiter::SpeedZone zone_;
-  arbiter::DeviceSteer steer_;
+  arbiter::TeleopInput steer_;
   cable::MotionState motion_{};
   std::uint32_t held_mask_ = 0, asked_mask_ = 0;
   std::uint32_t limits_ = 0;

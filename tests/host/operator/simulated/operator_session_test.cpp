@@ -21,31 +21,31 @@ Json state(double time_s, int step, const std::string& device, const std::string
           {"mapping", {{"scale", 4.0}, {"rotation_scale", 2.0}}}};
 }
 
-operator_side::OperatorSession session(operator_side::Temper temper = operator_side::Temper::kGentle) {
-  return operator_side::OperatorSession({LIANA_RECORDINGS_DIR}, panel_slit(), {}, 1, temper);
+simulated::OperatorSession session(simulated::Temper temper = simulated::Temper::kGentle) {
+  return simulated::OperatorSession({LIANA_RECORDINGS_DIR}, panel_slit(), {}, 1, temper);
 }
 
 TEST(OperatorSession, SendsNothingWhileNoDeviceIsItsToMove) {
-  operator_side::OperatorSession operator_session = session();
+  simulated::OperatorSession operator_session = session();
   for (const Json& seen :
        {Json{{"time_s", 0.0}, {"step", nullptr}}, state(0.02, 1, "none", "none"), state(0.04, 2, "vr", "none")}) {
-    const operator_side::OperatorAnswer answer = operator_session.on_state(seen);
+    const simulated::OperatorAnswer answer = operator_session.on_state(seen);
     EXPECT_TRUE(answer.samples.empty() && answer.messages.empty()) << seen;
   }
 }
 
 TEST(OperatorSession, PlaysTheRecordingInAVrStepThenSaysArrivedOnceWithTriggersReleased) {
-  operator_side::OperatorSession operator_session = session();
+  simulated::OperatorSession operator_session = session();
   int says = 0;
   std::size_t samples = 0;
   double trigger = 0.0, highest_trigger = 0.0;
   for (int k = 1; k < 2200; ++k) {
-    const operator_side::OperatorAnswer answer = operator_session.on_state(state(0.02 * k, 2, "vr", "vr"));
-    EXPECT_EQ(answer.kind, device::Kind::kHandles);
+    const simulated::OperatorAnswer answer = operator_session.on_state(state(0.02 * k, 2, "vr", "vr"));
+    EXPECT_EQ(answer.kind, device::Kind::kVrControllers);
     for (const device::Sample& sample : answer.samples) {
       samples += sample.hand == 0 ? 1 : 0;
       trigger = sample.trigger;
-      EXPECT_EQ(sample.deadman, trigger >= operator_side::kGripped);
+      EXPECT_EQ(sample.deadman, trigger >= simulated::kGripped);
       highest_trigger = std::max(highest_trigger, trigger);
     }
     for (const Json& message : answer.messages) {
@@ -61,14 +61,14 @@ TEST(OperatorSession, PlaysTheRecordingInAVrStepThenSaysArrivedOnceWithTriggersR
 }
 
 TEST(OperatorSession, LivelyHandsLoseGripsOnTheirRecordedWayHoldTheOtherDeviceTooAndArriveAllTheSame) {
-  operator_side::OperatorSession operator_session = session(operator_side::Temper::kLively);
+  simulated::OperatorSession operator_session = session(simulated::Temper::kLively);
   int says = 0, grips = 0;
   bool held = false;
   std::int64_t before_us = 0, aside_before_us = 0;
   for (int k = 1; k < 3500; ++k) {
-    const operator_side::OperatorAnswer answer = operator_session.on_state(state(0.02 * k, 2, "vr", "vr"));
+    const simulated::OperatorAnswer answer = operator_session.on_state(state(0.02 * k, 2, "vr", "vr"));
     for (const device::Sample& sample : answer.samples) {
-      EXPECT_EQ(sample.deadman, sample.trigger >= operator_side::kGripped);
+      EXPECT_EQ(sample.deadman, sample.trigger >= simulated::kGripped);
       if (sample.hand != 0) continue;
       grips += sample.deadman && !held ? 1 : 0;
       held = sample.deadman;
@@ -88,15 +88,15 @@ TEST(OperatorSession, LivelyHandsLoseGripsOnTheirRecordedWayHoldTheOtherDeviceTo
 }
 
 TEST(OperatorSession, GentleHandsHoldOneDevice) {
-  operator_side::OperatorSession operator_session = session();
+  simulated::OperatorSession operator_session = session();
   for (int k = 1; k < 3500; ++k) ASSERT_TRUE(operator_session.on_state(state(0.02 * k, 2, "vr", "vr")).aside.empty());
 }
 
 // req:A24
 TEST(OperatorSession, DeliversTwentyHandSamplesAnInterval) {
-  operator_side::OperatorSession operator_session = session();
+  simulated::OperatorSession operator_session = session();
   operator_session.on_state(state(1.00, 4, "hand", "hand"));
-  const operator_side::OperatorAnswer answer = operator_session.on_state(state(1.02, 4, "hand", "hand"));
+  const simulated::OperatorAnswer answer = operator_session.on_state(state(1.02, 4, "hand", "hand"));
   EXPECT_EQ(answer.kind, device::Kind::kHandController);
   ASSERT_EQ(answer.samples.size(), 20u);
   EXPECT_EQ(answer.samples.front().t_us, 1001000);
@@ -104,7 +104,7 @@ TEST(OperatorSession, DeliversTwentyHandSamplesAnInterval) {
 }
 
 TEST(OperatorSession, GripsOnlyAfterPicturesHaveArrived) {
-  operator_side::OperatorSession operator_session = session();
+  simulated::OperatorSession operator_session = session();
   bool gripped_blind = false, gripped = false;
   for (int k = 1; k < 400; ++k) {
     if (k > 200 && k % 2 == 0) {
@@ -119,7 +119,7 @@ TEST(OperatorSession, GripsOnlyAfterPicturesHaveArrived) {
 }
 
 TEST(OperatorSession, IgnoresThePoseInTheState) {  // it must see the arm through the camera only
-  operator_side::OperatorSession with = session(), without = session();
+  simulated::OperatorSession with = session(), without = session();
   for (int k = 1; k < 200; ++k) {
     const Json camera{
         {"op", "camera"}, {"capture_time_s", 0.0}, {"slit", {1.6, -0.3, -0.5, 1, 0, 0, 0}}, {"rod", nullptr}};
@@ -137,14 +137,14 @@ TEST(OperatorSession, IgnoresThePoseInTheState) {  // it must see the arm throug
 }
 
 TEST(OperatorSession, RefusesMalformedPictures) {
-  operator_side::OperatorSession operator_session = session();
+  simulated::OperatorSession operator_session = session();
   EXPECT_THROW(operator_session.on_camera({{"slit", {1, 2, 3}}}), std::runtime_error);
   EXPECT_THROW(operator_session.on_camera({{"slit", {1, 2, 3, 1, 1, 0, 0}}}), std::runtime_error);
   EXPECT_NO_THROW(operator_session.on_camera({{"slit", nullptr}, {"rod", nullptr}}));
 }
 
 TEST(OperatorSession, AMissingRecordingIsNamed) {
-  operator_side::OperatorSession operator_session({"/nonexistent"}, panel_slit(), {}, 1);
+  simulated::OperatorSession operator_session({"/nonexistent"}, panel_slit(), {}, 1);
   try {
     operator_session.on_state(state(0.02, 2, "vr", "vr"));
     FAIL() << "no error";

@@ -26,9 +26,7 @@ inline Pose press_rod() {
   return {{3.392167, -0.767048, 0.291155}, normalize({0.96559342, -0.05861635, 0.25277813, -0.01722436})};
 }
 
-inline operator_side::SlitDrawing panel_slit() {
-  return operator_side::slit_drawing(in_slit_plane(1.75, 0.0), press_rod());
-}
+inline simulated::SlitModel panel_slit() { return simulated::slit_drawing(in_slit_plane(1.75, 0.0), press_rod()); }
 
 // The whole scene: the slit's two plates, the rod, and a sphere in the way (that of the scene where not said).
 inline config::SceneConfig panel_scene(const config::SceneSphere& sphere = {"obstacle", {-0.15, 0.28, 1.10}, 0.25}) {

@@ -26,7 +26,7 @@ struct SoftTipConfig {
 
 class SoftTip {
  public:
-  SoftTip(const operator_side::SlitDrawing& drawing, const Pose& tip_in_base, const operator_side::HandMapping& mapping,
+  SoftTip(const simulated::SlitModel& drawing, const Pose& tip_in_base, const simulated::HandMapping& mapping,
           const SoftTipConfig& config)
       : drawing_(drawing),
         sent_(tip_in_base),
@@ -45,29 +45,29 @@ class SoftTip {
     if (!hand.deadman && engaged_) goal_ = sent_;
     engaged_ = hand.deadman;
     if (engaged_) {
-      const operator_side::PoseStep step = operator_side::step_between(hand_anchor_, hand.pose);
-      goal_ = operator_side::moved(
-          tip_anchor_, {scale(step.shift_m, mapping_.scale), scale(step.turn_rad, mapping_.rotation_scale)});
+      const simulated::PoseStep step = simulated::step_between(hand_anchor_, hand.pose);
+      goal_ = simulated::moved(tip_anchor_,
+                               {scale(step.shift_m, mapping_.scale), scale(step.turn_rad, mapping_.rotation_scale)});
     }
-    const operator_side::PoseStep behind = operator_side::step_between(sent_, goal_);
-    sent_ = operator_side::moved(
+    const simulated::PoseStep behind = simulated::step_between(sent_, goal_);
+    sent_ = simulated::moved(
         sent_, {scale(behind.shift_m, dt_s / config_.lag_s), scale(behind.turn_rad, dt_s / config_.lag_s)});
     swing(dt_s);
   }
 
   // Takes a picture now and hands out one that is old enough.
-  std::optional<operator_side::TipSighting> picture(double now_s) {
+  std::optional<simulated::TipObservation> picture(double now_s) {
     const Pose tip = true_tip();
     const Pose rod = compose(drawing_.slit_in_base, drawing_.rod_in_slit);
     pictures_.push_back(
         {now_s, {noisy(compose(inverse(tip), drawing_.slit_in_base)), noisy(compose(inverse(tip), rod))}});
     if (pictures_.front().taken_s + config_.camera_latency_s > now_s) return std::nullopt;
-    const operator_side::TipSighting sighting = pictures_.front().sighting;
+    const simulated::TipObservation sighting = pictures_.front().sighting;
     pictures_.pop_front();
     return sighting;
   }
 
-  Pose true_tip() const { return operator_side::moved(sent_, {add(config_.offset_m, swing_m_), config_.offset_rad}); }
+  Pose true_tip() const { return simulated::moved(sent_, {add(config_.offset_m, swing_m_), config_.offset_rad}); }
   Pose true_tip_in_slit() const { return compose(inverse(drawing_.slit_in_base), true_tip()); }
   bool engaged() const { return engaged_; }
   void set_offset(const Vec3& offset_m) { config_.offset_m = offset_m; }
@@ -87,24 +87,24 @@ class SoftTip {
 
   struct Picture {
     double taken_s;
-    operator_side::TipSighting sighting;
+    simulated::TipObservation sighting;
   };
 
   Pose noisy(const Pose& pose) {
     const auto axis = [&](double sigma) {
       return Vec3{noise_.normal(sigma), noise_.normal(sigma), noise_.normal(sigma)};
     };
-    return operator_side::moved(pose, {axis(config_.noise_m), axis(config_.noise_rad)});
+    return simulated::moved(pose, {axis(config_.noise_m), axis(config_.noise_rad)});
   }
 
-  operator_side::SlitDrawing drawing_;
+  simulated::SlitModel drawing_;
   Pose sent_;
   Pose goal_;
   Pose hand_anchor_{};
   Pose tip_anchor_{};
-  operator_side::HandMapping mapping_;
+  simulated::HandMapping mapping_;
   SoftTipConfig config_;
-  operator_side::RandomStream noise_;
+  simulated::RandomStream noise_;
   bool engaged_ = false;
   Vec3 before_m_{};         // sent position one step ago
   Vec3 swing_m_{};          // tip less where it is sent

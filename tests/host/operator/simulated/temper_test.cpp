@@ -11,10 +11,10 @@
 namespace liana::test {
 namespace {
 
-using operator_side::lively_at_handles;
-using operator_side::LivelyHands;
-using operator_side::LivelyTable;
-using operator_side::Range;
+using simulated::lively_at_handles;
+using simulated::LivelyHands;
+using simulated::LivelyTable;
+using simulated::Range;
 
 constexpr double kTemperStep_s = 0.002;
 constexpr std::uint64_t kSeeds = 6;
@@ -38,10 +38,10 @@ LivelySamples sampled(const LivelyTable& table, std::uint64_t seed, double secon
   LivelySamples out;
   for (std::int64_t k = 0; static_cast<double>(k) * kTemperStep_s < seconds; ++k) {
     hands.advance(static_cast<double>(k) * kTemperStep_s, careful);
-    const auto right = operator_side::step_between(kHere, hands.right(kHere));
+    const auto right = simulated::step_between(kHere, hands.right(kHere));
     out.right_m.push_back(right.shift_m);
     out.right_rad.push_back(right.turn_rad);
-    out.left_m.push_back(operator_side::step_between(kHere, hands.left(kHere)).shift_m);
+    out.left_m.push_back(simulated::step_between(kHere, hands.left(kHere)).shift_m);
     out.grip.push_back(hands.has_grip());
     out.taken_up.push_back(hands.is_taken_up());
   }
@@ -56,7 +56,7 @@ Vec3 velocity(const std::vector<Vec3>& way, std::size_t i) {
   return scale(subtract(way[i + 1], way[i]), 1.0 / kTemperStep_s);
 }
 
-MostOfWay most_of(const std::vector<Vec3>& way) {
+MostOfWay max_of(const std::vector<Vec3>& way) {
   MostOfWay most;
   for (std::size_t i = 0; i + 2 < way.size(); ++i) {
     most.way = std::max(most.way, norm(way[i]));
@@ -85,10 +85,9 @@ double mean_square(const std::vector<Vec3>& way) {
 }
 
 TEST(Temper, IsCalledGentleOrLivelyAndNothingElse) {
-  EXPECT_EQ(operator_side::temper_called("gentle"), operator_side::Temper::kGentle);
-  EXPECT_EQ(operator_side::temper_called("lively"), operator_side::Temper::kLively);
-  for (const char* word : {"", "Lively", "wild"})
-    EXPECT_THROW(operator_side::temper_called(word), std::invalid_argument);
+  EXPECT_EQ(simulated::temper_called("gentle"), simulated::Temper::kGentle);
+  EXPECT_EQ(simulated::temper_called("lively"), simulated::Temper::kLively);
+  for (const char* word : {"", "Lively", "wild"}) EXPECT_THROW(simulated::temper_called(word), std::invalid_argument);
 }
 
 TEST(Temper, GesturesStayWithinReachSpeedAndAccelerationAndComeNearThem) {
@@ -97,10 +96,10 @@ TEST(Temper, GesturesStayWithinReachSpeedAndAccelerationAndComeNearThem) {
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
       const LivelySamples hands = sampled(table, seed, 120.0);
       for (const auto* way : {&hands.right_m, &hands.left_m}) {
-        const MostOfWay most = most_of(*way);
+        const MostOfWay most = max_of(*way);
         all = {std::max(all.way, most.way), std::max(all.speed, most.speed), std::max(all.accel, most.accel)};
       }
-      const MostOfWay turn = most_of(hands.right_rad);
+      const MostOfWay turn = max_of(hands.right_rad);
       EXPECT_LE(turn.way, table.turn_rad.most + 1e-9);
       EXPECT_LE(turn.speed, table.turn_rate_rad_s + 1e-6);
       EXPECT_LE(turn.accel, table.turn_accel_rad_s2 + 1e-3);
@@ -164,7 +163,7 @@ TEST(Temper, AHandDriftsByMillimetresInMinutesAndNotWhereItIsCareful) {
   table.reach_m = table.turn_rad = {0.0, 0.0};
   table.drift_m = LivelyTable{}.drift_m;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const MostOfWay most = most_of(sampled(table, seed, 300.0).right_m);
+    const MostOfWay most = max_of(sampled(table, seed, 300.0).right_m);
     EXPECT_GT(most.way, table.drift_m.least) << seed;
     EXPECT_LT(most.way, 5.0 * table.drift_m.most) << seed;
     EXPECT_LT(most.speed, 0.002) << seed;
@@ -194,7 +193,7 @@ TEST(Temper, TwoHandsGoAgainstEachOtherAndAHandAlone) {
 
 TEST(Temper, NoGestureBeginsAndNoGripIsLostWhereAPersonIsCareful) {
   const LivelySamples hands = sampled(gestures_of(LivelyTable{}), 1, 120.0, true);
-  EXPECT_EQ(most_of(hands.right_m).way, 0.0);
+  EXPECT_EQ(max_of(hands.right_m).way, 0.0);
   for (const bool grip : hands.grip) EXPECT_TRUE(grip);
 }
 
@@ -225,7 +224,7 @@ TEST(Temper, OneSeedIsOneHandHoweverOftenItIsLookedAtAndAnotherSeedIsAnother) {
   LivelyHands seldom(LivelyTable{}, 7, 81);
   for (std::size_t i = 0; i < once.right_m.size(); i += 11) {
     seldom.advance(static_cast<double>(i) * kTemperStep_s, false);
-    const Vec3 seen = operator_side::step_between(kHere, seldom.right(kHere)).shift_m;
+    const Vec3 seen = simulated::step_between(kHere, seldom.right(kHere)).shift_m;
     EXPECT_NEAR(norm(subtract(seen, once.right_m[i])), 0.0, 1e-9) << i;
     EXPECT_EQ(seldom.has_grip(), once.grip[i]) << i;
   }

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-namespace liana::hand_side {
+namespace liana::station {
 namespace {
 
 TEST(DelayLine, DeliversAfterItsDelayAndNotBefore) {
@@ -48,4 +48,4 @@ TEST(DelayLine, MarksWhatALaterOneHasOvertakenAndLosesNothing) {
 }
 
 }  // namespace
-}  // namespace liana::hand_side
+}  // namespace liana::station

@@ -21,8 +21,8 @@ struct HumanRigTable {
 
 class HumanRig {
  public:
-  HumanRig(const HumanRigTable& table, const cable::RobotTable& robot, const cable::ThetaVector& theta_rad,
-           const config::SceneConfig& scene, hand_side::Steering& person)
+  HumanRig(const HumanRigTable& table, const cable::RobotParams& robot, const cable::ThetaVector& theta_rad,
+           const config::SceneConfig& scene, station::Steering& person)
       : table_(table),
         robot_(robot),
         scene_(scene),
@@ -49,7 +49,7 @@ class HumanRig {
     for (int i = 0; i < 400; ++i) interval();
   }
 
-  Pose true_tip() const { return operator_side::moved(arm_.tip(), {table_.beside_m, table_.turned_rad}); }
+  Pose true_tip() const { return simulated::moved(arm_.tip(), {table_.beside_m, table_.turned_rad}); }
   Pose true_tip_in_slit() const { return compose(inverse(slit()), true_tip()); }
   double now_s() const { return now_s_; }
   const LedArm& arm() const { return arm_; }
@@ -61,7 +61,7 @@ class HumanRig {
   Pose rod() const { return {scene_.rod->pose.position_m, scene_.rod->pose.quaternion_wxyz}; }
 
   Pose measured_tip() const {
-    return operator_side::moved(
+    return simulated::moved(
         arm_.tip(), {scale(table_.beside_m, table_.measured_share), scale(table_.turned_rad, table_.measured_share)});
   }
   static Json numbers(const Pose& pose) {
@@ -74,9 +74,9 @@ class HumanRig {
     const auto axis = [&](double sigma) {
       return Vec3{noise_.normal(sigma), noise_.normal(sigma), noise_.normal(sigma)};
     };
-    return numbers(operator_side::moved(compose(inverse(true_tip()), what), {axis(0.0003), axis(0.00087)}));
+    return numbers(simulated::moved(compose(inverse(true_tip()), what), {axis(0.0003), axis(0.00087)}));
   }
-  void take_picture() {
+  void take_observation() {
     if (++intervals_ % 2 != 0) return;
     pictures_.push_back({now_s_ + 0.1, {{"op", "camera"}, {"slit", seen(slit())}, {"rod", seen(rod())}}});
   }
@@ -109,12 +109,12 @@ class HumanRig {
   }
 
   void interval() {
-    take_picture();
-    hand_side::News news{state(), {}, told()};
+    take_observation();
+    station::News news{state(), {}, told()};
     for (; !pictures_.empty() && pictures_.front().due_s <= now_s_; pictures_.pop_front())
       news.pictures.push_back(pictures_.front().picture);
     std::vector<device::Sample> samples;
-    for (const operator_side::OperatorAnswer& answer : person_.on_news(news)) {
+    for (const simulated::OperatorAnswer& answer : person_.on_news(news)) {
       samples.insert(samples.end(), answer.samples.begin(), answer.samples.end());
       for (const Json& message : answer.messages) said_ = said_ || message.value("step", -1) == index_;
     }
@@ -131,11 +131,11 @@ class HumanRig {
   };
 
   HumanRigTable table_;
-  cable::RobotTable robot_;
+  cable::RobotParams robot_;
   config::SceneConfig scene_;
   LedArm arm_;
-  hand_side::Steering& person_;
-  operator_side::RandomStream noise_;
+  station::Steering& person_;
+  simulated::RandomStream noise_;
   Json step_, mapping_;
   std::string device_ = "none";
   std::deque<Picture> pictures_;

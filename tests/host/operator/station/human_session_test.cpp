@@ -13,9 +13,9 @@ namespace liana::test {
 namespace {
 
 namespace zhu2022 = cable::zhu2022;
-using hand_side::HumanSession;
-using hand_side::HumanSteering;
-using hand_side::HumanTable;
+using station::HumanSession;
+using station::HumanSteering;
+using station::HumanTable;
 
 config::RobotConfig robot() {
   config::RobotConfig config;
@@ -35,7 +35,7 @@ config::SceneConfig scene() {
   return scene;
 }
 
-HumanSteering human(const HumanTable& table, const haptic::Delays& delays = {}) {
+HumanSteering human(const HumanTable& table, const haptics::Delays& delays = {}) {
   return HumanSteering(HumanSession(table, robot(), scene()), delays, table.seed);
 }
 
@@ -44,10 +44,10 @@ struct Crossing {
   bool edge = false, slit = false, rod = false;
   double edge_s = 0.0, slit_s = 0.0, rod_s = 0.0;
   double error_m = 0.0, error_rad = 0.0, widest_m = 0.0;
-  hand_side::HandFigures hand{};
+  station::HandMotionParams hand{};
 };
 
-Crossing cross(HumanTable table, const haptic::Delays& delays = {}) {
+Crossing cross(HumanTable table, const haptics::Delays& delays = {}) {
   table.there_and_back_s = delays.forward_s + delays.back_s;
   HumanSteering person = human(table, delays);
   HumanRigTable rig_table;
@@ -60,7 +60,7 @@ Crossing cross(HumanTable table, const haptic::Delays& delays = {}) {
     duration_s = rig.now_s() - from_s;
   };
   clocked(out.edge, out.edge_s, [&] {
-    return rig.step("vr", "edge", {"vr", device::Kind::kHandles, {4.0, 2.0}, 3, 0.1, false}, 120.0);
+    return rig.step("vr", "edge", {"vr", device::Kind::kVrControllers, {4.0, 2.0}, 3, 0.1, false}, 120.0);
   });
   rig.hold_at_zero(1u << 8);
   const arbiter::DeviceUse entry{"hand", device::Kind::kHandController, {4.0, 1.0}, 0, 0.1, false};
@@ -68,7 +68,7 @@ Crossing cross(HumanTable table, const haptic::Delays& delays = {}) {
   rig.hold_at_zero(1u << 6 | 1u << 8);
   const arbiter::DeviceUse fine{"hand", device::Kind::kHandController, {2.0, 1.0}, 0, 0.03, false};
   clocked(out.rod, out.rod_s, [&] { return out.slit && rig.step("hand", "rod", fine, 90.0); });
-  const auto off = operator_side::step_between(press_rod(), rig.true_tip());
+  const auto off = simulated::step_between(press_rod(), rig.true_tip());
   out.error_m = norm(off.shift_m);
   out.error_rad = norm(off.turn_rad);
   out.widest_m = rig.widest_in_slit_m();
@@ -83,7 +83,7 @@ void report(const char* name, const Crossing& c) {
       "%s: %d %d %d in %.0f + %.0f + %.0f s, error %.2f mm %.3f deg, off plane %.1f mm, hand %.2f N, %.4f J, "
       "prediction %.2f mm median, %.1f mm worst\n",
       name, c.edge, c.slit, c.rod, c.edge_s, c.slit_s, c.rod_s, 1e3 * c.error_m, c.error_rad / kDegree,
-      1e3 * c.widest_m, c.hand.peak_force_N, c.hand.least_energy_J,
+      1e3 * c.widest_m, c.hand.peak_force_N, c.hand.min_energy_J,
       errors.empty() ? 0.0 : 1e3 * errors[errors.size() / 2], errors.empty() ? 0.0 : 1e3 * errors.back());
 }
 
@@ -96,7 +96,7 @@ TEST(HumanSession, CrossesTheSlitWithForceAndWithout) {
     EXPECT_TRUE(c.rod);
     EXPECT_LT(c.error_m, 0.0015);
     EXPECT_LT(c.widest_m, 0.010);
-    EXPECT_GT(c.hand.least_energy_J, -0.1);
+    EXPECT_GT(c.hand.min_energy_J, -0.1);
   }
 }
 
@@ -106,13 +106,13 @@ TEST(HumanSession, CrossesTheSlitBehindASecondOfDelay) {
   EXPECT_TRUE(c.rod);
   EXPECT_LT(c.error_m, 0.0015);
   EXPECT_LT(c.widest_m, 0.012);
-  EXPECT_GT(c.hand.least_energy_J, -0.1);
+  EXPECT_GT(c.hand.min_energy_J, -0.1);
 }
 
 TEST(HumanSession, ALivelyOneCrossesTheSlitOfAnArmThatObeysAlsoBehindASecondOfDelay) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const double delay_s = seed % 2 == 0 ? 0.5 : 0.0;
-    const Crossing c = cross({.seed = seed, .temper = operator_side::Temper::kLively}, {delay_s, delay_s});
+    const Crossing c = cross({.seed = seed, .temper = simulated::Temper::kLively}, {delay_s, delay_s});
     report(delay_s > 0.0 ? "lively, 0.5 + 0.5 s" : "lively", c);
     EXPECT_TRUE(c.edge && c.slit && c.rod) << seed;
     EXPECT_LT(c.error_m, 0.003) << seed;
@@ -120,7 +120,7 @@ TEST(HumanSession, ALivelyOneCrossesTheSlitOfAnArmThatObeysAlsoBehindASecondOfDe
 }
 
 TEST(HumanSession, ALivelyOneHoldsBothDevicesAtTimes) {
-  HumanSession session({.temper = operator_side::Temper::kLively}, robot(), scene());
+  HumanSession session({.temper = simulated::Temper::kLively}, robot(), scene());
   for (const char* device : {"vr", "hand"}) {
     const Json step{{"index", 1}, {"name", device}, {"device", device}, {"task", "slit"}, {"entry", 1}};
     const std::vector<double> origin{0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0}, angles(10, 0.0);
@@ -143,18 +143,18 @@ TEST(HumanSession, ALivelyOneHoldsBothDevicesAtTimes) {
 }
 
 TEST(HumanSession, RepeatsByTheSameSeedToTheLastSample) {
-  const auto first_minute = [](std::uint64_t seed, operator_side::Temper temper = operator_side::Temper::kGentle) {
+  const auto first_minute = [](std::uint64_t seed, simulated::Temper temper = simulated::Temper::kGentle) {
     HumanTable table;
     table.seed = seed;
     table.temper = temper;
     HumanSteering person = human(table, {0.1, 0.1});
     HumanRig rig({}, zhu2022::table(), zhu2022::radians(zhu2022::kPrepare_deg), scene(), person);
-    rig.step("vr", "edge", {"vr", device::Kind::kHandles, {4.0, 2.0}, 3, 0.1, false}, 20.0);
+    rig.step("vr", "edge", {"vr", device::Kind::kVrControllers, {4.0, 2.0}, 3, 0.1, false}, 20.0);
     return rig.arm().theta_rad();
   };
   EXPECT_EQ(first_minute(3), first_minute(3));
   EXPECT_NE(first_minute(3), first_minute(4));
-  const auto lively = operator_side::Temper::kLively;
+  const auto lively = simulated::Temper::kLively;
   EXPECT_EQ(first_minute(3, lively), first_minute(3, lively));
   EXPECT_NE(first_minute(3, lively), first_minute(3));
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-namespace liana::hand_side {
+namespace liana::station {
 namespace {
 
 constexpr double kInterval_s = 0.02;
@@ -47,4 +47,4 @@ TEST(LagMeter, TellsNothingWhereNobodyFollows) {
 }
 
 }  // namespace
-}  // namespace liana::hand_side
+}  // namespace liana::station

@@ -9,7 +9,7 @@
 
 #include "host/api/device/packets.hpp"
 
-namespace liana::hand_side {
+namespace liana::station {
 namespace {
 
 struct Pair {
@@ -25,7 +25,7 @@ Pair pair() {
 // A device, the relay, and what stands for lianad.
 class Line {
  public:
-  explicit Line(const haptic::LinkTable& forward, const haptic::LinkTable& back = {})
+  explicit Line(const haptics::LinkTable& forward, const haptics::LinkTable& back = {})
       : relay_(std::move(device_.theirs), std::move(arm_.theirs), forward, back, 1) {}
 
   void hello() { send(device_.ours, device::make<liana_hello>(LIANA_HELLO)); }
@@ -126,4 +126,4 @@ TEST(Relay, WhatIsNoPacketGoesOnForTheOtherEndToRefuse) {
 }
 
 }  // namespace
-}  // namespace liana::hand_side
+}  // namespace liana::station

@@ -29,12 +29,12 @@ std::vector<device::Sample> interval_of(int k, const Vec3& speed_m_s) {
 }
 
 TEST(TipPrediction, IsTheArmsOwnWayWhereNoJointSlowsItDown) {
-  const cable::RobotTable robot = zhu2022::table();
+  const cable::RobotParams robot = zhu2022::table();
   const arbiter::DeviceUse use{"hand", device::Kind::kHandController, {2.0, 1.0}, 0, 0.1, false};
   for (const Vec3& speed_m_s : {Vec3{0.01, 0.0, 0.0}, Vec3{0.0, 0.01, 0.01}, Vec3{-0.005, 0.0, 0.008}}) {
     LedArm arm(robot, zhu2022::radians(zhu2022::kPanelEdge_deg));
     arm.use(use);
-    hand_side::TipPrediction prediction(robot, {});
+    station::TipPrediction prediction(robot, {});
     prediction.begin(use, arm.tip());
     double worst_m = 0.0, moved_m = 0.0;
     const Pose start = arm.tip();
@@ -53,7 +53,7 @@ TEST(TipPrediction, IsTheArmsOwnWayWhereNoJointSlowsItDown) {
 }
 
 TEST(TipPrediction, StandsWhereTheArmWasTold) {
-  hand_side::TipPrediction prediction(zhu2022::table(), {});
+  station::TipPrediction prediction(zhu2022::table(), {});
   prediction.begin({}, {{1.0, 2.0, 3.0}, {1.0, 0.0, 0.0, 0.0}});
   prediction.stand_at({{1.1, 2.0, 3.0}, {1.0, 0.0, 0.0, 0.0}});
   for (int k = 0; k < 10; ++k) prediction.finish_interval();

@@ -12,7 +12,7 @@
 #include <string>
 #include "tests/message.hpp"
 
-namespace liana::teleop {
+namespace liana::terminal {
 namespace {
 
 constexpr std::uint8_t kShoulder = 5, kStop = 1, kY = 3;
@@ -116,4 +116,4 @@ TEST(Gamepad, AFileThatIsNoneIsRefusedWithWhatToGive) {
   }
 }
 
-}  // namespace liana::teleop
+}  // namespace liana::terminal

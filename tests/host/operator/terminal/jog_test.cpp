@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace liana::teleop {
+namespace liana::terminal {
 namespace {
 
 constexpr double kStep_s = 1.0 / 60.0;
@@ -59,4 +59,4 @@ TEST(HeldKeys, APressCountsForAWhileAndIsLengthenedByTheNext) {
 }
 
 }  // namespace
-}  // namespace liana::teleop
+}  // namespace liana::terminal

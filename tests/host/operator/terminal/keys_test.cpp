@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace liana::teleop {
+namespace liana::terminal {
 namespace {
 
 TEST(Keys, LettersCountInBothCasesAndOthersMeanNothing) {
@@ -44,4 +44,4 @@ TEST(Keys, EscapeIsAStopAloneAndBeforeAnythingThatIsNotKnown) {
 }
 
 }  // namespace
-}  // namespace liana::teleop
+}  // namespace liana::terminal

@@ -6,7 +6,7 @@
 #include <string>
 #include "tests/message.hpp"
 
-namespace liana::teleop {
+namespace liana::terminal {
 namespace {
 
 Json welcome() {
@@ -153,4 +153,4 @@ TEST(TeleopSession, SpeedStaysWithinTheRobotsLimits) {
 }
 
 }  // namespace
-}  // namespace liana::teleop
+}  // namespace liana::terminal

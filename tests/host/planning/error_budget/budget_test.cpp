@@ -8,7 +8,7 @@
 #include "host/planning/error_budget/monte_carlo.hpp"
 #include "tests/message.hpp"
 
-namespace liana::budget {
+namespace liana::error_budget {
 namespace {
 
 constexpr double kMillimetre = 1e-3;
@@ -133,4 +133,4 @@ INSTANTIATE_TEST_SUITE_P(
                     Refused{"kind", R"("robot")", {"kind"}}));
 
 }  // namespace
-}  // namespace liana::budget
+}  // namespace liana::error_budget

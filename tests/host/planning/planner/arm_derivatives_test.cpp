@@ -9,7 +9,7 @@
 #include "firmware_like/cable/arm/kinematics.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
@@ -28,12 +28,12 @@ ArmPoint random_point(zhu2022::Random& random) {
 }
 
 // Every theta within 15 deg, or the straight arm, where the closed form must not be singular.
-ThetaVector pose_of_case(zhu2022::Random& random, const RobotTable& table, int i) {
+ThetaVector pose_of_case(zhu2022::Random& random, const RobotParams& table, int i) {
   return i == 0 ? ThetaVector{} : random.theta(table, 15.0);
 }
 
 TEST(ArmDerivatives, PlaceLinksAndTipWhereTheCoreDoes) {
-  for (const RobotTable& table : {zhu2022::table(), zhu2022::uneven_table()}) {
+  for (const RobotParams& table : {zhu2022::table(), zhu2022::uneven_table()}) {
     zhu2022::Random random(1);
     for (int i = 0; i < 100; ++i) {
       const ThetaVector theta = pose_of_case(random, table, i);
@@ -51,7 +51,7 @@ TEST(ArmDerivatives, PlaceLinksAndTipWhereTheCoreDoes) {
 }
 
 TEST(ArmDerivatives, OfPointsAreTheCentralDifferences) {
-  for (const RobotTable& table : {zhu2022::table(), zhu2022::uneven_table()}) {
+  for (const RobotParams& table : {zhu2022::table(), zhu2022::uneven_table()}) {
     zhu2022::Random random(2);
     const Index thetas = Index(table.theta_count());
     for (int i = 0; i < 40; ++i) {
@@ -77,7 +77,7 @@ TEST(ArmDerivatives, OfPointsAreTheCentralDifferences) {
 }
 
 TEST(ArmDerivatives, OfTheTipAttitudeAreTheCentralDifferences) {
-  for (const RobotTable& table : {zhu2022::table(), zhu2022::uneven_table()}) {
+  for (const RobotParams& table : {zhu2022::table(), zhu2022::uneven_table()}) {
     zhu2022::Random random(3);
     const Index thetas = Index(table.theta_count());
     for (int i = 0; i < 40; ++i) {
@@ -104,7 +104,7 @@ TEST(ArmDerivatives, OfTheTipAttitudeAreTheCentralDifferences) {
 }
 
 TEST(CableDerivatives, AreTheCoresLengthsAndTheCentralDifferences) {
-  for (const RobotTable& table : {zhu2022::table(), zhu2022::uneven_table()}) {
+  for (const RobotParams& table : {zhu2022::table(), zhu2022::uneven_table()}) {
     zhu2022::Random random(4);
     for (int i = 0; i < 40; ++i) {
       const ThetaVector theta = pose_of_case(random, table, i);
@@ -128,4 +128,4 @@ TEST(CableDerivatives, AreTheCoresLengthsAndTheCentralDifferences) {
 }
 
 }  // namespace
-}  // namespace liana::plan
+}  // namespace liana::planner

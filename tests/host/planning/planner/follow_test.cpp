@@ -11,7 +11,7 @@
 #include "tests/host/planning/planner/requests.hpp"
 #include "tests/message.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
@@ -89,7 +89,7 @@ TEST(Follow, ACurveThatTurnsBackIsFollowedToItsTurningPoint) {
 }
 
 // Greatest distance of a link end from where it was at the start.
-double largest_motion_m(const RobotTable& table, const Path& path) {
+double largest_motion_m(const RobotParams& table, const Path& path) {
   const auto start = plain_axis(table, path.front());
   double most_m = 0.0;
   for (const ThetaVector& theta : path) {
@@ -114,7 +114,7 @@ TEST(Follow, ASwingOfTheArmBeforeTheCurveShowsInTheFigures) {
   const PlanRequest request = request_straight_ahead(0.001);
   ThetaVector swung = request.from_rad;
   swung[0] += 0.02;  // at eight joints
-  const FollowFigures figures =
+  const FollowStatistics figures =
       follow_figures(request.robot.table, {request.from_rad, swung}, Curve(request.follow->points_m));
   EXPECT_GT(figures.body_off_m, 0.1);
   EXPECT_GT(figures.worst_link, 0);
@@ -130,7 +130,7 @@ TEST(Follow, SweepsFarLessOfTheRoomThanAPlanThatOnlyHasToArrive) {
   request.max_step_rad = default_max_step_rad(request.robot.table, request.waypoints);
   const PlanResult arrived = plan(request, {});
   ASSERT_EQ(arrived.outcome, PlanOutcome::solved) << arrived.reason;
-  const FollowFigures figures = follow_figures(request.robot.table, arrived.waypoints_rad, curve);
+  const FollowStatistics figures = follow_figures(request.robot.table, arrived.waypoints_rad, curve);
   EXPECT_LT(followed.follow->mean_body_off_m, 0.8 * figures.mean_body_off_m);
 }
 
@@ -208,4 +208,4 @@ TEST(Follow, RefusesAGoalBesideACurve) {
 }
 
 }  // namespace
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -5,7 +5,7 @@
 
 #include "tests/host/planning/planner/requests.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 // The tip of `to` among four large spheres that stand 6 mm beside that pose, and in the way of all others that pushing
@@ -41,4 +41,4 @@ TEST(GoalPoses, SayWhichPoseComesNearestWhenNoneIsFree) {
 }
 
 }  // namespace
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -13,7 +13,7 @@
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/host/planning/planner/requests.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
@@ -27,12 +27,12 @@ config::SceneConfig ball_and_box() {
   return scene;
 }
 
-PlanCheck check(const RobotTable& table, const config::SceneConfig& scene, const std::vector<ThetaVector>& path) {
+PlanCheck check(const RobotParams& table, const config::SceneConfig& scene, const std::vector<ThetaVector>& path) {
   return check_plan(robot_of(table), scene, path, plain_tip(table, path.back()));
 }
 
 TEST(PlanCheck, KnowsTheSameTipAsTheCore) {
-  for (const RobotTable& table : {zhu2022::table(), zhu2022::uneven_table()}) {
+  for (const RobotParams& table : {zhu2022::table(), zhu2022::uneven_table()}) {
     zhu2022::Random random(1);
     for (int i = 0; i < 100; ++i) {
       const ThetaVector theta = random.theta(table, 19.0);
@@ -48,7 +48,7 @@ TEST(PlanCheck, KnowsTheSameTipAsTheCore) {
 
 // libccd, which the check asks, against the search of host/model/clearance.
 TEST(PlanCheck, FindsTheClearanceFromConvexBodiesThatThePlannerFinds) {
-  const RobotTable table = zhu2022::table();
+  const RobotParams table = zhu2022::table();
   config::SceneConfig scene;
   scene.convex = {config::hull_of("wedge", {{1.4, 0.8, 0.3}, {1.9, 0.8, 0.3}, {1.6, 1.2, 0.3}, {1.6, 0.9, 0.9}}),
                   config::cylinder("tank", {1.5, -1.2, 0.0}, {1.8, -0.9, 0.4}, 0.15),
@@ -70,7 +70,7 @@ TEST(PlanCheck, FindsTheClearanceFromConvexBodiesThatThePlannerFinds) {
 }
 
 TEST(PlanCheck, FindsTheLeastClearanceThatDenseSamplingFinds) {
-  const RobotTable table = zhu2022::table();
+  const RobotParams table = zhu2022::table();
   const config::SceneConfig scene = ball_and_box();
   zhu2022::Random random(2);
   for (int i = 0; i < 20; ++i) {
@@ -91,7 +91,7 @@ TEST(PlanCheck, FindsTheLeastClearanceThatDenseSamplingFinds) {
 }
 
 TEST(PlanCheck, SeesACollisionBetweenTwoFreeWaypoints) {
-  const RobotTable table = zhu2022::table();
+  const RobotParams table = zhu2022::table();
   config::SceneConfig scene;
   scene.spheres.push_back({"ball", {3.6, 0.0, 0.0}, 0.05});  // the straight arm goes through it
   ThetaVector left{}, right{};
@@ -105,7 +105,7 @@ TEST(PlanCheck, SeesACollisionBetweenTwoFreeWaypoints) {
 }
 
 TEST(PlanCheck, TellsStepsLimitsCablesAndTheTip) {
-  const RobotTable table = zhu2022::table();
+  const RobotParams table = zhu2022::table();
   ThetaVector a{}, b{};
   b[2] = 21.0 * kDegree;
   b[5] = -4.0 * kDegree;
@@ -128,4 +128,4 @@ TEST(PlanCheck, TellsStepsLimitsCablesAndTheTip) {
 }
 
 }  // namespace
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -8,7 +8,7 @@
 
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
@@ -223,4 +223,4 @@ TEST(PlanProblem, WithGoalAnglesTheLastWaypointIsNoVariableEither) {
 }
 
 }  // namespace
-}  // namespace liana::plan
+}  // namespace liana::planner

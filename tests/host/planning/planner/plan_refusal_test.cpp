@@ -6,7 +6,7 @@
 #include "tests/host/planning/planner/requests.hpp"
 #include "tests/message.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 PlanCheck good_check(const PlanRequest& request) {
@@ -42,4 +42,4 @@ TEST(PlanRefusal, NamesAStepAndWhatIsAllowed) {
 }
 
 }  // namespace
-}  // namespace liana::plan
+}  // namespace liana::planner

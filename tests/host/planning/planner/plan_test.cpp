@@ -9,7 +9,7 @@
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/host/planning/planner/requests.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 using Index = std::size_t;
@@ -223,4 +223,4 @@ TEST(Plan, RefusesSizesOutOfRange) {
 }
 
 }  // namespace
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -5,12 +5,12 @@
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/host/model/config/tables.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 
 inline config::RobotConfig the_robot() { return config::nominal_zhu2022(); }
 
 // No more than what is checked of an arm.
-inline config::RobotConfig robot_of(const RobotTable& table) {
+inline config::RobotConfig robot_of(const RobotParams& table) {
   config::RobotConfig robot;
   robot.table = table;
   robot.module_radius_m = 0.03;
@@ -32,4 +32,4 @@ inline config::SceneConfig panel_slit() {
   return config::parse_scene(config::good_table("scene", "panel_slit").dump(), "s");
 }
 
-}  // namespace liana::plan
+}  // namespace liana::planner

@@ -10,7 +10,7 @@
 #include "tests/host/planning/planner/requests.hpp"
 #include "tests/message.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 // Every pitch and every yaw alike: a circle, or a helix.
@@ -82,4 +82,4 @@ TEST(SelfCheck, APlanThroughTheArmItselfIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace liana::plan
+}  // namespace liana::planner

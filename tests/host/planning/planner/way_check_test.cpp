@@ -8,7 +8,7 @@
 #include "tests/host/planning/planner/requests.hpp"
 #include "tests/message.hpp"
 
-namespace liana::plan {
+namespace liana::planner {
 namespace {
 
 constexpr double kMargin_m = 0.005, kOff_m = 0.001, kSphere_m = 0.01;
@@ -62,4 +62,4 @@ TEST(WayCheck, AnArmThatWouldLieInItselfIsRefused) {
 }
 
 }  // namespace
-}  // namespace liana::plan
+}  // namespace liana::planner

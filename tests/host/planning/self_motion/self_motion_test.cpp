@@ -9,15 +9,15 @@
 #include "firmware_like/serial/kinematics.hpp"
 #include "host/planning/self_motion/picture.hpp"
 
-namespace liana::sweep {
+namespace liana::self_motion {
 namespace {
 
 constexpr std::size_t kJoints = 7;
 constexpr double kStiffness_Nm_rad = 4264.0;
 
 // lua/robots/macro.lua.
-serial::RobotTable macro() {
-  serial::RobotTable table;
+serial::RobotParams macro() {
+  serial::RobotParams table;
   table.joint_count = kJoints;
   const double alpha_deg[kJoints] = {90, 90, 0, 0, 90, -90, 0};
   const double a_m[kJoints] = {0, 0, 4.30, 4.30, 0, 0, 0};
@@ -48,7 +48,7 @@ SelfMotion swept() { return self_motion(macro(), all(kStiffness_Nm_rad), kPrepar
 
 // Where the tip goes under `force_N` in the base frame: every joint gives way to its torque, found by turning the joint
 // a little, without any Jacobian.
-Vec3 given_way_m(const serial::RobotTable& table, const serial::JointVector& joint_rad, const Vec3& force_N) {
+Vec3 given_way_m(const serial::RobotParams& table, const serial::JointVector& joint_rad, const Vec3& force_N) {
   constexpr double kLittle_rad = 1e-6;
   Vec3 sum{};
   for (std::size_t i = 0; i < kJoints; ++i) {
@@ -69,7 +69,7 @@ TEST(SelfMotion, GoesAroundOnceWithTheTipStillToANanometre) {
   EXPECT_TRUE(motion.closed);
   EXPECT_NEAR(std::fabs(motion.way.back().arm_angle_rad) / kDegree, 360.0, 1.0);
   for (const Configuration& at : motion.way) {
-    ASSERT_LE(at.tip_drift_m, kMostTipDrift_m);
+    ASSERT_LE(at.tip_drift_m, kMaxTipDrift_m);
     ASSERT_LE(at.tip_turn_rad, 1e-9);
   }
 }
@@ -80,7 +80,7 @@ TEST(SelfMotion, TheTipIsWhereTheKinematicsHasItInEveryConfiguration) {
   const Pose start = forward_kinematics(macro(), kPrepare).tip_in_base;
   for (std::size_t i = 0; i < motion.way.size(); i += 50) {
     const Pose tip = forward_kinematics(macro(), motion.way[i].joint_rad).tip_in_base;
-    ASSERT_LE(norm(subtract(tip.position_m, start.position_m)), kMostTipDrift_m) << i;
+    ASSERT_LE(norm(subtract(tip.position_m, start.position_m)), kMaxTipDrift_m) << i;
   }
 }
 
@@ -136,11 +136,11 @@ TEST(SelfMotion, AnArmTwiceAsStiffGivesWayHalfAsFar) {
 TEST(SelfMotion, OfASingularArmIsSaidNotToClose) {
   const SelfMotion motion = self_motion(macro(), all(kStiffness_Nm_rad), all(0.0));
   EXPECT_FALSE(motion.closed);
-  EXPECT_LT(motion.way.size(), kMostSteps);
+  EXPECT_LT(motion.way.size(), kMaxSteps);
 }
 
 TEST(SelfMotion, SaysWhichConfigurationsAreOutOfRange) {
-  serial::RobotTable narrow = macro();
+  serial::RobotParams narrow = macro();
   for (std::size_t i = 0; i < kJoints; ++i) {
     narrow.joint[i].low_rad = kPrepare[i] - 1.0 * kDegree;
     narrow.joint[i].high_rad = kPrepare[i] + 1.0 * kDegree;
@@ -151,4 +151,4 @@ TEST(SelfMotion, SaysWhichConfigurationsAreOutOfRange) {
 }
 
 }  // namespace
-}  // namespace liana::sweep
+}  // namespace liana::self_motion

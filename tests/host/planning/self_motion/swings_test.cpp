@@ -8,21 +8,21 @@
 
 #include "firmware_like/serial/kinematics.hpp"
 
-namespace liana::sweep {
+namespace liana::self_motion {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 // Joints about parallel axes, a link of `length_m` behind each.
-serial::RobotTable in_a_plane(std::int32_t joints, double length_m) {
-  serial::RobotTable table;
+serial::RobotParams in_a_plane(std::int32_t joints, double length_m) {
+  serial::RobotParams table;
   table.joint_count = joints;
   for (std::size_t i = 0; i < table.joints(); ++i) table.joint[i].dh.a_m = length_m;
   return table;
 }
 
 TEST(Swings, AMassOnOneSpringSwingsAsByHand) {
-  const serial::RobotTable table = in_a_plane(1, 2.0);
+  const serial::RobotParams table = in_a_plane(1, 2.0);
   const serial::JointVector joint_rad{0.7}, stiffness_Nm_rad{4264.0};
   const serial::LinkMass load{300.0, {0.5, 0.0, 0.0}, {1.0, 1.0, 40.0, 0.0, 0.0, 0.0}};
   const SpringyArm arm{table, {}, joint_rad, stiffness_Nm_rad};
@@ -34,7 +34,7 @@ TEST(Swings, AMassOnOneSpringSwingsAsByHand) {
 // Two equal masses on equal links, straight: M = m l^2 [[5, 2], [2, 1]] with springs of 1, of which the eigenvalues are
 // 3 +- 2 sqrt(2).
 TEST(Swings, TwoArmsOneOnTheOtherSwingTogether) {
-  const serial::RobotTable table = in_a_plane(1, 1.0);
+  const serial::RobotParams table = in_a_plane(1, 1.0);
   serial::MassTable masses;
   masses.link[0].mass_kg = 1.0;
   const serial::JointVector straight{}, stiffness_Nm_rad{1.0};
@@ -43,7 +43,7 @@ TEST(Swings, TwoArmsOneOnTheOtherSwingTogether) {
   ASSERT_EQ(periods_s.size(), 2u);
   EXPECT_NEAR(periods_s[0], kTurn * (std::sqrt(2.0) + 1.0), 1e-9);
   EXPECT_NEAR(periods_s[1], kTurn * (std::sqrt(2.0) - 1.0), 1e-9);
-  const serial::RobotTable both = in_a_plane(2, 1.0);
+  const serial::RobotParams both = in_a_plane(2, 1.0);
   masses.link[1] = masses.link[0];
   const serial::JointVector stiffness_of_both{1.0, 1.0};
   const SpringyArm one{both, masses, straight, stiffness_of_both};
@@ -51,7 +51,7 @@ TEST(Swings, TwoArmsOneOnTheOtherSwingTogether) {
 }
 
 TEST(Swings, WhatHasNoInertiaDoesNotSwing) {
-  const serial::RobotTable table = in_a_plane(2, 1.0);
+  const serial::RobotParams table = in_a_plane(2, 1.0);
   serial::MassTable masses;
   masses.link[0].mass_kg = 1.0;
   const serial::JointVector straight{}, stiffness_Nm_rad{1.0, 1.0};
@@ -60,4 +60,4 @@ TEST(Swings, WhatHasNoInertiaDoesNotSwing) {
 }
 
 }  // namespace
-}  // namespace liana::sweep
+}  // namespace liana::self_motion

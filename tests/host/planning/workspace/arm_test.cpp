@@ -5,7 +5,7 @@
 #include "tests/firmware_like/micro_arm.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana::reach {
+namespace liana::workspace {
 namespace {
 
 namespace micro = serial::micro;
@@ -56,7 +56,7 @@ TEST(ReachArmOfEitherKind, HasColumnsThatAreTheDerivativesOfItsPoints) {
   micro::Random random(5);
   zhu2022::Random cable_random(5);
   for (int trial = 0; trial < 20; ++trial) {
-    const serial::RobotTable six = micro::six_joint_table();
+    const serial::RobotParams six = micro::six_joint_table();
     expect_columns_are_derivatives(arm_of(six), angles_of(micro::random_joints(six, random)));
     expect_columns_are_derivatives(arm_of(micro::table()), angles_of(micro::random_joints(micro::table(), random)));
     expect_columns_are_derivatives(arm_of(zhu2022::table()), cable_random.theta(zhu2022::table(), 20.0));
@@ -65,7 +65,7 @@ TEST(ReachArmOfEitherKind, HasColumnsThatAreTheDerivativesOfItsPoints) {
 
 TEST(ReachArmOfEitherKind, IsDrawnFromItsBaseToItsTip) {
   micro::Random random(6);
-  const serial::RobotTable table = micro::six_joint_table();
+  const serial::RobotParams table = micro::six_joint_table();
   for (const ReachArm& arm : {arm_of(table), arm_of(zhu2022::table())}) {
     AngleVector angle_rad{};
     for (std::size_t i = 0; i < 6; ++i) angle_rad[i] = random.uniform(-0.3, 0.3);
@@ -76,4 +76,4 @@ TEST(ReachArmOfEitherKind, IsDrawnFromItsBaseToItsTip) {
 }
 
 }  // namespace
-}  // namespace liana::reach
+}  // namespace liana::workspace

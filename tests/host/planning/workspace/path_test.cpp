@@ -4,13 +4,13 @@
 
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana::reach {
+namespace liana::workspace {
 namespace {
 
 namespace zhu2022 = cable::zhu2022;
 using zhu2022::radians;
 
-PathReport at(const zhu2022::Degrees& theta_deg, std::uint32_t held_mask = 0) {
+PathStatus at(const zhu2022::Degrees& theta_deg, std::uint32_t held_mask = 0) {
   return examine_path(zhu2022::table(), {radians(theta_deg)}, held_mask);
 }
 
@@ -32,7 +32,7 @@ TEST(Conditioning, TheStraightArmIsSingular) {
 }
 
 TEST(Conditioning, HoldingAnAngleNeverHelps) {
-  const cable::RobotTable table = zhu2022::table();
+  const cable::RobotParams table = zhu2022::table();
   zhu2022::Random random(4);
   for (int trial = 0; trial < 200; ++trial) {
     const cable::ThetaVector theta = random.theta(table, 20.0);
@@ -50,7 +50,7 @@ TEST(Conditioning, WithFewerThanSixFreeAnglesSomeMotionIsImpossible) {
 }
 
 TEST(Path, NamesTheAngleNearestToItsLimitAndWhere) {
-  const PathReport report =
+  const PathStatus report =
       examine_path(zhu2022::table(), {radians({1, 2}), radians({1, 2, 0, -19}), radians({1, 2, 0, -4})}, 0);
   const PathPoint& nearest = report.points[report.nearest_limit];
   EXPECT_EQ(nearest.nearest_theta, 4);
@@ -60,7 +60,7 @@ TEST(Path, NamesTheAngleNearestToItsLimitAndWhere) {
 }
 
 TEST(Path, HeldAnglesDoNotCountAsNearALimit) {
-  const PathReport report = examine_path(zhu2022::table(), {radians({1, 2, 0, -19})}, 0b1000);
+  const PathStatus report = examine_path(zhu2022::table(), {radians({1, 2, 0, -19})}, 0b1000);
   EXPECT_EQ(report.points.front().nearest_theta, 2);
   EXPECT_NEAR(report.points.front().limit_margin_rad, 18.0 * kDegree, 1e-12);
 }
@@ -68,7 +68,7 @@ TEST(Path, HeldAnglesDoNotCountAsNearALimit) {
 TEST(Path, IsExaminedFromEndToEndInStepsWithinItsResolution) {
   const std::vector<cable::ThetaVector> waypoints{radians(zhu2022::kPrepare_deg), radians(zhu2022::kPanelEdge_deg),
                                                   radians(zhu2022::kPressRod_deg)};
-  const PathReport report = examine_path(zhu2022::table(), waypoints, 0);
+  const PathStatus report = examine_path(zhu2022::table(), waypoints, 0);
   EXPECT_EQ(report.points.front().theta_rad, waypoints.front());
   EXPECT_EQ(report.points.back().theta_rad, waypoints.back());
   EXPECT_DOUBLE_EQ(report.points.back().way, 1.0);
@@ -84,7 +84,7 @@ TEST(Path, IsExaminedFromEndToEndInStepsWithinItsResolution) {
 }
 
 TEST(Path, ThatStandsStillIsOnePoseExaminedTwice) {
-  const PathReport report =
+  const PathStatus report =
       examine_path(zhu2022::table(), {radians(zhu2022::kPrepare_deg), radians(zhu2022::kPrepare_deg)}, 0);
   EXPECT_EQ(report.joint_travel_rad, 0.0);
   ASSERT_EQ(report.points.size(), 2u);
@@ -92,4 +92,4 @@ TEST(Path, ThatStandsStillIsOnePoseExaminedTwice) {
 }
 
 }  // namespace
-}  // namespace liana::reach
+}  // namespace liana::workspace

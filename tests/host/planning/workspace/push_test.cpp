@@ -4,7 +4,7 @@
 
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana::reach {
+namespace liana::workspace {
 namespace {
 
 namespace zhu2022 = cable::zhu2022;
@@ -21,7 +21,7 @@ void expect_within_limits(const ReachArm& arm, const AngleVector& theta_rad) {
 }
 
 TEST(ReachPosition, FindsPlacesNearbyWithHeldAnglesStillAndLimitsKept) {
-  const cable::RobotTable table = zhu2022::table();
+  const cable::RobotParams table = zhu2022::table();
   const ReachArm arm = arm_of(table);
   const PointOnArm point{.node = 5, .held_mask = 0b0101000000};
   Random random(1);
@@ -49,7 +49,7 @@ TEST(ReachPosition, SaysNoToAPlaceBeyondTheArmAndLeavesTheAnglesAlone) {
 }
 
 TEST(Climb, AlongXStraightensTheArm) {
-  const cable::RobotTable table = zhu2022::table();
+  const cable::RobotParams table = zhu2022::table();
   const ReachArm arm = arm_of(table);
   Random random(2);
   for (int trial = 0; trial < 20; ++trial) {
@@ -102,4 +102,4 @@ TEST(BindingLimits, NameTheOnlyAngleThatIsLeftToMove) {
 }
 
 }  // namespace
-}  // namespace liana::reach
+}  // namespace liana::workspace

@@ -7,7 +7,7 @@
 
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana::reach {
+namespace liana::workspace {
 namespace {
 
 namespace zhu2022 = cable::zhu2022;
@@ -73,7 +73,7 @@ TEST(Region, IsSymmetricUnderMirroredPitchAndMirroredYaw) {
 }
 
 TEST(Region, ContainsEveryPoseOfAnotherDraw) {
-  const cable::RobotTable table = zhu2022::table();
+  const cable::RobotParams table = zhu2022::table();
   const ReachArm arm = arm_of(table);
   for (const std::int32_t node : {3, 5}) {
     const Region region = explore_region(arm, request(node));
@@ -90,7 +90,7 @@ TEST(Region, ContainsEveryPoseOfAnotherDraw) {
 }
 
 TEST(Region, OfAHollowReachHasAnInnerBoundaryThatNoPosePasses) {
-  const cable::RobotTable table = zhu2022::table();
+  const cable::RobotParams table = zhu2022::table();
   const ReachArm arm = arm_of(table);
   const std::uint32_t last_segment_only = 0b0011111111;
   const Region region = explore_region(arm, request(5, last_segment_only));
@@ -111,7 +111,7 @@ TEST(Region, OfAHollowReachHasAnInnerBoundaryThatNoPosePasses) {
 }
 
 TEST(Region, IsReachedByTheAnglesItNames) {
-  const cable::RobotTable table = zhu2022::table();
+  const cable::RobotParams table = zhu2022::table();
   const ReachArm arm = arm_of(table);
   RegionRequest with_held = request(5, 0b0101000000);
   with_held.held_rad[6] = 3.0 * kDegree;
@@ -223,4 +223,4 @@ TEST(Region, SharesOfShellsAndBindingsAddUp) {
 }
 
 }  // namespace
-}  // namespace liana::reach
+}  // namespace liana::workspace

@@ -8,7 +8,7 @@
 #include "host/planning/workspace/region.hpp"
 #include "tests/firmware_like/micro_arm.hpp"
 
-namespace liana::reach {
+namespace liana::workspace {
 namespace {
 
 namespace micro = serial::micro;
@@ -27,13 +27,13 @@ RegionRequest ask(std::int32_t node, std::uint64_t seed = 1) {
   return out;
 }
 
-serial::JointTable pitch_joint(double length_m, double low_deg, double high_deg) {
+serial::JointParams pitch_joint(double length_m, double low_deg, double high_deg) {
   return {{0.0, length_m, 0.0, 0.0}, low_deg * kDegree, high_deg * kDegree, 0.1, 0.1};
 }
 
 // Two links in the plane z = 0, of 1 m and 0.6 m.
-serial::RobotTable two_links(double low_deg, double high_deg) {
-  serial::RobotTable table;
+serial::RobotParams two_links(double low_deg, double high_deg) {
+  serial::RobotParams table;
   table.joint_count = 2;
   table.joint[0] = pitch_joint(1.0, -270.0, 270.0);
   table.joint[1] = pitch_joint(0.6, low_deg, high_deg);
@@ -41,8 +41,8 @@ serial::RobotTable two_links(double low_deg, double high_deg) {
 }
 
 // The same two links on a joint about z, so that their plane turns.
-serial::RobotTable shoulder(double low_deg, double high_deg) {
-  serial::RobotTable table = two_links(low_deg, high_deg);
+serial::RobotParams shoulder(double low_deg, double high_deg) {
+  serial::RobotParams table = two_links(low_deg, high_deg);
   table.joint_count = 3;
   std::copy_backward(table.joint.begin(), table.joint.begin() + 2, table.joint.begin() + 3);
   table.joint[0] = {{90.0 * kDegree, 0.0, 0.0, 0.0}, -270.0 * kDegree, 270.0 * kDegree, 0.1, 0.1};
@@ -63,7 +63,7 @@ const Region& six_joint_region() {
 }
 
 struct Explored {
-  serial::RobotTable table;
+  serial::RobotParams table;
   const Region& region;
 };
 std::array<Explored, 2> both_explored() {
@@ -113,7 +113,7 @@ TEST(SerialRegion, OfAShoulderAndTwoLinksIsAHollowBallWhollyReached) {
 }
 
 TEST(SerialRegion, OfOneJointIsAnArcAsLongAsItsRange) {
-  serial::RobotTable table;
+  serial::RobotParams table;
   table.joint_count = 1;
   table.joint[0] = pitch_joint(1.0, -30.0, 120.0);
   const Region arc = explore_region(arm_of(table), ask(1));
@@ -201,7 +201,7 @@ TEST(SerialRegion, ContainsEveryPoseOfAnotherDraw) {
 TEST(SerialRegion, EndsWithoutALimitOnlyWhereTheArmIsStretchedOrFolded) {
   for (const auto& [table, region] : both_explored()) {
     const ReachArm arm = arm_of(table);
-    double most_m_per_rad = 0.0;
+    double max_m_per_rad = 0.0;
     for (const DirectionBin& bin : region.bins) {
       if (bin.samples == 0 || bin.outer.binding != 0) continue;
       const PointMotion motion = point_motion(arm, {.node = arm.node_count}, bin.outer.angle_rad);
@@ -210,10 +210,10 @@ TEST(SerialRegion, EndsWithoutALimitOnlyWhereTheArmIsStretchedOrFolded) {
         const double along = dot(column, bin.outer.point_in_base_m) / bin.outer.distance_m;
         square += along * along;
       }
-      most_m_per_rad = std::max(most_m_per_rad, std::sqrt(square));
+      max_m_per_rad = std::max(max_m_per_rad, std::sqrt(square));
     }
-    std::printf("measured: %d joints: outwards at most %.4f m/rad\n", table.joint_count, most_m_per_rad);
-    EXPECT_LT(most_m_per_rad, 0.6);
+    std::printf("measured: %d joints: outwards at most %.4f m/rad\n", table.joint_count, max_m_per_rad);
+    EXPECT_LT(max_m_per_rad, 0.6);
   }
 }
 
@@ -237,4 +237,4 @@ TEST(SerialRegion, OfTheSmallArmHasNoHoleAroundTheBase) {
 }
 
 }  // namespace
-}  // namespace liana::reach
+}  // namespace liana::workspace

@@ -44,7 +44,7 @@ TEST_F(RingExport, AMinuteAgoOutputsAreMadeAgainAndReplayFindsNoTickThatDiffers)
   EXPECT_EQ(written.ticks, 15432u - 12345u + 1);
   EXPECT_EQ(written.made_again, written.ticks);
   EXPECT_EQ(written.left_out + written.differing, 0u);
-  const record::ReplayResult replayed = record::replay(cut_);
+  const recording::ReplayResult replayed = recording::replay(cut_);
   EXPECT_EQ(replayed.ticks, written.ticks);
   EXPECT_EQ(replayed.differing_ticks, 0u);
   EXPECT_EQ(replayed.missing_ticks, 0u);
@@ -55,14 +55,14 @@ TEST_F(RingExport, TheNewestTicksHaveTheirOwnOutputsAndReplayLikewise) {
   const TicksWritten written = cut({98 * kSecond, kAll.last});
   EXPECT_EQ(written.ticks, 2 * kSecond);
   EXPECT_EQ(written.made_again, 0u);
-  const record::ReplayResult replayed = record::replay(cut_);
+  const recording::ReplayResult replayed = recording::replay(cut_);
   EXPECT_EQ(replayed.ticks, written.ticks);
   EXPECT_EQ(replayed.differing_ticks + replayed.missing_ticks, 0u);
 }
 
 TEST_F(RingExport, TheBeginOfTheRunReplaysFromTheStart) {
   EXPECT_EQ(cut({0, 2000}).ticks, 2001u - 40u);
-  const record::ReplayResult replayed = record::replay(cut_);
+  const recording::ReplayResult replayed = recording::replay(cut_);
   EXPECT_EQ(replayed.ticks, 2001u - 40u);
   EXPECT_EQ(replayed.differing_ticks, 0u);
 }
@@ -71,7 +71,7 @@ TEST_F(RingExport, AfterAGapItGoesOnAtTheNextImageAndSaysWhatIsLeftOut) {
   const TicksWritten written = cut({19000, 22000});
   EXPECT_EQ(written.left_out, 21000u - kGapEnds);
   EXPECT_EQ(written.ticks, kGapBegins - 19000 + 22001 - 21000);
-  const record::ReplayResult replayed = record::replay(cut_);
+  const recording::ReplayResult replayed = recording::replay(cut_);
   EXPECT_EQ(replayed.ticks, written.ticks);
   EXPECT_EQ(replayed.differing_ticks + replayed.missing_ticks, 0u);
 }

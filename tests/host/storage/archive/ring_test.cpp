@@ -70,7 +70,7 @@ TEST_F(RingOfARun, GivesEveryTickBackAsItCameByteForByte) {
   ASSERT_EQ(found.size(), 5 * kSecond + 7);
   for (const auto& [tick, there] : found) {
     const std::string packet = same.next();
-    const record::TickParts parts = record::split_tick_packet(packet);
+    const recording::TickParts parts = recording::split_tick_packet(packet);
     ASSERT_EQ(there.inputs, parts.inputs) << tick;
     ASSERT_EQ(there.outputs, parts.outputs) << tick;
   }

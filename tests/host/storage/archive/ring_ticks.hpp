@@ -14,14 +14,14 @@ namespace liana::archive {
 class RingTicks {
  public:
   // The packet before the first tick.
-  std::string start() const { return record::image_packet<cable::CableArm>(next_tick_, cable::zhu2022::table()); }
+  std::string start() const { return recording::image_packet<cable::CableArm>(next_tick_, cable::zhu2022::table()); }
   // Where a replay can go on before the next tick.
-  std::string image() const { return record::image_packet<cable::CableArm>(next_tick_, controller_); }
+  std::string image() const { return recording::image_packet<cable::CableArm>(next_tick_, controller_); }
   std::string next() {
-    record::TickRecord<cable::CableArm> record{inputs(), {}};
+    recording::TickRecord<cable::CableArm> record{inputs(), {}};
     record.outputs = controller_.tick(record.inputs);
     ++next_tick_;
-    return record::tick_packet(record, 0, record::counts_of(cable::zhu2022::table()));
+    return recording::tick_packet(record, 0, recording::counts_of(cable::zhu2022::table()));
   }
   std::uint64_t next_tick() const { return next_tick_; }
 

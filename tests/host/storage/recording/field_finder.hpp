@@ -11,7 +11,7 @@
 #include "host/storage/recording/visit_cable_state.hpp"
 #include "host/storage/recording/visit_serial_state.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 // Finds where a field, by its path, begins in the bytes that Writer makes of a structure.
 class FieldFinder {
@@ -61,4 +61,4 @@ std::string with_field(const Controller<Arm>& controller, const std::string& fie
   return bytes.replace(*finder.found(), written.size(), written);
 }
 
-}  // namespace liana::record
+}  // namespace liana::recording

@@ -13,7 +13,7 @@
 #include "tests/host/storage/recording/field_finder.hpp"
 #include "tests/message.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 namespace {
 
 std::string outputs_of(const cable::Outputs& outputs) {
@@ -66,7 +66,7 @@ TEST(Image, TwoControllersInDifferentMemoryGiveTheSameBytes) {
 }
 
 // What is said about an image with one byte changed; empty when it is taken.
-std::string refusal_of(const std::string& state, const cable::RobotTable& table) {
+std::string refusal_of(const std::string& state, const cable::RobotParams& table) {
   try {
     controller_from<cable::CableArm>(state, table, "images.mcap");
   } catch (const std::runtime_error& refused) {
@@ -116,24 +116,24 @@ TEST(Image, WhatWouldLeadTheCoreOutOfItsArraysIsRefusedAndNamed) {
 
 TEST(Image, ATableThatWouldLeadTheCoreOutOfItsArraysIsRefused) {
   const auto said = [](auto change) -> std::string {
-    cable::RobotTable table = cable::zhu2022::table();
+    cable::RobotParams table = cable::zhu2022::table();
     change(table);
     std::string bytes;
     append_serialised(bytes, table);
     std::size_t used = 0;
     try {
-      checked_table<cable::RobotTable>(bytes, "images.mcap", used);
+      checked_table<cable::RobotParams>(bytes, "images.mcap", used);
     } catch (const std::runtime_error& refused) {
       return refused.what();
     }
     return "";
   };
-  EXPECT_EQ(said([](cable::RobotTable&) {}), "");
-  EXPECT_NE(said([](cable::RobotTable& t) { t.segment_count = 9; }).find("segment_count: 9"), std::string::npos);
-  EXPECT_NE(said([](cable::RobotTable& t) { t.segment[2].cables = 5; }), "");
-  EXPECT_NE(said([](cable::RobotTable& t) { t.segment[0].modules = 17; }), "");
-  EXPECT_NE(said([](cable::RobotTable& t) { t.interval_ticks = 0; }), "");
-  EXPECT_NE(said([](cable::RobotTable& t) { t.tick_s = -0.0; }), "");
+  EXPECT_EQ(said([](cable::RobotParams&) {}), "");
+  EXPECT_NE(said([](cable::RobotParams& t) { t.segment_count = 9; }).find("segment_count: 9"), std::string::npos);
+  EXPECT_NE(said([](cable::RobotParams& t) { t.segment[2].cables = 5; }), "");
+  EXPECT_NE(said([](cable::RobotParams& t) { t.segment[0].modules = 17; }), "");
+  EXPECT_NE(said([](cable::RobotParams& t) { t.interval_ticks = 0; }), "");
+  EXPECT_NE(said([](cable::RobotParams& t) { t.tick_s = -0.0; }), "");
 }
 
 // Thousands of images nobody wrote: the core lives through every one that is taken.
@@ -159,4 +159,4 @@ TEST(Image, AnImageWithFlippedBytesIsRefusedOrHarmless) {
 }
 
 }  // namespace
-}  // namespace liana::record
+}  // namespace liana::recording

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <vector>
 
-namespace liana::record {
+namespace liana::recording {
 namespace {
 
 std::string temporary(const std::string& name) {
@@ -108,4 +108,4 @@ TEST(Mcap, OtherFilesAndMissingFilesAreRefused) {
 }
 
 }  // namespace
-}  // namespace liana::record
+}  // namespace liana::recording

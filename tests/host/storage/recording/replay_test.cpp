@@ -15,7 +15,7 @@
 #include "host/storage/recording/tick_packet.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 using namespace cable;
 namespace {
@@ -172,4 +172,4 @@ TEST(Replay, AFolderWithoutARecordingIsRefused) {
 }
 
 }  // namespace
-}  // namespace liana::record
+}  // namespace liana::recording

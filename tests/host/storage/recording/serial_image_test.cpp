@@ -14,7 +14,7 @@
 #include "tests/host/storage/recording/field_finder.hpp"
 #include "tests/message.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 namespace {
 
 using serial::SerialArm;
@@ -35,7 +35,7 @@ serial::micro::Rig moving_serial_rig(std::int32_t ticks) {
 }
 
 // What is said about an image; empty when it is taken.
-std::string refusal_of(const std::string& state, const serial::RobotTable& table) {
+std::string refusal_of(const std::string& state, const serial::RobotParams& table) {
   try {
     controller_from<SerialArm>(state, table, "images.mcap");
   } catch (const std::runtime_error& refused) {
@@ -111,24 +111,24 @@ TEST(SerialImage, WhatWouldLeadTheCoreOutOfItsArraysIsRefusedAndNamed) {
 
 TEST(SerialImage, ATableThatWouldLeadTheCoreOutOfItsArraysIsRefused) {
   const auto said = [](auto change) -> std::string {
-    serial::RobotTable table = serial::micro::table();
+    serial::RobotParams table = serial::micro::table();
     change(table);
     std::string bytes;
     append_serialised(bytes, table);
     std::size_t used = 0;
     try {
-      checked_table<serial::RobotTable>(bytes, "images.mcap", used);
+      checked_table<serial::RobotParams>(bytes, "images.mcap", used);
     } catch (const std::runtime_error& refused) {
       return refused.what();
     }
     return "";
   };
-  EXPECT_EQ(said([](serial::RobotTable&) {}), "");
-  EXPECT_NE(said([](serial::RobotTable& t) { t.joint_count = 9; }).find("joint_count: 9"), std::string::npos);
-  EXPECT_NE(said([](serial::RobotTable& t) { t.joint_count = 5; }).find("allowed is 6..8"), std::string::npos);
-  EXPECT_NE(said([](serial::RobotTable& t) { t.interval_ticks = 0; }), "");
-  EXPECT_NE(said([](serial::RobotTable& t) { t.tick_s = -0.0; }), "");
-  EXPECT_NE(said([](serial::RobotTable& t) { t.joint[2].dh.alpha_rad = 2000.0; }), "");
+  EXPECT_EQ(said([](serial::RobotParams&) {}), "");
+  EXPECT_NE(said([](serial::RobotParams& t) { t.joint_count = 9; }).find("joint_count: 9"), std::string::npos);
+  EXPECT_NE(said([](serial::RobotParams& t) { t.joint_count = 5; }).find("allowed is 6..8"), std::string::npos);
+  EXPECT_NE(said([](serial::RobotParams& t) { t.interval_ticks = 0; }), "");
+  EXPECT_NE(said([](serial::RobotParams& t) { t.tick_s = -0.0; }), "");
+  EXPECT_NE(said([](serial::RobotParams& t) { t.joint[2].dh.alpha_rad = 2000.0; }), "");
 }
 
 TEST(SerialImage, AnImageOfACableArmIsRefused) {
@@ -159,4 +159,4 @@ TEST(SerialImage, AnImageWithFlippedBytesIsRefusedOrHarmless) {
 }
 
 }  // namespace
-}  // namespace liana::record
+}  // namespace liana::recording

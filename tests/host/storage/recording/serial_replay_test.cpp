@@ -12,7 +12,7 @@
 #include "host/storage/recording/visit_serial.hpp"
 #include "tests/firmware_like/serial_rig.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 namespace {
 
 using serial::SerialArm;
@@ -95,4 +95,4 @@ TEST(SerialReplay, ARecordingThatStartsInMidRunGoesOnFromItsImage) {
 }
 
 }  // namespace
-}  // namespace liana::record
+}  // namespace liana::recording

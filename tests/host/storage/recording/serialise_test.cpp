@@ -9,7 +9,7 @@
 #include "host/storage/recording/visit.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 
 using namespace cable;
 namespace {
@@ -113,12 +113,12 @@ TEST(Serialise, NoFieldIsForgotten) {
   EXPECT_EQ(visited_fields<Pose>(), field_count<Pose>());
   EXPECT_EQ(visited_fields<cable::Setpoint>(), field_count<cable::Setpoint>());
   EXPECT_EQ(visited_fields<cable::NodeTarget>(), field_count<cable::NodeTarget>());
-  EXPECT_EQ(visited_fields<cable::RobotTable>(), field_count<cable::RobotTable>());
-  EXPECT_EQ(visited_fields<cable::SegmentTable>(), field_count<cable::SegmentTable>());
+  EXPECT_EQ(visited_fields<cable::RobotParams>(), field_count<cable::RobotParams>());
+  EXPECT_EQ(visited_fields<cable::SegmentParams>(), field_count<cable::SegmentParams>());
   EXPECT_EQ(visited_fields<cable::TensionLimits>(), field_count<cable::TensionLimits>());
   EXPECT_EQ(visited_fields<cable::MotionLimits>(), field_count<cable::MotionLimits>());
-  EXPECT_EQ(visited_fields<cable::DriveTable>(), field_count<cable::DriveTable>());
+  EXPECT_EQ(visited_fields<cable::DriveParams>(), field_count<cable::DriveParams>());
 }
 
 }  // namespace
-}  // namespace liana::record
+}  // namespace liana::recording

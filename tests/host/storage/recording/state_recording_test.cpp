@@ -8,7 +8,7 @@
 
 #include "host/base/event/event_json.hpp"
 
-namespace liana::record {
+namespace liana::recording {
 namespace {
 
 Json state_at(std::uint64_t tick, std::uint64_t verdict) {
@@ -69,4 +69,4 @@ TEST(StateRecording, AVerdictIsWrittenWhenItIsNew) {
 }
 
 }  // namespace
-}  // namespace liana::record
+}  // namespace liana::recording

@@ -16,8 +16,8 @@ liana::cable::ThetaVector angles(const liana::Json& degrees) {
   return theta;
 }
 
-liana::plan::PlanRequest request_of(const liana::Json& problem) {
-  liana::plan::PlanRequest request;
+liana::planner::PlanRequest request_of(const liana::Json& problem) {
+  liana::planner::PlanRequest request;
   const liana::config::BusesConfig buses = liana::config::parse_buses(problem.at("buses").dump(), "buses");
   request.robot = liana::config::parse_robot(problem.at("robot").dump(), "robot", "nominal", buses);
   request.scene = liana::config::parse_scene(problem.at("scene").dump(), "scene");
@@ -27,21 +27,21 @@ liana::plan::PlanRequest request_of(const liana::Json& problem) {
     const auto tip = problem.at("tip").get<std::array<double, 7>>();
     request.tip_in_base = liana::Pose{{tip[0], tip[1], tip[2]}, liana::normalize({tip[3], tip[4], tip[5], tip[6]})};
   }
-  request.max_step_rad = liana::plan::default_max_step_rad(request.robot.table, request.waypoints);
+  request.max_step_rad = liana::planner::default_max_step_rad(request.robot.table, request.waypoints);
   return request;
 }
 
 }  // namespace
 
 int main() {
-  const liana::plan::PlanRequest request =
+  const liana::planner::PlanRequest request =
       request_of(liana::Json::parse(std::string{std::istreambuf_iterator<char>(std::cin), {}}));
-  liana::plan::PlanControl control;
+  liana::planner::PlanControl control;
   control.straight_start_only = true;
   const auto begin = std::chrono::steady_clock::now();
-  const liana::plan::PlanResult result = liana::plan::plan(request, control);
+  const liana::planner::PlanResult result = liana::planner::plan(request, control);
   const double time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  std::cout << liana::Json{{"outcome", liana::plan::name_of(result.outcome)},
+  std::cout << liana::Json{{"outcome", liana::planner::name_of(result.outcome)},
                            {"constraint", result.constraint},
                            {"objective", result.objective},
                            {"iterations", result.iterations},

@@ -1,0 +1,88 @@
+// The second verification end as a desk uses it: started with a candidate's prediction, asked for its verdict.
+#pragma once
+
+#include <limits>
+
+#include "host/control/arbiter/cable_traits.hpp"
+#include "host/control/arbiter/serial_traits.hpp"
+#include "host/control/verification/judge_serial.hpp"
+#include "host/control/verification/judge_simulated.hpp"
+#include "host/control/verification/verify.hpp"
+#include "host/model/simulation/arm_observer.hpp"
+#include "host/model/simulation/worker.hpp"
+
+namespace liana::verification {
+
+constexpr double kEnough_m = 0.1;  // farther from the scene nobody asks how far
+constexpr double kWhenever = std::numeric_limits<double>::infinity();
+
+// Every T_c what the drives are told: now, then at the end of each interval that the twin has looked into.
+template <class Arm>
+void read_sequence(const TwinSnapshot<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction,
+                   simulation::ToldRows<arbiter::Joints<Arm>>& out);
+// The same of a cable arm, with what its tensions are planned to do at the rows.
+void read_sequence(const TwinSnapshot<cable::CableArm>& image, const Candidate<cable::CableArm>& candidate,
+                   const Prediction<cable::CableArm>& prediction, simulation::JointSequence& out);
+
+template <class Arm>
+class SimulationVerifier;
+
+// The cable arm: its dynamics, in a thread of its own.
+template <>
+class SimulationVerifier<cable::CableArm> {
+ public:
+  using Arm = cable::CableArm;
+
+  // `arm`: lengths, masses, stiffness and friction of the robot's table.
+  SimulationVerifier(const simulation::ArmModel& arm, const MotionRules& rules);
+
+  // Once an interval: what the drives say about how the arm moves.
+  void watch(const TwinSnapshot<Arm>& image);
+  // From now on: what is known of arm and scene beside the measured angles and the drawing. `prediction_m` takes the
+  // place of the scene's own; angles and placement are those of a StartState.
+  void believe(const cable::ThetaVector& theta_off_rad, const Pose& drawing_in_base, double prediction_m);
+  // Begins with what the candidate makes the controller tell its drives, from where the arm is measured to be.
+  void begin(const TwinSnapshot<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction);
+  // The verdict on what was begun; refused as kNoVerdict where it takes longer than `patience_s`.
+  SimulationVerdict verdict(double patience_s);
+
+ private:
+  MotionRules rules_;
+  simulation::Worker worker_;
+  simulation::ArmObserver observer_;
+  cable::ThetaVector theta_off_rad_{};  // believed angles less measured ones
+  simulation::JointSequence sequence_;
+  TooNear too_near_;
+  std::uint64_t number_ = 0;  // of the candidate
+  bool comes_to_rest_ = false;
+  bool begun_ = false;
+  std::uint64_t watched_tick_ = 0;
+};
+
+// A serial arm: what the drives are told as its own kinematics has it, and where links of rigid gears go with that. It
+// takes no thread: about 500,000 instructions with a scene of a few bodies.
+template <>
+class SimulationVerifier<serial::SerialArm> {
+ public:
+  using Arm = serial::SerialArm;
+
+  SimulationVerifier(const simulation::SerialModel& arm, const config::SceneConfig& scene)
+      : table_(arm.table), simulation_(arm, scene, kEnough_m) {}
+
+  // Once an interval: whether commands still are what moves the arm.
+  void watch(const TwinSnapshot<Arm>& image) {
+    if (image.last_outputs.state != OperatingState::kEnabled) too_near_.forget();
+  }
+  // Judges what the candidate makes the controller tell its drives, from where the arm is measured to be.
+  void begin(const TwinSnapshot<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction);
+  SimulationVerdict verdict(double) { return verdict_; }
+
+ private:
+  serial::RobotParams table_;
+  simulation::SerialSimulation simulation_;
+  simulation::ToldRows<serial::JointVector> sequence_;
+  TooNear too_near_;
+  SimulationVerdict verdict_;
+};
+
+}  // namespace liana::verification

@@ -1,0 +1,194 @@
+#include "firmware_like/cable/arm/cable_monitor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "firmware_like/cable/arm/cables.hpp"
+#include "firmware_like/math/convert.hpp"
+#include "tests/firmware_like/zhu2022.hpp"
+
+namespace liana::cable {
+namespace {
+
+// Fifteen cables with steady readings until a test says otherwise.
+class CableWatch : public ::testing::Test {
+ protected:
+  explicit CableWatch(double mu = 0.0) : robot_(zhu2022::table(mu)) {
+    const CableLayout layout = cable_layout(robot_);
+    for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
+      zero_payout_m_[c] = payout_m_[c] = layout.zero_length_m[c] + robot_.lead_m;
+      path_m_[c] = layout.zero_length_m[c];
+      tension_N_[c] = 40.0;
+    }
+    limits_ = make_cable_watch_limits(robot_, zero_payout_m_);
+    run(10);
+    EXPECT_EQ(faults_.count, 0);
+  }
+
+  void run(int ticks, bool usable = true) {
+    for (int i = 0; i < ticks; ++i) {
+      const CableReadings now{payout_m_, tension_N_, path_m_, residual_m_};
+      watch_cables(robot_, limits_, now, usable && faults_.count == 0, ++tick_, state_, faults_);
+    }
+  }
+  double jump_N() const { return robot_.cable_monitor.jump_N; }
+  // The only fault there is.
+  void expect_fault(FaultNumber number, std::int16_t index) {
+    ASSERT_EQ(faults_.count, 1);
+    EXPECT_EQ(faults_.fault[0].number, number);
+    EXPECT_EQ(faults_.fault[0].index, index);
+  }
+
+  RobotParams robot_;
+  CableVector zero_payout_m_{}, payout_m_{}, tension_N_{}, path_m_{}, residual_m_{};
+  CableWatchLimits limits_;
+  CableMonitorState state_;
+  FaultList faults_;
+  std::uint64_t tick_ = 0;
+};
+
+TEST_F(CableWatch, TensionThatFallsWithoutLengthIsASlipAfterItsConfirmation) {
+  tension_N_[7] -= 1.1 * jump_N();
+  run(kJumpConfirmTicks - 1);
+  EXPECT_EQ(faults_.count, 0);
+  run(1);
+  expect_fault(FaultNumber::kCableSlip, 7);
+  EXPECT_NEAR(faults_.fault[0].detail, 1e6 * 1.1 * jump_N() * zero_payout_m_[7] / robot_.cable_EA_N, 1.0)
+      << "micrometres";
+}
+
+TEST_F(CableWatch, LengthThatJumpsWithoutTensionIsASlip) {
+  payout_m_[14] += 1.1 * jump_N() / limits_.stiffness_N_m[14];
+  run(kJumpConfirmTicks);
+  expect_fault(FaultNumber::kCableSlip, 14);
+}
+
+TEST_F(CableWatch, TensionThatFollowsTheLengthIsNone) {
+  for (int i = 0; i < 100; ++i) {
+    payout_m_[3] += 40e-6;  // the speed limit
+    tension_N_[3] -= 40e-6 * limits_.stiffness_N_m[3];
+    run(1);
+  }
+  EXPECT_EQ(faults_.count, 0);
+}
+
+TEST_F(CableWatch, LengthThatFollowsThePlannedPathIsNone) {
+  for (int i = 0; i < 100; ++i) {
+    payout_m_[3] += 40e-6;
+    path_m_[3] += 40e-6;
+    run(1);
+  }
+  EXPECT_EQ(faults_.count, 0);
+}
+
+TEST_F(CableWatch, ChangesBelowTheLimitInEveryCableAtOnceAreNone) {
+  for (std::size_t c = 0; c < zhu2022::kCables; ++c) tension_N_[c] -= 0.9 * jump_N();
+  run(10);
+  EXPECT_EQ(faults_.count, 0);
+}
+
+TEST_F(CableWatch, OneWrongSampleIsNone) {
+  tension_N_[5] += 100.0;
+  run(1);
+  tension_N_[5] -= 100.0;
+  run(200);
+  EXPECT_EQ(faults_.count, 0);
+}
+
+TEST_F(CableWatch, SamplesThatJumpToAndFroScatter) {
+  for (int i = 0; i < 10 && faults_.count == 0; ++i) {
+    tension_N_[5] += i % 2 == 0 ? 30.0 : -30.0;
+    run(1);
+  }
+  expect_fault(FaultNumber::kTensionScatters, 5);
+}
+
+TEST_F(CableWatch, WrongSamplesFarApartAreForgotten) {
+  for (int i = 0; i < 20; ++i) {
+    tension_N_[5] += 30.0;
+    run(1);
+    tension_N_[5] -= 30.0;
+    run(2 * static_cast<int>(kScatterForgetTicks));
+  }
+  EXPECT_EQ(faults_.count, 0);
+}
+
+TEST_F(CableWatch, AContradictionThatGrowsIsFoundInItsSegmentHoweverSlowly) {
+  for (int i = 0; i < 1000 && faults_.count == 0; ++i) {
+    for (const std::size_t c : {9u, 10u, 11u}) residual_m_[c] += 1e-6;
+    run(1);
+  }
+  expect_fault(FaultNumber::kHomingImplausible, 9);
+  EXPECT_NEAR(faults_.fault[0].detail, 1e6 * robot_.cable_monitor.contradiction_m, 10.0 + kContradictionTicks);
+}
+
+TEST_F(CableWatch, AContradictionThatWasThereWhenWatchingBeganIsNone) {
+  run(1, false);
+  for (std::size_t c = 0; c < zhu2022::kCables; ++c) residual_m_[c] = 1e-3;
+  run(20);
+  EXPECT_EQ(faults_.count, 0);
+}
+
+TEST_F(CableWatch, AContradictionThatIsSoonGoneIsNone) {
+  for (int i = 0; i < 10; ++i) {
+    residual_m_[9] = 1e-3;
+    run(kContradictionTicks - 1);
+    residual_m_[9] = 0.0;
+    run(10);
+  }
+  EXPECT_EQ(faults_.count, 0);
+}
+
+TEST_F(CableWatch, WhatHappensWhileReadingsAreUnusableIsNone) {
+  run(1, false);
+  tension_N_[5] += 100.0;
+  run(20);
+  EXPECT_EQ(faults_.count, 0);
+}
+
+TEST_F(CableWatch, AReadingThatIsNoNumberDoesNotPass) {
+  tension_N_[2] = std::numeric_limits<double>::quiet_NaN();
+  run(1);
+  EXPECT_EQ(faults_.count, 0);  // slack says so
+  tension_N_[2] = 40.0;
+  run(20);
+  EXPECT_EQ(faults_.count, 0);
+}
+
+TEST(CableWatchLimits, FrictionThatTheCoreIsToldWidensTheContradictionOfLongCablesMost) {
+  const RobotParams ideal = zhu2022::table(0.0), worn = zhu2022::table(0.1);
+  CableVector zero_payout_m{};
+  const CableLayout layout = cable_layout(ideal);
+  for (std::size_t c = 0; c < zhu2022::kCables; ++c) zero_payout_m[c] = layout.zero_length_m[c] + ideal.lead_m;
+  const CableWatchLimits without = make_cable_watch_limits(ideal, zero_payout_m),
+                         with = make_cable_watch_limits(worn, zero_payout_m);
+  for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
+    EXPECT_DOUBLE_EQ(without.contradiction_m[c], ideal.cable_monitor.contradiction_m);
+    EXPECT_GT(with.contradiction_m[c], without.contradiction_m[c]);
+  }
+  EXPECT_GT(with.contradiction_m[14], 5.0 * with.contradiction_m[0]);
+}
+
+TEST(CableWatchLimits, FourCablesInASegmentAreWatchedToo) {
+  const RobotParams robot = zhu2022::uneven_table();
+  CableVector zero_payout_m{};
+  const CableLayout layout = cable_layout(robot);
+  for (std::size_t c = 0; c < as_index(robot.cable_count()); ++c)
+    zero_payout_m[c] = layout.zero_length_m[c] + robot.lead_m;
+  const CableWatchLimits limits = make_cable_watch_limits(robot, zero_payout_m);
+  for (std::size_t c = 0; c < as_index(robot.cable_count()); ++c) {
+    CableMonitorState state;
+    FaultList faults;
+    CableVector tension_N{}, residual_m{};
+    for (std::uint64_t tick = 1; tick < 60; ++tick) {
+      if (tick == 10) residual_m[c] = 0.01;
+      watch_cables(robot, limits, {zero_payout_m, tension_N, layout.zero_length_m, residual_m}, faults.count == 0, tick,
+                   state, faults);
+    }
+    EXPECT_EQ(faults.count, 1) << "cable " << c;
+  }
+}
+
+}  // namespace
+}  // namespace liana::cable

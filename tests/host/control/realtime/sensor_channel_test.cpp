@@ -1,0 +1,102 @@
+// What becomes of the frames of wrist sensor and adapter, and what they are told. req:B19
+#include "host/control/realtime/sensor_channel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/host/drives/bus/quiet_bus.hpp"
+
+namespace liana::realtime {
+namespace {
+
+constexpr int kBus = 1;
+
+config::BusesConfig buses() {
+  config::BusesConfig buses;
+  buses.buses.resize(2);
+  buses.buses[kBus].wrist_sensor = 0x20;
+  buses.buses[kBus].adapter = 0x30;
+  return buses;
+}
+
+bus::CanFrame force(std::uint8_t sequence, std::uint8_t status = 0) {
+  return {0x1A0, 8, {50, 0, 0, 0, 0, 0, sequence, status}, 0};  // 1 N along x
+}
+bus::CanFrame torque(std::uint8_t sequence, std::uint8_t status = 0) {
+  return {0x2A0, 8, {0, 0, 100, 0, 0, 0, sequence, status}, 0};  // 1 N m about y
+}
+
+// Remembers what is sent.
+class Listener final : public test::QuietBus {
+ public:
+  Listener() : QuietBus(2) {}
+  bus::SendResult send(int bus, const bus::CanFrame& frame) noexcept override {
+    EXPECT_EQ(bus, kBus);
+    sent.push_back(frame);
+    return bus::SendResult::kOk;
+  }
+  std::vector<bus::CanFrame> sent;
+};
+
+TEST(SensorChannel, ASampleIsTakenWhenBothItsHalvesHaveComeInWhicheverOrder) {
+  SensorChannel line(buses());
+  EXPECT_EQ(line.sensors().wrist.age_ticks, serial::kNeverHeard);
+  line.on_frame(kBus, force(1));
+  EXPECT_EQ(line.sensors().wrist.age_ticks, serial::kNeverHeard);
+  line.on_frame(kBus, torque(1));
+  EXPECT_EQ(line.sensors().wrist.age_ticks, 0);
+  EXPECT_DOUBLE_EQ(line.sensors().wrist.on_arm.force_N[0], 1.0);
+  EXPECT_DOUBLE_EQ(line.sensors().wrist.on_arm.torque_Nm[1], 1.0);
+  line.begin_tick(0);
+  line.on_frame(kBus, torque(2));
+  line.on_frame(kBus, force(3));  // the second half of 2 was lost
+  EXPECT_EQ(line.sensors().wrist.sequence, 1);
+  line.on_frame(kBus, torque(3));
+  EXPECT_EQ(line.sensors().wrist.sequence, 3);
+  EXPECT_EQ(line.sensors().wrist.age_ticks, 0);
+}
+
+TEST(SensorChannel, TheWorseStatusOfBothHalvesCountsAndOtherBusesDoNot) {
+  SensorChannel line(buses());
+  line.on_frame(0, force(1));
+  line.on_frame(0, torque(1));
+  EXPECT_EQ(line.sensors().wrist.age_ticks, serial::kNeverHeard);
+  line.on_frame(kBus, force(1));
+  line.on_frame(kBus, torque(1, 1));
+  EXPECT_EQ(line.sensors().wrist.status, serial::WristStatus::kSaturated);
+}
+
+TEST(SensorChannel, WhatDoesNotComeGrowsOlderByLostTicksToo) {
+  SensorChannel line(buses());
+  line.on_frame(kBus, {0x1B0, 8, {4, 1, 2, 0, 200, 201, 202, 0}, 0});
+  EXPECT_EQ(line.sensors().adapter.captured, 1);
+  line.begin_tick(0);
+  EXPECT_EQ(line.sensors().adapter.age_ticks, 1);
+  line.begin_tick(3);
+  EXPECT_EQ(line.sensors().adapter.age_ticks, 5);
+  EXPECT_EQ(line.sensors().wrist.age_ticks, serial::kNeverHeard);
+}
+
+TEST(SensorChannel, ANodeThatIsNotOperationalIsStartedOncePerHeartbeatAndTheAdapterToldEveryFourthTick) {
+  SensorChannel line(buses());
+  Listener bus;
+  line.step(bus, 4, serial::AdapterCommand::kNone, 0);
+  EXPECT_TRUE(bus.sent.empty());
+  line.on_frame(kBus, {0x720, 1, {0x7F}, 0});
+  for (std::uint64_t tick = 5; tick < 8; ++tick) line.step(bus, tick, serial::AdapterCommand::kNone, 0);
+  ASSERT_EQ(bus.sent.size(), 1u);
+  EXPECT_EQ(bus.sent[0].id, 0u);
+  EXPECT_EQ(bus.sent[0].data[0], 1);
+  EXPECT_EQ(bus.sent[0].data[1], 0x20);
+  line.on_frame(kBus, {0x720, 1, {0x05}, 0});
+  for (std::uint64_t tick = 8; tick < 16; ++tick) line.step(bus, tick, serial::AdapterCommand::kLock, 7);
+  ASSERT_EQ(bus.sent.size(), 3u);
+  EXPECT_EQ(bus.sent[2].id, 0x230u);
+  EXPECT_EQ(bus.sent[2].length, 2);
+  EXPECT_EQ(bus.sent[2].data[0], 1);
+  EXPECT_EQ(bus.sent[2].data[1], 7);
+}
+
+}  // namespace
+}  // namespace liana::realtime
