@@ -1,34 +1,34 @@
 -- Actions for `run` of a step and `finish` of a mission: functions of arm.
-local need = require "liana.need"
+local check_argument = require "liana.check_argument"
 local position = require "liana.position"
-local uses = require "liana.uses"
+local action_requirements = require "liana.action_requirements"
 
 local actions = {}
 
 -- An action that gives one command; `at` is the line that asks for it.
 local function giving(command, fields, at)
-  return uses.noted(function(arm) arm[command](fields) end, { action = command, command = command, fields = fields, at = at })
+  return action_requirements.noted(function(arm) arm[command](fields) end, { action = command, command = command, fields = fields, at = at })
 end
 
 -- Joint motion to a named pose of the robot, at most rate_deg_s (default: the robot's limit).
 function actions.move_to(name, rate_deg_s)
-  need("move_to", "name", name, "string")
-  if rate_deg_s ~= nil then need("move_to", "rate_deg_s", rate_deg_s, "number") end
+  check_argument("move_to", "name", name, "string")
+  if rate_deg_s ~= nil then check_argument("move_to", "rate_deg_s", rate_deg_s, "number") end
   local fields = { rate_deg_s = rate_deg_s }
-  return uses.noted(function(arm) arm.move_jp { goal_deg = arm.named_pose(name), rate_deg_s = rate_deg_s } end,
+  return action_requirements.noted(function(arm) arm.move_jp { goal_deg = arm.named_pose(name), rate_deg_s = rate_deg_s } end,
     { action = "move_to", pose = name, command = "move_jp", fields = fields, at = position(1) })
 end
 
 -- Joint motion to angles; fields of `move_jp` (docs/reference/api.md): { goal_deg = { 0, 5, ... }, rate_deg_s = 1 }.
 function actions.move_jp(fields)
-  need("move_jp", "fields", fields, "table")
+  check_argument("move_jp", "fields", fields, "table")
   return giving("move_jp", fields, position(1))
 end
 
 -- The tip along a straight line to a pose in the base frame; fields of `move_cp` (docs/reference/api.md): { goal = { x,
 -- y, z, qw, qx, qy, qz } }.
 function actions.move_cp(fields)
-  need("move_cp", "fields", fields, "table")
+  check_argument("move_cp", "fields", fields, "table")
   return giving("move_cp", fields, position(1))
 end
 
@@ -36,23 +36,23 @@ end
 -- the arm's middle away from points { { centre_m = {x, y, z}, distance_m = 0.3, weight = 1 }, ... } (optional). With `search` the best of
 -- all shapes is looked for and gone to first; the arm has to be at rest.
 function actions.shape(nodes, keep_clear, search)
-  need("shape", "nodes", nodes, "table")
-  if keep_clear ~= nil then need("shape", "keep_clear", keep_clear, "table") end
-  if search ~= nil then need("shape", "search", search, "boolean") end
+  check_argument("shape", "nodes", nodes, "table")
+  if keep_clear ~= nil then check_argument("shape", "keep_clear", keep_clear, "table") end
+  if search ~= nil then check_argument("shape", "search", search, "boolean") end
   return giving("shape", { nodes = nodes, keep_clear = keep_clear, search = search }, position(1))
 end
 
 -- The tip goes to `offset` beside a target that the tip camera sees and stays there for the dwell; fields of
 -- `servo_target` (docs/reference/api.md): { target = "adapter", offset = { x, y, z, qw, qx, qy, qz }, ... }.
 function actions.servo_target(fields)
-  need("servo_target", "fields", fields, "table")
+  check_argument("servo_target", "fields", fields, "table")
   return giving("servo_target", fields, position(1))
 end
 
 -- Pushes along an axis of the tip by force control, from rest; fields of `push` (docs/reference/api.md): { force_N =
 -- 30, ... }. How it goes is `push` of the state. For serial arms only.
 function actions.push(fields)
-  need("push", "fields", fields, "table")
+  check_argument("push", "fields", fields, "table")
   return giving("push", fields, position(1))
 end
 
@@ -62,19 +62,19 @@ function actions.follow() return giving("follow", {}, position(1)) end
 -- What the arm carries from now on; fields of `payload` (docs/reference/api.md): { mass_kg = 500, center_m = {x, y, z},
 -- inertia_kgm2 = {...} }. For serial arms only.
 function actions.payload(fields)
-  need("payload", "fields", fields, "table")
+  check_argument("payload", "fields", fields, "table")
   return giving("payload", fields, position(1))
 end
 
 -- Tells the adapter to "lock" or to "release" the payload. For serial arms only.
 function actions.adapter(command)
-  need("adapter", "command", command, "string")
+  check_argument("adapter", "command", command, "string")
   return giving("adapter", { command = command }, position(1))
 end
 
 -- A command to the tool at the tip.
 function actions.tool(command)
-  need("tool", "command", command, "string")
+  check_argument("tool", "command", command, "string")
   return function(arm) arm.tool { command = command } end
 end
 

@@ -1,9 +1,9 @@
 -- Checks a mission's structure before anything moves; every refusal says where the step stands, step, field, value, what
--- is allowed and what to do. What the robot cannot do is liana.against's.
+-- is allowed and what to do. What the robot cannot do is liana.preflight_robot's.
 local refuse = require "liana.refuse"
 local step_fields = require "liana.step_fields"
-local uses = require "liana.uses"
-local ways = require "liana.ways"
+local action_requirements = require "liana.action_requirements"
+local transitions = require "liana.transitions"
 
 local check = {}
 
@@ -150,8 +150,8 @@ end
 -- What depends on the steps together: what comes after each, and what each holds.
 local function settle(mission)
   local function where_of(i) return check.step_where(mission, i) end
-  ways.resolve(mission.steps, where_of)
-  ways.settle_holds(mission.steps, where_of)
+  transitions.resolve(mission.steps, where_of)
+  transitions.settle_holds(mission.steps, where_of)
   for i, step in ipairs(mission.steps) do
     for _ in pairs(step.plan and step.hold or {}) do
       refuse(where_of(i), "hold", "something held", "{} beside plan, which turns every angle", "write hold = {}")
@@ -237,7 +237,7 @@ local function described_parts(step)
   return out
 end
 
--- The commands that a step is known to give, as liana.against has found them.
+-- The commands that a step is known to give, as liana.preflight_robot has found them.
 local function described_asks(step)
   local out = {}
   for i, ask in ipairs(step.asks or {}) do out[i] = ask.command end
@@ -256,7 +256,7 @@ local function notes_of(mission)
   local notes, first = {}, {}
   for i, step in ipairs(mission.steps) do
     local where, earlier = check.step_where(mission, i), first[step.name]
-    if step.name == ways.kFinish then notes[#notes + 1] = where .. ": in next, that name is the end of the mission" end
+    if step.name == transitions.kFinish then notes[#notes + 1] = where .. ": in next, that name is the end of the mission" end
     if earlier then
       notes[#notes + 1] = ("%s: step %d has that name, too: no next can lead to either of them"):format(where, earlier)
     end
@@ -276,12 +276,12 @@ function check.describe(mission)
   check.require_mission(mission)
   local steps = {}
   for i, step in ipairs(mission.steps) do
-    local goal = step.goal or { fields = {} } -- as liana.against has found it
+    local goal = step.goal or { fields = {} } -- as liana.preflight_robot has found it
     steps[i] = {
       name = step.name, device = step.device, held_theta = sorted_held(step.hold), time_limit_s = step.time_limit_s,
       on_fail = step.on_fail, confirm = step.confirm, task = step.task, at = step.at, enter = step.enter.text, exit = step.exit.text,
       fail_when = step.fail_when.text, next = described_ways(step), plan = step.plan, start_deg = step.start_deg,
-      goal_deg = step.goal_deg or goal.fields.goal_deg, goal_pose = uses.of(step.run).pose, goal_tip = goal.fields.goal,
+      goal_deg = step.goal_deg or goal.fields.goal_deg, goal_pose = action_requirements.of(step.run).pose, goal_tip = goal.fields.goal,
       goal_hold = goal.fields.hold or held_list(step.hold), goal_at = goal.at, parts = described_parts(step),
       asks = described_asks(step),
       fixtures = type(step.fixtures) == "table" and #step.fixtures > 0 and step.fixtures or nil,

@@ -2,20 +2,21 @@
 -- the text appears when it is not met in time, and what is met when it ends a step.
 -- `arm` is the view of lua/liana/view.lua: the last state, the scene, the robot, and what happened since the step began.
 local geometry = require "liana.geometry"
-local need = require "liana.need"
+local check_argument = require "liana.check_argument"
 local position = require "liana.position"
-local shown = require "liana.shown"
+local format_value = require "liana.format_value"
 
 local conditions = {}
 
 -- A condition of your own: what it says, and a function of arm that returns true when it is met, else false or nothing.
 function conditions.condition(text, met)
-  need("condition", "text", text, "string")
-  need("condition", "met", met, "function")
+  check_argument("condition", "text", text, "string")
+  check_argument("condition", "met", met, "function")
   return { text = text, met = function(arm)
     local is_met = met(arm)
     if is_met ~= nil and type(is_met) ~= "boolean" then
-      error(("condition \"%s\": its function returned %s: allowed true, false or nothing: compare it with something"):format(text, shown(is_met)), 0)
+      local what = 'condition "%s": its function returned %s: allowed true, false or nothing: compare it with something'
+      error(what:format(text, format_value(is_met)), 0)
     end
     if is_met then return true, text end
     return false
@@ -39,7 +40,7 @@ local function condition_in(part, at, text, met)
 end
 
 local function need_conditions(what, list)
-  need(what, "list", list, "table")
+  check_argument(what, "list", list, "table")
   if #list == 0 then error(what .. ": list: empty: allowed one condition or more, such as at_rest(): correct the call", 3) end
   for i, each in ipairs(list) do
     if type(each) ~= "table" or type(each.met) ~= "function" then
@@ -101,9 +102,9 @@ end
 
 -- Every joint setpoint within tolerance_deg (default 0.02) of a named pose of the robot.
 function conditions.at_pose(name, tolerance_deg)
-  need("at_pose", "name", name, "string")
+  check_argument("at_pose", "name", name, "string")
   tolerance_deg = tolerance_deg or 0.02
-  need("at_pose", "tolerance_deg", tolerance_deg, "number over 0")
+  check_argument("at_pose", "tolerance_deg", tolerance_deg, "number over 0")
   return condition_on(name, position(1), "at pose " .. name, function(arm)
     for i, target_deg in ipairs(arm.named_pose(name)) do
       if math.abs(arm.state.setpoint_js_deg[i] - target_deg) > tolerance_deg then return false end
@@ -114,8 +115,8 @@ end
 
 -- The tip within distance_m of where a named pose puts it.
 function conditions.tip_near_pose(name, distance_m)
-  need("tip_near_pose", "name", name, "string")
-  need("tip_near_pose", "distance_m", distance_m, "number over 0")
+  check_argument("tip_near_pose", "name", name, "string")
+  check_argument("tip_near_pose", "distance_m", distance_m, "number over 0")
   return condition_on(name, position(1), ("tip within %g m of pose %s"):format(distance_m, name), function(arm)
     local there = geometry.tip(arm.robot, arm.named_pose(name)).position
     return geometry.distance(arm.tip(), there) <= distance_m
@@ -124,7 +125,7 @@ end
 
 -- The tip within distance_m of the press rod.
 function conditions.tip_near_rod(distance_m)
-  need("tip_near_rod", "distance_m", distance_m, "number over 0")
+  check_argument("tip_near_rod", "distance_m", distance_m, "number over 0")
   return condition_in("rod", position(1), ("tip within %g m of the rod"):format(distance_m), function(arm)
     return geometry.distance(arm.tip_in_drawing(), arm.part_of_scene("rod").position_m) <= distance_m
   end)
@@ -150,9 +151,9 @@ end
 
 -- Something pushes the tip with at least least_N, which is known to sd_N (default 0.6) along every axis.
 function conditions.tip_force(least_N, sd_N)
-  need("tip_force", "least_N", least_N, "number over 0")
+  check_argument("tip_force", "least_N", least_N, "number over 0")
   sd_N = sd_N or 0.6
-  need("tip_force", "sd_N", sd_N, "number over 0")
+  check_argument("tip_force", "sd_N", sd_N, "number over 0")
   if sd_N >= 1 then
     error(("tip_force: sd_N: %g: allowed over 0 and under 1, where forces are told: correct the call"):format(sd_N), 2)
   end
@@ -169,13 +170,13 @@ end
 
 -- The tip at least u_m along the slit, from the base (the mouth is at slit.mouth_u_m).
 function conditions.tip_past(u_m)
-  need("tip_past", "u_m", u_m, "number")
+  check_argument("tip_past", "u_m", u_m, "number")
   return condition_in("slit", position(1), ("tip past u = %g m"):format(u_m), function(arm) return arm.slit_u() >= u_m end)
 end
 
 -- The slit asks for at least `count` planar segments: the point to go from 10+0 to 9+1 to 8+2 variables, found from the slit's mouth.
 function conditions.needs_planar(count)
-  need("needs_planar", "count", count, "number")
+  check_argument("needs_planar", "count", count, "number")
   return condition_in("slit", position(1), ("slit asks for %d planar segments"):format(count), function(arm)
     return arm.state.planar_segments >= count
   end)
@@ -183,7 +184,7 @@ end
 
 -- The tip at most distance_m off the middle plane of the slit.
 function conditions.tip_in_plane(distance_m)
-  need("tip_in_plane", "distance_m", distance_m, "number over 0")
+  check_argument("tip_in_plane", "distance_m", distance_m, "number over 0")
   return condition_in("slit", position(1), ("tip within %g m of the slit plane"):format(distance_m), function(arm)
     return math.abs(arm.slit_offset()) <= distance_m
   end)
@@ -197,7 +198,7 @@ end
 -- The shape asked for by `shape` has arrived: nothing of it is missing, or it has come no nearer for 4 s. At most missing_m [m] may be
 -- missing (any where not given).
 function conditions.shape_settled(missing_m)
-  if missing_m ~= nil then need("shape_settled", "missing_m", missing_m, "number") end
+  if missing_m ~= nil then check_argument("shape_settled", "missing_m", missing_m, "number") end
   local text = missing_m and ("shape settled with at most %g m missing"):format(missing_m) or "shape settled"
   return condition(text, function(arm)
     local shape = arm.state.shape
@@ -213,7 +214,7 @@ end
 
 -- The operator said `what` after this step began.
 function conditions.operator_says(what)
-  need("operator_says", "what", what, "string")
+  check_argument("operator_says", "what", what, "string")
   return condition("operator says " .. what, function(arm)
     local said = arm.state.operator_says
     return said ~= nil and said.what == what and said.tick > arm.begin_tick

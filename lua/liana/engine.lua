@@ -1,11 +1,11 @@
 -- Runs a mission: one call per state from lianad (every command interval), never blocking.
--- boot -> (enter -> confirm -> run) for each step -> finish -> over; which step is next, lua/liana/ways.lua says. Any fault
+-- boot -> (enter -> confirm -> run) for each step -> finish -> over; which step is next, lua/liana/transitions.lua says. Any fault
 -- leads through the step's on_fail to over, with on_fail = "pause" to stuck, and from there on people's word through boot to
 -- the step again; a failure that `next` has a way for leads through recover to that step. People may pause it.
 local check = require "liana.check"
-local people = require "liana.people"
+local operator_control = require "liana.operator_control"
 local view = require "liana.view"
-local ways = require "liana.ways"
+local transitions = require "liana.transitions"
 
 local engine = {}
 
@@ -21,7 +21,7 @@ local kRetry_s = 2 -- between attempts that lianad answers with busy or refused
 
 local Runner = {}
 Runner.__index = Runner
-for name, method in pairs(people.methods) do Runner[name] = method end
+for name, method in pairs(operator_control.methods) do Runner[name] = method end
 
 -- The bindings, remembering in `pending` what lianad has not answered yet.
 local function tracked(commands, pending)
@@ -145,7 +145,7 @@ end
 
 function Runner:send_hold(hold)
   if self.arm.robot.kind == "serial" then return end -- it holds no angles
-  if ways.same_hold(hold, self.current_hold) then return end
+  if transitions.same_hold(hold, self.current_hold) then return end
   local held = {}
   for theta, target_deg in pairs(hold) do held[#held + 1] = { theta = theta, target_deg = target_deg } end
   self:request("hold_theta", { held = held })
@@ -417,7 +417,7 @@ end
 
 -- A fault that only holds the arm leaves it enabled and at rest, as if it had arrived.
 local function held_by_fault(runner)
-  local under_way = people.kUnderWay[runner.phase] or runner.phase == "recover" or runner.phase == "finish"
+  local under_way = operator_control.kUnderWay[runner.phase] or runner.phase == "recover" or runner.phase == "finish"
   if not under_way or #runner.arm.state.faults == 0 then return false end
   runner:fail("failed", "fault " .. runner:fault_names())
   return true
@@ -432,7 +432,8 @@ end
 local kBootRetry = { busy = true, refused = true }
 
 local kPhases = {
-  boot = boot, enter = enter, confirm = people.wait, paused = people.wait, stuck = people.wait_stuck, run = run, recover = recover, finish = finish,
+  boot = boot, enter = enter, confirm = operator_control.wait, paused = operator_control.wait, stuck = operator_control.wait_stuck,
+  run = run, recover = recover, finish = finish,
   retract = retract, give_up = give_up,
 }
 
@@ -471,7 +472,7 @@ function Runner:on_answer(message)
     self.failed_reason = self.failed_reason .. "; " .. reason
     return self:enter_phase("give_up")
   end
-  if people.kUnderWay[self.phase] then return self:fall_short("refused", reason) end
+  if operator_control.kUnderWay[self.phase] then return self:fall_short("refused", reason) end
   self:fail("refused", reason)
 end
 

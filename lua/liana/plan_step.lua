@@ -4,7 +4,7 @@
 local check = require "liana.check"
 local conditions = require "liana.conditions"
 local refuse = require "liana.refuse"
-local uses = require "liana.uses"
+local action_requirements = require "liana.action_requirements"
 
 local plan_step = { kAtStart_deg = 1.0 } -- of every theta from the first waypoint, as lianad takes a path
 local kArrived_deg = 0.02
@@ -55,7 +55,8 @@ local function fill(step, plan, where)
   local at_start = within(waypoints_deg[1], plan_step.kAtStart_deg, ("arm within %g deg of the plan's start"):format(plan_step.kAtStart_deg))
   step.start_deg, step.goal_deg = waypoints_deg[1], waypoints_deg[count]
   step.enter = step.enters_when and conditions.all { step.enters_when, at_start } or at_start
-  step.run = uses.noted(function(arm) arm.move_path(fields) end, { action = action, command = "move_path", fields = fields, at = step.at })
+  local note = { action = action, command = "move_path", fields = fields, at = step.at }
+  step.run = action_requirements.noted(function(arm) arm.move_path(fields) end, note)
   step.exit = conditions.all { within(step.goal_deg, kArrived_deg, "at the last waypoint"), path_ended, conditions.at_rest() }
 end
 

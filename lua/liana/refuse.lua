@@ -1,6 +1,6 @@
 -- Refuses a mission: where, field, value, what is allowed, what to do.
-local shown = require "liana.shown"
+local format_value = require "liana.format_value"
 
 return function(where, field, value, allowed, advice)
-  error(where .. ": " .. field .. ": " .. shown(value) .. ": allowed " .. allowed .. ": " .. advice, 0)
+  error(where .. ": " .. field .. ": " .. format_value(value) .. ": allowed " .. allowed .. ": " .. advice, 0)
 end

@@ -157,7 +157,7 @@ Json described_files(const Loaded& loaded) {
 void check_against_robot(Script& script, const Against& against, Looks looks) {
   lua_State* state = script.state();
   RobotAtHand robot{api::request_bounds(against.robot), serial_arm(against)};
-  script.require("liana.against");
+  script.require("liana.preflight_robot");
   lua_pushvalue(state, -2);
   push_in_protection(script, against.robot);
   lua_pushcfunction(state, push_refusal_protected);

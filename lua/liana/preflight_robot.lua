@@ -1,10 +1,10 @@
 -- Checks a mission against the robot that shall do it, before anything moves.
-local asked = require "liana.asked"
+local preflight_requests = require "liana.preflight_requests"
 local check = require "liana.check"
 local plan_step = require "liana.plan_step"
 local refuse = require "liana.refuse"
-local uses = require "liana.uses"
-local ways = require "liana.ways"
+local action_requirements = require "liana.action_requirements"
+local transitions = require "liana.transitions"
 
 -- `where` with the line of the call at `at`, where that is known, in place of the step's own.
 local function at_call(where, at, own)
@@ -31,7 +31,7 @@ local function accepted(where, robot, refusal_of, command, fields)
 end
 
 local function action_suits(where, field, action, own, robot, refusal_of)
-  local use = uses.of(action)
+  local use = action_requirements.of(action)
   where = at_call(where, use.at, own)
   has_pose(where, field, use.pose, robot)
   if not use.command then return end
@@ -64,11 +64,11 @@ end
 
 -- What a function of the script's own asks for without looking at the arm is looked at like an action's.
 local function what_is_asked_suits(where, step, robot, refusal_of, attempt)
-  step.asks = asked.of(step.run, robot, attempt)
+  step.asks = preflight_requests.of(step.run, robot, attempt)
   for _, ask in ipairs(step.asks) do
     local where_asked = ("%s: run: %s"):format(at_call(where, ask.at, step.at), ask.action)
     accepted(where_asked, robot, refusal_of, ask.command, ask.fields)
-    if asked.is_goal(ask) then
+    if preflight_requests.is_goal(ask) then
       step.goal = ask
       held_on_the_way_fit(where_asked, ask.fields.hold or {}, robot)
     end
@@ -94,14 +94,14 @@ end
 
 -- Where a step leaves the arm, as far as that is known before: the angles of an action, or the end of a plan.
 local function end_of(step, robot)
-  local use = uses.of(step.run)
+  local use = action_requirements.of(step.run)
   return step.goal_deg or use.pose and robot.named_poses_deg[use.pose] or use.command == "move_jp" and use.fields.goal_deg or nil
 end
 
 -- A plan begins where the steps before it end.
 local function leads_to_plans(mission, i, robot)
   local step, before = mission.steps[i], end_of(mission.steps[i], robot)
-  for _, target in ipairs(before and ways.followers(mission.steps, i) or {}) do
+  for _, target in ipairs(before and transitions.followers(mission.steps, i) or {}) do
     local plan = mission.steps[target]
     for theta, start_deg in ipairs(plan and plan.start_deg or {}) do
       if math.abs(start_deg - before[theta]) > plan_step.kAtStart_deg then

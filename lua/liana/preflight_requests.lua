@@ -1,7 +1,7 @@
 -- What a step's `run` asks the arm for, as far as that is known before anything moves: what an action says, and what a
 -- function of arm asks for before it looks at anything but the robot. What is computed stays for its time.
 local position = require "liana.position"
-local uses = require "liana.uses"
+local action_requirements = require "liana.action_requirements"
 local view = require "liana.view"
 
 local asked = {}
@@ -22,7 +22,7 @@ end
 
 -- Of an action: what it says, with the angles of a pose.
 local function said(action, robot)
-  local use = uses.of(action)
+  local use = action_requirements.of(action)
   if use.pose then
     return { action = use.action, command = use.command, fields = { goal_deg = robot.named_poses_deg[use.pose] }, at = use.at }
   end
@@ -62,7 +62,7 @@ end
 -- What `run` asks for, in turn: { action, command, fields, at }. With `attempt`, which is pcall with a budget of its own, a
 -- function of the script's own is called to find out.
 function asked.of(run, robot, attempt)
-  if uses.of(run).command then return { said(run, robot) } end
+  if action_requirements.of(run).command then return { said(run, robot) } end
   return attempt and heard_from(run, robot, attempt) or {}
 end
 
