@@ -9,7 +9,7 @@ namespace liana::bench {
 
 namespace {
 
-constexpr int kMostRounds = 500;
+constexpr int kMaxDistanceRounds = 500;
 constexpr double kRounding = 1e-13;  // of squares
 
 // Corners whose plane, line or point is looked at, and the weights of a point in it.
@@ -83,7 +83,7 @@ double hull_distance_m(const Vec3& a, const Vec3& b, const std::vector<Vec3>& po
   corral.weight[0] = 1.0;
   corral.count = 1;
   Vec3 nearest = corral.corner[0];
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxDistanceRounds; ++round) {
     Vec3 least = corral.corner[0];
     for (const Vec3& point : points)
       for (const Vec3& corner : {a - point, b - point})

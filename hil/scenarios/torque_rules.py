@@ -8,7 +8,7 @@ import predicates
 kRamp_s = 0.1  # from rated torque to none
 kRounding_permille = 2  # of both ends
 kRated_permille = 1000
-kMostRateShare = 1.2  # of a joint's rate: what leads it back to its target may be quicker than what is planned
+kMaxRateShare = 1.2  # of a joint's rate: what leads it back to its target may be quicker than what is planned
 kStill = 0.01  # of a joint's rate
 kGearSwing_deg = 0.2  # of a joint behind a closed brake: its gear is a spring
 
@@ -39,7 +39,7 @@ def told(traffic, robot, period_s):
     """
     complaints = []
     for node, commands in sorted(traffic.commands.items()):
-        most_counts_s = kMostRateShare * fastest_counts_s(robot, node) + predicates.kRoundingCounts
+        most_counts_s = kMaxRateShare * fastest_counts_s(robot, node) + predicates.kRoundingCounts
         for before, now in zip(commands, commands[1:]):
             if not (predicates.is_enabling(before) and predicates.is_enabling(now)):
                 continue

@@ -4,7 +4,7 @@ import collections
 kReportBytes = 8  # as TPDO 1 is mapped; others are not taken
 kOfReports = 0x180
 kUnheard = 1000000
-kMostAge = 60000  # what the core counts up to
+kMaxAge = 60000  # what the core counts up to
 kLate = 2  # ticks that a report may take from the wire to the core
 
 
@@ -46,7 +46,7 @@ def wrong_ages(ticks, arrivals, left_out=()):
         for now in ticks:
             youngest, oldest = (found[now.tick - ticks[0].tick] for found in (least, most))
             # What waited while the core stood still it takes for new when it goes on; 2001 is latched then.
-            if not min(youngest - now.lost_ticks, kMostAge) <= now.age[drive] <= oldest + kLate:
+            if not min(youngest - now.lost_ticks, kMaxAge) <= now.age[drive] <= oldest + kLate:
                 complaints.append(
                     f"tick {now.tick}: the core takes drive {drive}'s report to be {now.age[drive]} ticks old; the wire"
                     f" shows {youngest} to {oldest}"

@@ -10,7 +10,7 @@ local move_to, at_pose, at_rest = liana.move_to, liana.at_pose, liana.at_rest
 
 -- Numbers to tune.
 local kTolerance_deg = 0.5
-local kMostTension_N = 100 -- beyond it a look is given up
+local kMaxTension_N = 100 -- beyond it a look is given up
 local kCalm_N = 60 -- up to it the arm goes home at full rate
 local kLooksAgain = 2
 local kGentleRate_deg_s = 1
@@ -49,7 +49,7 @@ return liana.mission "lab_search" {
     device = "none",
     run = parts.sway("look", 2, 3), -- angle 2 by 3 deg, to the other side every time
     exit = all { at_rest(), parts.after_s(1) },
-    fail_when = parts.tension_over(kMostTension_N),
+    fail_when = parts.tension_over(kMaxTension_N),
     time_limit_s = 60,
     on_fail = "retract",
     next = {

@@ -25,7 +25,7 @@ from console_client import HEADER, Console, kAnsweredTogether  # noqa: E402
 kSeconds = 20.0
 kPaused_s = 8.0
 kFresh_s = 0.1  # of arm time, which in paced time is wall clock
-kMostCore_percent, kMostResident_MB, kMostStale = 2.0, 16.0, 4
+kMaxCore_percent, kMaxResident_MB, kMaxStale = 2.0, 16.0, 4
 
 
 class Watched(Console):
@@ -195,10 +195,10 @@ def figures(address, process, count):
 
 def told(values):
     rows = [
-        ["processor, % of a core", f"{values['core_percent']:.2f}", kMostCore_percent],
-        ["resident memory at most, MB", f"{values['resident_MB']:.1f}", kMostResident_MB],
+        ["processor, % of a core", f"{values['core_percent']:.2f}", kMaxCore_percent],
+        ["resident memory at most, MB", f"{values['resident_MB']:.1f}", kMaxResident_MB],
         ["records a client and second", f"{values['hz']:.1f}", "50"],
-        [f"stale records after {kPaused_s:g} s without reading", values["stale"], kMostStale],
+        [f"stale records after {kPaused_s:g} s without reading", values["stale"], kMaxStale],
         ["the oldest of them, s", f"{values['oldest_s']:.2f}", ""],
         ["age of the first that was fresh, s", f"{values['first_fresh_s']:.3f}", kFresh_s],
         *[

@@ -60,7 +60,7 @@ struct Result {
   int ticks = 0;           // until it was latched
   double contact_N = 0.0;  // largest
   double contact_s = 0.0;  // when
-  double least_clearance_m = 1e3;
+  double min_clearance_m = 1e3;
   double half_second_mm = 0.0, largest_mm = 0.0;  // how far a node was from where the sound arm was
   double rest_s = 0.0;                            // last time any node was faster than kRest_m_s
   int state = 0;
@@ -95,7 +95,7 @@ Result watch(ArmUnderControl& arm, const Kind& kind, std::size_t cable, Way* sou
     const double now_s = (age + 1) * arm.table().tick_s;
     const double contact_N = arm.plant().take_load().contact_N;
     if (contact_N > result.contact_N) result.contact_N = contact_N, result.contact_s = now_s;
-    result.least_clearance_m = std::min(result.least_clearance_m, arm.plant().slit_clearance_m());
+    result.min_clearance_m = std::min(result.min_clearance_m, arm.plant().slit_clearance_m());
     const Nodes nodes = nodes_of(arm);
     Nodes from = nodes;
     for (std::size_t n = 0; n < nodes.size(); ++n) {
@@ -138,7 +138,7 @@ void try_all(ArmUnderControl& arm, int seed, double at_s, const char* only) {
         std::printf(
             "%-26s seed %3d at %6.1f s cable %2zu: %d after %d, contact %5.2f N @ %.2f, clear %5.1f mm, moved "
             "%5.1f / %5.1f mm, rest %.2f s, state %d\n",
-            kind.name, seed, at_s, cable, r.fault, r.ticks, r.contact_N, r.contact_s, 1000.0 * r.least_clearance_m,
+            kind.name, seed, at_s, cable, r.fault, r.ticks, r.contact_N, r.contact_s, 1000.0 * r.min_clearance_m,
             r.half_second_mm, r.largest_mm, r.rest_s, r.state);
         std::fflush(stdout);
         _exit(0);

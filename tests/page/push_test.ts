@@ -1,11 +1,11 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import type { Facts, Push } from '../../host/apps/web/src/data/sample';
-import { told_changes, with_told_changes } from '../../host/apps/web/src/data/told_changes';
+import { derived_events, with_told_changes } from '../../host/apps/web/src/data/derived_events';
 import { Live } from '../../host/apps/web/src/live/live';
 import type { Welcome } from '../../host/apps/web/src/live/protocol';
 import { is_at_site, payload_place } from '../../host/apps/web/src/model/payload_place';
-import { push_lines } from '../../host/apps/web/src/model/push_words';
+import { push_lines } from '../../host/apps/web/src/model/force_control_text';
 import type { Scene, ScenePose } from '../../host/apps/web/src/model/robot';
 import { weight_of } from '../../host/apps/web/src/model/weight';
 import { groups_of } from '../../host/apps/web/src/plots/groups';
@@ -96,7 +96,7 @@ test('the adapter is there once the large arm has carried the small one to it', 
 });
 
 function told(before: Facts, now: Facts): string[] {
-  return told_changes(before, now, 7, 3).map((e) => `${e.kind}: ${e.text}${weight_of(e) === 'note' ? '' : '!'}`);
+  return derived_events(before, now, 7, 3).map((e) => `${e.kind}: ${e.text}${weight_of(e) === 'note' ? '' : '!'}`);
 }
 
 test('what changes of servo, push and adapter are events, and those that went wrong are warnings', () => {

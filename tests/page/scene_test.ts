@@ -6,7 +6,7 @@ import { scale_of, tension_colour } from '../../host/apps/web/src/model/tension_
 import { moved, rotated, turn_between } from '../../host/apps/web/src/model/vector';
 import { FramePace, FrameTurns } from '../../host/apps/web/src/scene/frame_pace';
 import { write_camera_frame } from '../../host/apps/web/src/scene/tip_camera';
-import { push_apart } from '../../host/apps/web/src/scene/push_apart';
+import { spread_labels } from '../../host/apps/web/src/scene/spread_labels';
 import { kArm, near, sample_of } from './support';
 
 const scene = { name: 'x', rod: { position_m: [3, 0, 0] as [number, number, number], radius_m: 0.01 } };
@@ -54,7 +54,7 @@ test('the pitch budget is 0.32 deg with one segment in the slit and 0.084 deg wi
 
 test('labels are pushed apart, the first stays, all are inside the picture and beside what is taken', () => {
   const areas = [0, 1, 2, 3].map((i) => ({ x: 100 + i, y: 100, width: 80, height: 18 }));
-  push_apart(areas, 300, 200, [{ x: 90, y: 125, width: 100, height: 20 }]);
+  spread_labels(areas, 300, 200, [{ x: 90, y: 125, width: 100, height: 20 }]);
   assert.deepEqual([areas[0].x, areas[0].y], [100, 100]);
   const all = [...areas, { x: 90, y: 125, width: 100, height: 20 }];
   for (const a of all)

@@ -3,7 +3,7 @@ the worst of all.
 """
 
 kWorstWakeup_us = {"idle": 25, "loaded": 50, "console": 50}
-kLeastMoving = 0.5  # share of the time; the tip turns round now and then
+kMinMoving = 0.5  # share of the time; the tip turns round now and then
 kAgree_us = 10  # between any two runs, in every figure
 kTimes = ("wakeup_us", "tick_us")
 kFigures = ("median", "p99", "worst")
@@ -15,10 +15,8 @@ def judge_run(run):
         return run["error"]
     half_us = 5e5 / run["rate_hz"]
     wrong = [] if run["enabled"] else [f"the arm was not enabled all the time; faults: {run.get('faults', [])}"]
-    if run["moving"] < kLeastMoving:
-        wrong.append(
-            f"the arm moved for {100 * run['moving']:.0f} % of the time, asked for are {100 * kLeastMoving:.0f}"
-        )
+    if run["moving"] < kMinMoving:
+        wrong.append(f"the arm moved for {100 * run['moving']:.0f} % of the time, asked for are {100 * kMinMoving:.0f}")
     for value, allowed, words in (
         (run["overruns"], 0, "overruns"),
         (run["wakeup_us"]["worst"], kWorstWakeup_us[run["load"]], "us worst wake-up"),

@@ -21,7 +21,7 @@ GUEST = SCENARIOS / "guest.py"
 RUN_IN_VM = SOURCE / "hil" / "vm" / "run_in_vm"
 kTimeout_s = 1500  # of wall time for one guest; half a minute to two minutes on a free machine
 kGuests = 2  # at a time; each takes one processor
-kMostPerGuest = 10  # scenarios in one boot
+kMaxPerGuest = 10  # scenarios in one boot
 # Program -> the Debian package it comes from; the guest sees this machine's files.
 kPrograms = {
     "tc": "iproute2",
@@ -234,7 +234,7 @@ def run_all(items, report, runs):
     native = has_can()
     here = [item for item in items if native and item.runs_here]
     in_vm = [item for item in items if not item.is_latency() and item not in here]
-    guests = chunks(in_vm, min(kMostPerGuest, -(-len(in_vm) // kGuests) or 1))
+    guests = chunks(in_vm, min(kMaxPerGuest, -(-len(in_vm) // kGuests) or 1))
     measured = [
         ([item for item in items if item.name.startswith(f"latency/{rate}_")], count) for rate, count in runs.items()
     ]

@@ -7,12 +7,13 @@ namespace liana::device {
 std::optional<Capability> Device::hear(std::int64_t now_us) {
   std::string packet;
   while (end_.empty()) {
-    const api::SocketResult result = api::receive_packet(fd_.get(), packet, kMostBytes);
+    const api::SocketResult result = api::receive_packet(fd_.get(), packet, kMaxPacketBytes);
     if (result == api::SocketResult::kWouldBlock) break;
     if (result == api::SocketResult::kClosed) {
       end_ = "connection closed";
-    } else if (++packets_ > kMostPackets) {
-      refuse(std::to_string(kMostPackets) + " packets in a command interval are allowed: send at the rate of hello");
+    } else if (++packets_ > kMaxPacketsPerInterval) {
+      refuse(std::to_string(kMaxPacketsPerInterval) +
+             " packets in a command interval are allowed: send at the rate of hello");
     } else if (auto hello = take(packet, now_us)) {
       return hello;
     }

@@ -18,7 +18,7 @@ namespace liana::device {
 
 class Device {
  public:
-  static constexpr int kMostPackets = 256;                 // in one command interval: 4 kHz of two hands, and more
+  static constexpr int kMaxPacketsPerInterval = 256;       // in one command interval: 4 kHz of two hands, and more
   static constexpr int kMaxRefused = 50;                   // samples in a row
   static constexpr std::int64_t kClockJump_us = 500'000;   // a device's clock goes no further ahead of the arm's
   static constexpr std::int64_t kPatience_us = 2'000'000;  // for its hello

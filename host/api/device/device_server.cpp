@@ -100,7 +100,7 @@ void DeviceServer::drop_unidentified(std::int64_t now_us) {
     if (!device->is_known() && device->end().empty()) strangers.push_back(device.get());
   }
   for (std::size_t i = 0; i < strangers.size(); ++i) {
-    if (strangers.size() - i > kMostStrangers)
+    if (strangers.size() - i > kMaxUnidentified)
       strangers[i]->refuse("made room for others before it said hello");
     else if (now_us - strangers[i]->since_us() > Device::kPatience_us)
       strangers[i]->refuse("did not say hello within 2 s");

@@ -32,9 +32,9 @@ struct DeviceServerEvents {
 
 class DeviceServer {
  public:
-  static constexpr std::size_t kMaxDevices = 8;     // that have said hello
-  static constexpr std::size_t kMostStrangers = 8;  // that have not: the oldest makes room, and each has 2 s
-  static constexpr int kMaxArrivals = 16;           // in one command interval; the others wait
+  static constexpr std::size_t kMaxDevices = 8;       // that have said hello
+  static constexpr std::size_t kMaxUnidentified = 8;  // that have not: the oldest makes room, and each has 2 s
+  static constexpr int kMaxArrivals = 16;             // in one command interval; the others wait
 
   // Listens; `limits` is what every device is welcomed with. Throws std::runtime_error.
   DeviceServer(const DeviceEndpoint& place, const liana_welcome& limits);
@@ -57,7 +57,7 @@ class DeviceServer {
   // The one with this number, or nullptr.
   Device* find(std::uint32_t id) const;
   // What has happened since the last call.
-  std::vector<DeviceServerEvents> take_news() { return std::exchange(news_, {}); }
+  std::vector<DeviceServerEvents> take_events() { return std::exchange(news_, {}); }
 
  private:
   void let_in(std::int64_t now_us);

@@ -29,7 +29,7 @@ bool Driver::receive(std::optional<std::int64_t> now_us) {
   bool has_news = false;
   std::string packet;
   while (is_open()) {
-    const api::SocketResult result = api::receive_packet(fd_.get(), packet, kMostBytes);
+    const api::SocketResult result = api::receive_packet(fd_.get(), packet, kMaxPacketBytes);
     if (result == api::SocketResult::kWouldBlock) break;
     if (result == api::SocketResult::kClosed) {
       close("lianad is gone: the socket of devices was closed by the other end");

@@ -11,7 +11,7 @@
 
 namespace liana::device {
 
-constexpr std::size_t kMostBytes = sizeof(liana_state);  // of the longest packet
+constexpr std::size_t kMaxPacketBytes = sizeof(liana_state);  // of the longest packet
 
 // A packet of which only the header is filled.
 template <class Packet>

@@ -9,8 +9,8 @@
 namespace liana::launcher {
 namespace {
 
-constexpr std::size_t kMostWaypoints = 2000;  // a followed curve has as many as it needs
-constexpr double kRounding_m = 1e-9;          // of angles that became degrees in between
+constexpr std::size_t kMaxPlanRows = 2000;  // a followed curve has as many as it needs
+constexpr double kRounding_m = 1e-9;        // of angles that became degrees in between
 
 void check_scene(const std::string& file, const Json& plan, const config::SceneConfig& scene) {
   const Json& of_plan = plan.member_or_null("inputs").member_or_null("scene");
@@ -38,7 +38,7 @@ void check_digest(const std::string& file, const Json& plan) {
 planner::Path read_waypoints(const config::Field& plan, const cable::RobotParams& table) {
   const auto count = static_cast<std::size_t>(table.theta_count());
   const config::Field rows = plan.at("waypoints_deg");
-  planner::Path path(rows.size(2, kMostWaypoints, "plan a way, not only its end (--waypoints)"));
+  planner::Path path(rows.size(2, kMaxPlanRows, "plan a way, not only its end (--waypoints)"));
   for (std::size_t w = 0; w < path.size(); ++w) {
     rows.element(w).size(count, count, "give an angle for every theta of the robot");
     for (std::size_t k = 0; k < count; ++k) path[w][k] = kDegree * rows.element(w).element(k).number({-180, 180});

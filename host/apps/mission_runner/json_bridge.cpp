@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kDeepest = 24;
 // What one conversion may make: a table that holds one table twice, twenty levels deep, is small in Lua alone.
-constexpr std::size_t kMostBytes = 16u << 20;
+constexpr std::size_t kMaxValueBytes = 16u << 20;
 constexpr std::size_t kValueBytes = 64;  // of each value, about
 
 // One conversion; knows where it is for messages.
@@ -111,7 +111,7 @@ class Reader {
 
   lua_State* state_;
   const std::string& file_;
-  std::size_t left_ = kMostBytes;
+  std::size_t left_ = kMaxValueBytes;
 };
 
 void push_list(lua_State* state, const Json& list) {

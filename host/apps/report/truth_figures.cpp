@@ -79,7 +79,7 @@ std::string in_words(const char* what, const char* relation, double value, doubl
 Criteria criteria_of(const Json& robot, const std::string& physics) {
   Criteria criteria;
   if (!robot.contains("tension")) {
-    criteria.least_clearance_m = 0.0;
+    criteria.required_clearance_m = 0.0;
     return criteria;
   }
   if (physics != "worn") criteria.min_motor_tension_N = robot["tension"]["floor_motor_N"].get<double>();
@@ -163,9 +163,9 @@ std::string judge(Json& report, const Criteria& criteria) {
   if (criteria.max_slit_speed_m_s && report.contains("max_tip_speed_slit_m_s"))
     hold("tip_speed_in_slit", "the true tip's speed in the slit", "m/s", report["max_tip_speed_slit_m_s"],
          *criteria.max_slit_speed_m_s, false);
-  if (criteria.least_clearance_m && report.contains("min_clearance_m"))
+  if (criteria.required_clearance_m && report.contains("min_clearance_m"))
     hold("touches_nothing", "the least true distance to a body of the scene", "m", report["min_clearance_m"],
-         *criteria.least_clearance_m, true);
+         *criteria.required_clearance_m, true);
   return first;
 }
 

@@ -22,9 +22,9 @@ struct Rows {
 // What a success has to keep besides its mission's own goal; what is not set is not asked for.
 struct Criteria {
   std::optional<double> min_motor_tension_N;
-  std::optional<double> least_tension_N;     // anywhere along a cable
-  std::optional<double> max_slit_speed_m_s;  // of the true tip, inside the slit
-  std::optional<double> least_clearance_m;   // true, to any body of the scene
+  std::optional<double> least_tension_N;       // anywhere along a cable
+  std::optional<double> max_slit_speed_m_s;    // of the true tip, inside the slit
+  std::optional<double> required_clearance_m;  // true, to any body of the scene
 };
 
 // The criteria of a robot's table (its JSON) under this physics: a serial arm touches nothing; the motor's only where

@@ -72,7 +72,7 @@ void LineFile::append(std::string line) {
   line += "\n";
   {
     const std::lock_guard lock(mutex_);
-    if (waiting_.size() + line.size() > kMostWaiting) {
+    if (waiting_.size() + line.size() > kMaxWaitingBytes) {
       ++missing_;
       failing_ = true;
       why_ = "the disk is too slow";
@@ -145,7 +145,7 @@ std::size_t LineFile::write_all(std::string_view text, int& reason) {
   if (rotates_ && bytes_ > 0 && bytes_ + text.size() > part_bytes_) begin_part();
   std::size_t done = 0;
   while (done < text.size() && reason == 0) {
-    const bool has_room = !rotates_ || bytes_ == 0 || bytes_ + text.size() <= part_bytes_ + kMostWaiting;
+    const bool has_room = !rotates_ || bytes_ == 0 || bytes_ + text.size() <= part_bytes_ + kMaxWaitingBytes;
     const ssize_t count = has_room ? ::write(fd_, text.data() + done, text.size() - done) : -1;
     if (count >= 0) done += static_cast<std::size_t>(count);
     if (count < 0 && !(has_room && errno == EINTR)) reason = has_room ? errno : EFBIG;

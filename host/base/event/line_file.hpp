@@ -17,8 +17,8 @@ namespace liana::event {
 
 class LineFile {
  public:
-  static constexpr std::size_t kMostWaiting = 1u << 20;   // bytes for the disk; beyond it events are missing
-  static constexpr std::uint64_t kPartBytes = 32u << 20;  // of a part: three of them at most
+  static constexpr std::size_t kMaxWaitingBytes = 1u << 20;  // bytes for the disk; beyond it events are missing
+  static constexpr std::uint64_t kPartBytes = 32u << 20;     // of a part: three of them at most
   static constexpr const char* kFirst = ".first";
   static constexpr const char* kBefore = ".before";
 

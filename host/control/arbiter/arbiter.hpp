@@ -75,7 +75,7 @@ class Arbiter {
   bool has_retracted() const { return retract_state().phase == RetractPhase::kDone; }
   // The verified way back, for a copy that survives lianad.
   PathHistory<Joints<Arm>>& path_history() { return way_out_.path(); }
-  std::vector<RetractEvents> take_way_news() { return way_out_.take_news(); }
+  std::vector<RetractEvents> take_way_news() { return way_out_.take_events(); }
   // The path under way; none.
   std::optional<PathProgress> path() const;
   // What has become of paths since the last call.

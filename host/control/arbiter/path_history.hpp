@@ -11,7 +11,7 @@
 
 namespace liana::arbiter {
 
-constexpr std::size_t kMostPathPoints = 500000;  // 2.7 h of motion at 50 Hz; the oldest go first
+constexpr std::size_t kMaxRetractPoints = 500000;  // 2.7 h of motion at 50 Hz; the oldest go first
 
 template <class Joints>
 struct PathPoint {
@@ -111,7 +111,7 @@ class PathHistory {
   void add(const Point& point) {
     if (!points_.empty() && largest_change(point.joint_rad, points_.back().joint_rad) < kSamePoint_rad) return;
     points_.push_back(point);
-    if (points_.size() <= kMostPathPoints) return;
+    if (points_.size() <= kMaxRetractPoints) return;
     points_.pop_front();
     ++first_;
   }

@@ -18,8 +18,8 @@ constexpr int kCornerPlaces = 8;      // and in a corner
 constexpr double kBend = 0.75;        // of turn / half (rounded_path.hpp)
 constexpr double kCornerShare = 0.7;  // of the acceleration, for going round a corner; the rest for changing pace in it
 constexpr double kSmoothing_s = 0.5;  // of each of two means over time
-constexpr int kMostRounds = 20;       // of slowing down; two or three are needed
-constexpr std::size_t kLookEvery = 5;  // intervals, for what needs kinematics
+constexpr int kMaxSlowdownRounds = 20;  // of slowing down; two or three are needed
+constexpr std::size_t kLookEvery = 5;   // intervals, for what needs kinematics
 
 // Shortest time [s] from a to b, neighbours on the path, by everything that bounds a speed.
 template <class Arm>
@@ -202,7 +202,7 @@ std::vector<double> path_timing(const typename Arm::Table& table, const SpeedZon
   const auto width = static_cast<std::size_t>(std::ceil(kSmoothing_s / interval_s(table)));
   double slower = 1.0;
   std::vector<double> along;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxSlowdownRounds; ++round) {
     along = smoothed(smoothed(sampled(pace, interval_s(table) / slower), width), width);
     const double much = excess<Arm>(table, zone, path, rate_rad_s, along);
     if (much <= 1.0) break;

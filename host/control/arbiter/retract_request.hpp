@@ -56,7 +56,7 @@ class RetractRequest {
   void end(const std::string& why, const Joints<Arm>& joint_rad);
   const RetractState& last_retract() const { return retract_; }
 
-  std::vector<RetractEvents> take_news() { return std::exchange(news_, {}); }
+  std::vector<RetractEvents> take_events() { return std::exchange(news_, {}); }
 
  private:
   static constexpr double kSamePlace_m = 0.005;  // the newest point is preferred to one that is so much nearer

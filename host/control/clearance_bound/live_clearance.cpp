@@ -24,9 +24,9 @@ const char* level_name(Level level) {
   return kNames[static_cast<std::size_t>(level)];
 }
 
-const char* sureness_name(Confidence sureness) {
+const char* confidence_name(Confidence confidence) {
   static constexpr std::array<const char*, 3> kNames{"measured", "camera", "camera lost"};
-  return kNames[static_cast<std::size_t>(sureness)];
+  return kNames[static_cast<std::size_t>(confidence)];
 }
 
 LiveClearance::LiveClearance(const config::RobotConfig& robot, const config::SceneConfig& scene)
@@ -98,10 +98,10 @@ const Claim& LiveClearance::look(std::uint64_t tick, const ThetaVector& measured
   has_looked_ = true;
   const double gone_s = camera_of(scene_).latency_s + kCameraGone_s;
   claim_ = {};
-  claim_.sureness = believed_tick_ ? Confidence::kCamera : Confidence::kMeasured;
+  claim_.confidence = believed_tick_ ? Confidence::kCamera : Confidence::kMeasured;
   if (believed_tick_) {
     claim_.picture_age_s = since_s(*believed_tick_);
-    if (*claim_.picture_age_s > gone_s) claim_.sureness = Confidence::kCameraLost;
+    if (*claim_.picture_age_s > gone_s) claim_.confidence = Confidence::kCameraLost;
   }
   claim_.trouble = arrived_tick_ && since_s(*arrived_tick_) <= kCameraGone_s ? trouble_ : CameraStatus::kNoPicture;
   claim_.clearance = finder_.find(*history_.at(tick), {registration_, believed_tick_.has_value(),

@@ -22,11 +22,11 @@ enum class Confidence : std::uint8_t {
   kCameraLost,  // the registration is that of the last picture that was believed; the bound grows
 };
 // "measured", "camera", "camera lost".
-const char* sureness_name(Confidence sureness);
+const char* confidence_name(Confidence confidence);
 
 struct Claim {
   VerifiedClearance clearance;
-  Confidence sureness = Confidence::kMeasured;
+  Confidence confidence = Confidence::kMeasured;
   std::optional<double> picture_age_s;  // of the last picture that was believed, since its capture
   CameraStatus trouble = CameraStatus::kNone;
   Level level = Level::kFree;

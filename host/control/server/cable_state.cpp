@@ -89,7 +89,7 @@ Json CableArmServer::clearance_json() const {
           {"body", clearance_->body_name()},
           {"link", claim.clearance.link + 1},
           {"where_m", claim.clearance.where_m},
-          {"sure", sureness_name(claim.sureness)},
+          {"sure", confidence_name(claim.confidence)},
           {"picture_age_s", claim.picture_age_s ? Json(*claim.picture_age_s) : Json()},
           {"camera", trouble_name(claim.trouble)},
           {"level", level_name(claim.level)},

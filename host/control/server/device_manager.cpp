@@ -16,7 +16,7 @@ liana_welcome limits(double interval_s, double tip_speed_m_s) {
   out.silence_s = arbiter::kDeviceSilent_s;
   out.min_rate_hz = device::kMinRate_hz;
   out.tip_speed_m_s = tip_speed_m_s;
-  out.max_samples = device::Device::kMostPackets;
+  out.max_samples = device::Device::kMaxPacketsPerInterval;
   return out;
 }
 
@@ -125,7 +125,7 @@ void DeviceManager::tell(const DeviceState& state, const arbiter::TeleopInput& s
 
 std::vector<event::Event> DeviceManager::take_events() {
   std::vector<event::Event> events;
-  for (const device::DeviceServerEvents& news : door_.take_news()) {
+  for (const device::DeviceServerEvents& news : door_.take_events()) {
     events.push_back({.kind = event::EventKind::kDevice,
                       .number = event::number_of(event_of(news.what)),
                       .subject = news.name,

@@ -100,7 +100,7 @@ void RetractPathFile::read(const std::string& robot) {
   }
   const bool is_ours = has_header && header.robot_crc == robot_crc_ && header.joints == joints_ &&
                        header.crc == crc_of(&header, offsetof(Header, crc)) && header.first <= header.end &&
-                       header.end - header.first <= arbiter::kMostPathPoints;
+                       header.end - header.first <= arbiter::kMaxRetractPoints;
   if (!is_ours) header.first = header.end = 0;
   end_ = header.end;
   kept_.first = header.first;
@@ -117,7 +117,7 @@ void RetractPathFile::read(const std::string& robot) {
 
 std::optional<arbiter::WayPoint> RetractPathFile::read_point(std::uint64_t number) const {
   std::vector<std::uint64_t> record(joints_ + 3);
-  const std::uint64_t offset = kHeaderBytes + (number % arbiter::kMostPathPoints) * record_bytes();
+  const std::uint64_t offset = kHeaderBytes + (number % arbiter::kMaxRetractPoints) * record_bytes();
   if (!read_at(fd_, record.data(), record_bytes(), offset)) return std::nullopt;
   if (record[0] != number || record.back() != crc_of(record.data(), record_bytes() - 8)) return std::nullopt;
   arbiter::WayPoint point{record[1] != 0, std::vector<double>(joints_)};
@@ -132,7 +132,7 @@ bool RetractPathFile::write_point(std::uint64_t number, const arbiter::WayPoint&
   std::memcpy(&record[2], point.joint_rad.data(), 8 * joints_);
   record.back() = crc_of(record.data(), record_bytes() - 8);
   return write_at(fd_, record.data(), record_bytes(),
-                  kHeaderBytes + (number % arbiter::kMostPathPoints) * record_bytes());
+                  kHeaderBytes + (number % arbiter::kMaxRetractPoints) * record_bytes());
 }
 
 bool RetractPathFile::write_header(std::uint64_t first, std::uint64_t end) {

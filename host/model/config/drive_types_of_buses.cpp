@@ -5,7 +5,7 @@
 namespace liana::config {
 namespace {
 
-constexpr std::int64_t kMostNodes = 126;
+constexpr std::int64_t kMaxNodeId = 126;
 
 // The type called `name`: evaluating the bus table has put it beside the names
 // (host/apps/mission_runner/drive_tables.hpp).
@@ -27,7 +27,7 @@ void add_types(const Field& table, const Field& entry, const BusesConfig& buses,
   const std::size_t count = nodes.size(1, cable::kMaxCables, "list the node ids of the drives of this type");
   for (std::size_t i = 0; i < count; ++i) {
     const Field field = nodes.element(i);
-    const auto node = static_cast<std::int32_t>(field.integer(1, kMostNodes));
+    const auto node = static_cast<std::int32_t>(field.integer(1, kMaxNodeId));
     if (buses.bus_of_node(node) < 0) field.refuse("a node of one of the buses", "add it to a bus");
     if (!types.emplace(node, type).second) field.refuse("each node once", "decide what it is");
   }

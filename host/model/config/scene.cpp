@@ -55,7 +55,7 @@ SceneSphere read_sphere(const Field& field) {
 }
 
 constexpr std::size_t kMaxConvex = 64;
-constexpr std::size_t kMostBytes = 122880;  // as canonical JSON, all of it: a client gets it in one packet
+constexpr std::size_t kMaxSceneBytes = 122880;  // as canonical JSON, all of it: a client gets it in one packet
 constexpr double kMinThickness_m = 1e-6;
 
 std::vector<Vec3> read_points(const Field& field, std::size_t least, std::size_t most, const char* what_to_do) {
@@ -235,9 +235,9 @@ SceneConfig parse_scene(const std::string& text, const std::string& file) {
   if (json.contains("margins")) out.margins = read_margins(table.at("margins"));
   out.fixtures = json.contains("fixtures") ? read_fixtures(table.at("fixtures")) : slit_fixtures(out.slit, out.rod);
   out.canonical_json = canonical_json(json);
-  if (out.canonical_json.size() > kMostBytes)
+  if (out.canonical_json.size() > kMaxSceneBytes)
     throw std::runtime_error(file + ": " + std::to_string(out.canonical_json.size()) + " bytes as JSON: allowed are " +
-                             std::to_string(kMostBytes) +
+                             std::to_string(kMaxSceneBytes) +
                              ", all bodies together; give fewer bodies or points, or numbers with fewer digits");
   return out;
 }

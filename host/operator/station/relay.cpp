@@ -27,7 +27,7 @@ RelayLine::RelayLine(const haptics::LinkTable& table, std::uint64_t seed, std::u
 void RelayLine::read(int from, std::int64_t now_us) {
   std::string packet;
   while (closed_us_ < 0) {
-    const api::SocketResult result = api::receive_packet(from, packet, device::kMostBytes);
+    const api::SocketResult result = api::receive_packet(from, packet, device::kMaxPacketBytes);
     if (result == api::SocketResult::kWouldBlock) return;
     if (result == api::SocketResult::kClosed) {
       closed_us_ = now_us;

@@ -87,7 +87,7 @@ std::map<Cell, double> heat_cells(const View& view, const std::vector<ReachedPoi
   }
   std::map<Cell, double> means;
   for (const auto& [cell, sum] : sums) {
-    if (sum.second >= kLeastSamples) means[cell] = sum.first / static_cast<double>(sum.second);
+    if (sum.second >= kMinCellSamples) means[cell] = sum.first / static_cast<double>(sum.second);
   }
   return means;
 }

@@ -24,8 +24,8 @@ struct View {
 
 // Mean mobility of the samples seen in each cell, kHeatCell_px wide, counted from the lower left corner of the view.
 constexpr double kHeatCell_px = 8.0;
-constexpr std::size_t kLeastSamples = 3;  // cells with fewer say nothing
-using Cell = std::pair<int, int>;         // row from below, column from the left
+constexpr std::size_t kMinCellSamples = 3;  // cells with fewer say nothing
+using Cell = std::pair<int, int>;           // row from below, column from the left
 std::map<Cell, double> heat_cells(const View& view, const std::vector<ReachedPoint>& samples);
 
 // Classes of mobility, from 0 to the largest mean.

@@ -41,7 +41,7 @@ void Ledger::set_layout(const Json& layout) {
 }
 
 void Ledger::wait(std::function<void()> insert) {
-  if (waiting_.size() >= kMostWaiting) {
+  if (waiting_.size() >= kMaxQueuedWrites) {
     ++lost_;
   } else {
     waiting_.push_back(std::move(insert));
@@ -74,7 +74,7 @@ void Ledger::add(const Gap& gap) {
 }
 
 void Ledger::add_telemetry_file(std::uint64_t first_tick) {
-  if (waiting_.size() < kMostWaiting) ++files_waiting_;
+  if (waiting_.size() < kMaxQueuedWrites) ++files_waiting_;
   wait([this, first_tick, life = life_] { telemetry_file_->run(life, first_tick); });
 }
 

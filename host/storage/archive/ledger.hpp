@@ -26,7 +26,7 @@ struct LedgerLimits {
 class Ledger {
  public:
   // Of rows that wait for a disk that takes no more; beyond it they are counted as lost.
-  static constexpr std::size_t kMostWaiting = 100000;
+  static constexpr std::size_t kMaxQueuedWrites = 100000;
 
   // Opens the archive of this folder, which must exist, or makes it. Throws DatabaseError, also for one that is
   // damaged.

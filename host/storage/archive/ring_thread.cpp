@@ -6,7 +6,7 @@
 namespace liana::archive {
 namespace {
 
-constexpr std::size_t kMostWaiting = 2500;  // 10 s at 250 Hz, 5 MB
+constexpr std::size_t kMaxQueuedWrites = 2500;  // 10 s at 250 Hz, 5 MB
 
 // Around which the Outputs are kept.
 bool is_moment(const Json& message) {
@@ -30,7 +30,7 @@ Gap gap_from(const Json& message) {
 RingThread::RingThread(const std::string& folder, std::uint64_t life, const Life& about, Inbox& recorder)
     : waits_(about.time_mode != "real"),
       recorder_(recorder),
-      inbox_(kMostWaiting),
+      inbox_(kMaxQueuedWrites),
       ring_(folder, life, about, {},
             [this](const Gap& gap) {
               recorder_.put({{}, gap_message(gap)});

@@ -6,7 +6,7 @@ import { after, before, test } from 'node:test';
 import { open_browser, open_page, picture, serious_findings, until } from './browser.mjs';
 import { process_called, screens, start_console } from './system.mjs';
 
-let system, chromium, page, own_name;
+let system, chromium, page, display_name;
 
 before(async () => {
   system = await start_console();
@@ -39,7 +39,7 @@ test('the page shows the running arm, says what it does in one sentence, and loa
 
 test('two clicks bring the arm to where the mouse can move it: take motion, enable', async () => {
   await press('take motion');
-  ({ name: own_name } = await until(page, 'motion is ours', (now) => now.facts.owner === now.name));
+  ({ name: display_name } = await until(page, 'motion is ours', (now) => now.facts.owner === now.name));
   await press('enable');
   await page.waitForFunction(() => document.querySelector('.answer').textContent === 'enable: taken');
   await until(page, 'enabled', (now) => now.facts.state === 'ENABLED');
@@ -120,20 +120,20 @@ test('what lianad refuses is shown with its own words', async () => {
 
 test('somebody else sees the same arm, and cannot take motion from its owner', async () => {
   const other = await open_page(chromium.browser, system.address);
-  await until(other, 'the same owner', (now) => now.facts.owner === own_name);
+  await until(other, 'the same owner', (now) => now.facts.owner === display_name);
   await other.click('[data-action="take motion"]');
   await other.waitForFunction(() => document.querySelector('.answer').classList.contains('bad'));
-  assert.match(await other.textContent('.answer'), new RegExp(`take motion: not_owner: '${own_name}' owns motion`));
+  assert.match(await other.textContent('.answer'), new RegExp(`take motion: not_owner: '${display_name}' owns motion`));
   await other.click('[data-jog="z+"]');
   await other.waitForFunction(() => /step z\+: not_owner/.test(document.querySelector('.answer').textContent));
   await other.close();
 });
 
 test('every browser has a name of its own, and a person gives it another once, also after loading the page again', async () => {
-  assert.match(own_name, /^browser-[0-9a-f]{4}$/);
+  assert.match(display_name, /^browser-[0-9a-f]{4}$/);
   const other = await open_page(chromium.browser, system.address);
   const first = await until(other, 'a name', (now) => now.name !== undefined);
-  assert.notEqual(first.name, own_name);
+  assert.notEqual(first.name, display_name);
   await other.fill('[aria-label="your name"]', 'anna');
   await other.click('button:has-text("call me so")');
   await until(other, 'the new name', (now) => now.name === 'anna');
@@ -186,9 +186,9 @@ test('Escape stops the arm wherever the focus is, and the controller acknowledge
   await page.click('#tab-Steer');
   await page.focus('input.metres');
   await page.keyboard.press('Escape');
-  await until(page, 'the stop in the state', (now) => now.facts.stop?.by === own_name && now.facts.state === 'DISABLED');
+  await until(page, 'the stop in the state', (now) => now.facts.stop?.by === display_name && now.facts.state === 'DISABLED');
   await page.waitForFunction(() => /stop answered after \d+ ms, in force since tick \d+/.test(document.querySelector('.stop-report').textContent));
-  await page.waitForSelector(`.alarm:has-text("emergency stop by ${own_name}")`);
+  await page.waitForSelector(`.alarm:has-text("emergency stop by ${display_name}")`);
   await picture(page, 'console_stopped');
 });
 
@@ -208,10 +208,10 @@ test('the stop button works in every tab and in a narrow window', async () => {
 });
 
 test('an alarm is acknowledged by name and stays as long as its cause', async () => {
-  const alarm = `.alarm:has-text("emergency stop by ${own_name}")`;
+  const alarm = `.alarm:has-text("emergency stop by ${display_name}")`;
   await page.waitForSelector('.alarm-count:has-text("1 alarm")');
   await page.click(`${alarm} button`);
-  await page.waitForSelector(`${alarm}:has-text("seen by ${own_name}")`);
+  await page.waitForSelector(`${alarm}:has-text("seen by ${display_name}")`);
   assert.equal(await page.isVisible('.alarm-count'), false);
 });
 

@@ -9,8 +9,8 @@ import { open_browser, open_page, picture } from './browser.mjs';
 import { cpu_ms, liana, machine_ms, screens, start } from './system.mjs';
 
 const kMeasured_s = 30;
-const kMostYardsticks = 4; // a picture takes 2.5 on a quiet machine, more beside work that takes caches
-const kMostCpu_ms = 33; // a presented frame
+const kMaxYardsticks = 4; // a picture takes 2.5 on a quiet machine, more beside work that takes caches
+const kMaxCpu_ms = 33; // a presented frame
 const kMost_ms = { interval_p99: 40, age_median: 40, age_p99: 100 };
 const kQuietCores = 0.3; // of others, above which nothing can be said about times
 const judges_times = process.argv.includes('--judge-times');
@@ -65,11 +65,11 @@ test('a presented frame costs little CPU while a paced mission runs and everythi
     };
     writeFileSync(join(screens, 'frames.json'), JSON.stringify(table, null, 1));
     console.log(table);
-    assert.ok(table.yardsticks_per_frame <= kMostYardsticks, `${table.yardsticks_per_frame.toFixed(2)} times the fixed computation, allowed ${kMostYardsticks}`);
+    assert.ok(table.yardsticks_per_frame <= kMaxYardsticks, `${table.yardsticks_per_frame.toFixed(2)} times the fixed computation, allowed ${kMaxYardsticks}`);
     if (!judges_times) return;
     assert.ok(others < kQuietCores, `other programs took ${others.toFixed(2)} cores: measure on a machine that does nothing else`);
     const { interval_ms: interval, age_ms: age } = table;
-    assert.ok(table.cpu_ms_per_frame <= kMostCpu_ms, `${table.cpu_ms_per_frame.toFixed(1)} ms of CPU a picture, allowed ${kMostCpu_ms}`);
+    assert.ok(table.cpu_ms_per_frame <= kMaxCpu_ms, `${table.cpu_ms_per_frame.toFixed(1)} ms of CPU a picture, allowed ${kMaxCpu_ms}`);
     assert.ok(interval.p99 <= kMost_ms.interval_p99 && age.median <= kMost_ms.age_median && age.p99 <= kMost_ms.age_p99, JSON.stringify(table));
   } finally {
     await chromium.close();

@@ -9,7 +9,7 @@ import { writeFileSync } from 'node:fs';
 import { open_browser, open_page, picture, serious_findings } from './browser.mjs';
 import { liana, start } from './system.mjs';
 
-const kMostBytes = 750000;
+const kMaxBytes = 750000;
 
 let folder, chromium;
 
@@ -33,7 +33,7 @@ const text = (page, selector) => page.textContent(selector);
 
 test('a crossing leaves one file that shows it from the disk, without any request', async () => {
   const file = await run('crossing', 'slit_crossing');
-  assert.ok(statSync(file).size <= kMostBytes, `${statSync(file).size} bytes`);
+  assert.ok(statSync(file).size <= kMaxBytes, `${statSync(file).size} bytes`);
   const page = await open_page(chromium.browser, pathToFileURL(file).href);
   await page.waitForSelector('.page.run');
   await page.waitForFunction(() => /step 4 of 6/.test(document.querySelector('.sentence').textContent));

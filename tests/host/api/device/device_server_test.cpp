@@ -41,7 +41,7 @@ class AtTheDoor : public testing::Test {
   }
   std::string news() {
     std::string all;
-    for (const DeviceServerEvents& item : door_.take_news()) all += item.text + "; ";
+    for (const DeviceServerEvents& item : door_.take_events()) all += item.text + "; ";
     return all;
   }
 

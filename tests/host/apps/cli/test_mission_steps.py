@@ -63,7 +63,7 @@ class MissionSteps(Messages, unittest.TestCase):
 
     def test_a_look_that_is_given_up_goes_home_gently(self):
         mission = self.copy_of_example()
-        mission.write_text(mission.read_text().replace("kMostTension_N = 100", "kMostTension_N = 5"))
+        mission.write_text(mission.read_text().replace("kMaxTension_N = 100", "kMaxTension_N = 5"))
         code, report, error = self.run_mission(mission, "--scene", "lab_box")
         self.assertEqual((code, report.get("outcome")), (0, "success"), error)
         self.assertEqual([step["name"] for step in report["steps"]][2:], ["look around", "home gently"])

@@ -244,7 +244,7 @@ TEST_F(RunReport, CriteriaAreTheTablesTheMotorsOnlyWhereCablesAreAsPlannedWith) 
   EXPECT_DOUBLE_EQ(*criteria_of(robot, "worn").max_slit_speed_m_s, 0.0315) << "it swings about the 0.03 that are asked";
   const Criteria serial = criteria_of(Json::parse(R"({"kind":"serial"})"), "nominal");
   EXPECT_FALSE(serial.least_tension_N);
-  EXPECT_EQ(serial.least_clearance_m, 0.0);
+  EXPECT_EQ(serial.required_clearance_m, 0.0);
 }
 
 TEST_F(RunReport, TheRodIsWhereTheBenchSaysItReallyIs) {

@@ -114,16 +114,16 @@ TEST(PathHistory, ACopyThatIsToldOfEveryChangeHasWhatItHas) {
 
 TEST(PathHistory, WhatIsRestoredIsNoChangeAndTheOldestGoFirstWhenItIsFull) {
   Path path;
-  std::vector<Path::Point> kept(kMostPathPoints, Path::Point{});
+  std::vector<Path::Point> kept(kMaxRetractPoints, Path::Point{});
   for (std::size_t i = 0; i < kept.size(); ++i) kept[i].joint_rad[0] = static_cast<double>(i);
   path.restore(40, kept);
   EXPECT_FALSE(path.has_change());
   path.note(1, theta(-1.0));
-  EXPECT_EQ(path.size(), kMostPathPoints);
+  EXPECT_EQ(path.size(), kMaxRetractPoints);
   EXPECT_EQ(path.at(0).joint_rad[0], 1.0);
   const PathChange<ThetaVector> change = path.take_change();
   EXPECT_EQ(change.first, 41u);
-  EXPECT_EQ(change.kept, 40u + kMostPathPoints);
+  EXPECT_EQ(change.kept, 40u + kMaxRetractPoints);
   ASSERT_EQ(change.added.size(), 1u);
   EXPECT_EQ(change.added[0].joint_rad[0], -1.0);
 }

@@ -30,7 +30,7 @@ Course course(TrueWorld& world, Spoil spoil, const config::SceneConfig& scene = 
   Course out;
   std::uint64_t tick = 0;
   const auto judge = [&](const Claim& claim, const ThetaVector& measured_rad) {
-    if (has_camera && claim.sureness != Confidence::kCamera) return;
+    if (has_camera && claim.confidence != Confidence::kCamera) return;
     ++out.claims;
     out.above += claim.clearance.distance_m > world.true_clearance_m(measured_rad);
     out.mean_bound_m += claim.clearance.bound_m;
@@ -92,7 +92,7 @@ TEST(Outlook, OfADistanceThatIsFoundByItTheRestIsTrueAlsoWhereTheSceneStandsBesi
     LiveClearance live(zhu2022_config(), scene);
     std::uint64_t tick = 0;
     const auto judge = [&](const Claim& claim, const ThetaVector& measured_rad) {
-      if (claim.sureness != Confidence::kCamera) return;
+      if (claim.confidence != Confidence::kCamera) return;
       const Outlook outlook = live.outlook();
       ThetaVector believed_rad = measured_rad;
       for (std::size_t i = 0; i < believed_rad.size(); ++i) believed_rad[i] += outlook.theta_off_rad[i];
@@ -195,16 +195,16 @@ TEST(LiveClearance, SaysHowSureItIsAndTheBoundGrowsWhenTheCameraIsGone) {
   LiveClearance live(zhu2022_config(), panel_slit());
   std::uint64_t tick = 0;
   const auto ignore = [](const Claim&, const ThetaVector&) {};
-  EXPECT_EQ(live.look(tick, kSlit_rad).sureness, Confidence::kMeasured);
+  EXPECT_EQ(live.look(tick, kSlit_rad).confidence, Confidence::kMeasured);
   EXPECT_FALSE(live.claim().picture_age_s);
   tick += 5;
   travel(live, world, kSlit_rad, kSlit_rad, 100, tick, ignore, nothing_spoiled);
-  EXPECT_EQ(live.claim().sureness, Confidence::kCamera);
+  EXPECT_EQ(live.claim().confidence, Confidence::kCamera);
   EXPECT_EQ(live.claim().trouble, CameraStatus::kNone);
   const double with_m = live.claim().clearance.bound_m;
   const Vec3 shift_m = live.shift_m();
   travel(live, world, kSlit_rad, kSlit_rad, 50, tick, ignore, swallow);
-  EXPECT_EQ(live.claim().sureness, Confidence::kCameraLost);
+  EXPECT_EQ(live.claim().confidence, Confidence::kCameraLost);
   EXPECT_EQ(live.claim().trouble, CameraStatus::kNoPicture);
   EXPECT_GT(*live.claim().picture_age_s, 1.0);
   const double soon_m = live.claim().clearance.bound_m;

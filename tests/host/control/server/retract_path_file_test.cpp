@@ -74,7 +74,7 @@ TEST_F(FileOfTheWay, FollowsWhatIsTakenOffAndAddedAgainInOneLifeAndInTwo) {
 }
 
 TEST_F(FileOfTheWay, IsARingWhoseOldestPointsGoFirst) {
-  const std::uint64_t most = arbiter::kMostPathPoints;
+  const std::uint64_t most = arbiter::kMaxRetractPoints;
   write({{0, 0, std::vector<WayPoint>(most, point(1))}, {2, most, {point(2), point(3)}}});
   const RetractPathFile file(path_, "an arm", 3);
   EXPECT_EQ(file.kept().first, 2u);

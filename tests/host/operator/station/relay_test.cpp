@@ -49,7 +49,7 @@ class Line {
   }
   static std::optional<std::string> next(const api::UniqueFd& fd) {
     std::string packet;
-    if (api::receive_packet(fd.get(), packet, device::kMostBytes) != api::SocketResult::kDone) return std::nullopt;
+    if (api::receive_packet(fd.get(), packet, device::kMaxPacketBytes) != api::SocketResult::kDone) return std::nullopt;
     return packet;
   }
 
@@ -121,7 +121,7 @@ TEST(Relay, WhatIsNoPacketGoesOnForTheOtherEndToRefuse) {
   relay.carry(0);
   relay.carry(100000);
   std::string packet;
-  EXPECT_EQ(api::receive_packet(arm.ours.get(), packet, device::kMostBytes), api::SocketResult::kDone);
+  EXPECT_EQ(api::receive_packet(arm.ours.get(), packet, device::kMaxPacketBytes), api::SocketResult::kDone);
   EXPECT_EQ(packet, "nonsense");
 }
 

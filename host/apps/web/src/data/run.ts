@@ -3,7 +3,7 @@ import { chain_of, type ArmChain } from '../model/arm_chain';
 import type { Robot, Scene } from '../model/robot';
 import type { Facts, LianaEvent, Sample } from './sample';
 import { inflated, telemetry_of, type Telemetry, type TelemetryHead } from './telemetry';
-import { with_told_changes } from './told_changes';
+import { with_told_changes } from './derived_events';
 
 export interface Judged {
   code: number; // M_e; 0: passed

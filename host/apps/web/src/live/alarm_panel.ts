@@ -1,7 +1,7 @@
 // Alarms with cause and next step; each is acknowledged by the name of who has seen it.
 import { h } from '../ui/dom';
 import type { Live } from './live';
-import { own_name } from './own_name';
+import { display_name } from './display_name';
 
 const kPriorities = ['', 'act now', 'act soon', 'know'];
 
@@ -16,7 +16,7 @@ export class AlarmPanel {
     this.element.hidden = alarms.length === 0;
     this.element.replaceChildren(...alarms.map((alarm) => {
       const seen = alarm.acknowledged_by !== '';
-      const name = this.live.welcome?.name ?? own_name();
+      const name = this.live.welcome?.name ?? display_name();
       const button = h('button', { type: 'button', onclick: () => {
         this.live.alarms.acknowledge(alarm.key, name);
         this.changed();

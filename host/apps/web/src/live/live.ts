@@ -1,14 +1,14 @@
 // What is known of the running system: the newest state, facts, events, alarms, and who we are.
 import { RecordReader } from '../data/record';
 import type { Facts, LianaEvent, Sample } from '../data/sample';
-import { told_changes } from '../data/told_changes';
+import { derived_events } from '../data/derived_events';
 import { AlarmBook, conditions_of, type Condition } from '../model/alarms';
 import { History } from './history';
 import type { FromGateway, Welcome } from './protocol';
 import { Rate } from './rate';
 import { StateAge } from './state_age';
 
-const kMostEvents = 1000;
+const kMaxEvents = 1000;
 const kSilent_s = 2; // without a state
 
 export class Live {
@@ -63,14 +63,14 @@ export class Live {
   }
 
   private take_facts(facts: Facts): void {
-    for (const event of told_changes(this.facts, facts, this.reader?.tick ?? 0, this.newest_event)) this.add_event(event);
+    for (const event of derived_events(this.facts, facts, this.reader?.tick ?? 0, this.newest_event)) this.add_event(event);
     this.facts = facts;
   }
 
   private add_event(event: LianaEvent): void {
     ++this.taken_events;
     this.events.push(event);
-    if (this.events.length > kMostEvents) this.events.shift();
+    if (this.events.length > kMaxEvents) this.events.shift();
   }
 
   // Its sequence; null when it is no record of this layout.

@@ -24,13 +24,13 @@ import { Connection } from './connection';
 import { Live } from './live';
 import { LiveEvents } from './live_events';
 import { LivePlots } from './live_plots';
-import { LookBack } from './look_back';
-import { own_name } from './own_name';
+import { LookBack } from './history_scrubber';
+import { display_name } from './display_name';
 import { kProtocol, type FromGateway, type Welcome } from './protocol';
 import { RunList } from './run_list';
 import { StatusBar } from './status_bar';
 import { StopButton } from './stop_button';
-import { Told } from './told';
+import { Told } from './pending_command';
 import { kept_token, token_form } from './token_form';
 
 const kWords_ms = 250; // texts are written anew at most so often
@@ -49,7 +49,7 @@ export class LivePage {
   private readonly stop: StopButton;
   private readonly status: StatusBar;
   private readonly alarms: AlarmPanel;
-  private readonly look_back: LookBack;
+  private readonly history_scrubber: LookBack;
   private readonly sentence = h('p', { class: 'sentence' });
   private readonly told: Told;
   private readonly middle = h('div', { class: 'middle' }, h('p', { class: 'no-scene' }, 'waiting for the arm'));
@@ -67,7 +67,7 @@ export class LivePage {
 
   constructor(url: string) {
     this.connection = new Connection(url, {
-      name: own_name,
+      name: display_name,
       token: kept_token,
       wants_token: (why) => this.middle.replaceChildren(token_form(why, () => this.connection.open())),
       status: (text) => (this.live.status = text),
@@ -85,10 +85,10 @@ export class LivePage {
       this.alarms.update();
       this.words();
     });
-    this.look_back = new LookBack(this.live, () => this.draw());
+    this.history_scrubber = new LookBack(this.live, () => this.draw());
     const header = h('header', { class: 'top' }, h('h1', {}, 'Liana'), this.sentence, this.status.element, this.vr_button, theme_button((theme) => this.build(theme)), this.stop.element);
     const told = h('div', { class: 'told' }, this.told.element, this.stop.report);
-    this.element = h('div', { class: 'page live' }, header, told, this.alarms.element, this.middle, this.look_back.element);
+    this.element = h('div', { class: 'page live' }, header, told, this.alarms.element, this.middle, this.history_scrubber.element);
     document.addEventListener('keydown', (event) => this.key_down(event), { capture: true });
     document.addEventListener('keyup', (event) => this.jogger.release(event.code));
     window.addEventListener('blur', () => this.jogger.let_go());
@@ -122,7 +122,7 @@ export class LivePage {
     this.jogger.let_go();
     this.told.forget();
     this.live.take_welcome(welcome);
-    this.look_back.go_to(null);
+    this.history_scrubber.go_to(null);
     const robot = JSON.stringify([welcome.robot, welcome.scene, welcome.layout]);
     if (robot !== this.robot_shown || !this.plots) this.build(theme_now());
     this.robot_shown = robot;
@@ -143,7 +143,7 @@ export class LivePage {
     this.push_card = new PushCard(welcome.scene);
     const cards = [motion, this.push_card, device, jog, joints, ...(shape ? [shape] : [])];
     const steer = h('div', { class: 'panel' }, ...cards.map(({ element }) => element));
-    const go_to = (time_s: number) => this.look_back.go_to(time_s);
+    const go_to = (time_s: number) => this.history_scrubber.go_to(time_s);
     this.plots = new LivePlots(this.live, welcome, theme, go_to);
     const events = new LiveEvents(this.live, go_to);
     this.panels.push(events);
@@ -196,27 +196,27 @@ export class LivePage {
 
   private record(bytes: ArrayBuffer): number | null {
     const sequence = this.live.take_record(bytes, performance.now() / 1000);
-    if (sequence !== null && this.look_back.time_s === null) this.draw();
+    if (sequence !== null && this.history_scrubber.time_s === null) this.draw();
     return sequence;
   }
 
   // The newest state, or the one that is looked back at.
   private draw(): void {
-    const sample = this.look_back.sample();
+    const sample = this.history_scrubber.sample();
     if (!sample || !this.scene) return;
     if (this.handle) {
-      this.handle.is_enabled = this.live.status === '' && this.live.is_mine && sample.facts.state === 'ENABLED' && this.look_back.time_s === null;
+      this.handle.is_enabled = this.live.status === '' && this.live.is_mine && sample.facts.state === 'ENABLED' && this.history_scrubber.time_s === null;
       this.handle.place(values(sample, 'setpoint_cp'));
       this.scene.tip_label = this.handle.is_enabled && !this.jogger.is_jogging ? 'drag the tip' : '';
     }
-    if (this.look_back.time_s === null) this.scene.trail.add(values(sample, 'measured_cp'));
+    if (this.history_scrubber.time_s === null) this.scene.trail.add(values(sample, 'measured_cp'));
     this.scene.show(sample);
   }
 
   private drawn(now_ms: number): void {
     this.plots?.update(now_ms);
     this.shown_age_s = this.live.age.age_s(performance.now() / 1000);
-    if (!this.measured || this.look_back.time_s !== null) return;
+    if (!this.measured || this.history_scrubber.time_s !== null) return;
     if (Number.isFinite(this.last_frame_ms)) this.measured.intervals_ms.push(now_ms - this.last_frame_ms);
     this.last_frame_ms = now_ms;
     this.measured.ages_ms.push(1000 * this.shown_age_s);
@@ -228,9 +228,9 @@ export class LivePage {
     this.status.update(now_s);
     this.told.update();
     this.stop.update();
-    this.look_back.update();
+    this.history_scrubber.update();
     for (const panel of this.panels) panel.update(now_s);
-    const sample = this.look_back.sample();
+    const sample = this.history_scrubber.sample();
     const { welcome } = this.live;
     if (!sample || !welcome) return set_text(this.sentence, this.live.status);
     if (this.live.sample) this.push_card?.show(this.live.sample);

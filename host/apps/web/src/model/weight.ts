@@ -1,6 +1,6 @@
 // How much an event matters.
 import type { LianaEvent } from '../data/sample';
-import { kTrouble } from '../data/told_changes';
+import { kTrouble } from '../data/derived_events';
 
 export type Weight = 'bad' | 'warning' | 'note';
 

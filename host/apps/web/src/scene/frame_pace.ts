@@ -45,7 +45,7 @@ export class FramePace {
   }
 }
 
-const kMostLate = 0.03; // share of a window's frames whose state was overtaken by a newer one: 50 states come a second
+const kMaxLate = 0.03; // share of a window's frames whose state was overtaken by a newer one: 50 states come a second
 const kEverySecond_ms = 25; // between two frames, to leave out every second turn
 const kSteady_ms = 60000; // then every turn is tried again
 
@@ -72,7 +72,7 @@ export class FrameTurns {
     ++this.frames;
     if (has_missed_one) ++this.late;
     if (now_ms - this.since_ms < kWindow_ms) return;
-    if (this.frames >= kFewest && this.late > kMostLate * this.frames) this.steady_until_ms = now_ms + kSteady_ms;
+    if (this.frames >= kFewest && this.late > kMaxLate * this.frames) this.steady_until_ms = now_ms + kSteady_ms;
     this.since_ms = NaN;
     this.frames = this.late = 0;
   }

@@ -1,6 +1,6 @@
 // Words on the things of the scene: at most five, pushed apart, inside the picture.
 import { h, set_text } from '../ui/dom';
-import { push_apart, type Area } from './push_apart';
+import { spread_labels, type Area } from './spread_labels';
 import type { Stage } from './stage';
 
 const kMost = 5;
@@ -29,7 +29,7 @@ export class Labels {
       if (seen.length === kMost) break;
     }
     const areas = seen.map(({ label, at }) => ({ x: at[0] + 10, y: at[1] - 28, width: 7.2 * label.text.length + 10, height: 18 }));
-    push_apart(areas, width, height, taken);
+    spread_labels(areas, width, height, taken);
     this.tags.forEach((tag, i) => {
       tag.hidden = i >= seen.length;
       if (tag.hidden) return;

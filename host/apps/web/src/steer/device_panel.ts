@@ -1,7 +1,7 @@
 // Which device steers, how its motion is mapped, and what is left of the room: clearance and pitch budget.
 import { value, values } from '../data/sample';
 import type { Live } from '../live/live';
-import type { Ask } from '../live/told';
+import type { Ask } from '../live/pending_command';
 import { pitch_budget } from '../model/pitch_budget';
 import { hardware_text } from '../model/hardware';
 import { length_text } from '../model/sentence';

@@ -1,7 +1,7 @@
 // The tip by buttons: a short press is a step along a verified line, a long one jogs while it is held.
 import { is_known, values } from '../data/sample';
 import type { Live } from '../live/live';
-import type { Ask } from '../live/told';
+import type { Ask } from '../live/pending_command';
 import { moved } from '../model/vector';
 import { h } from '../ui/dom';
 import type { Jogger } from './jogger';

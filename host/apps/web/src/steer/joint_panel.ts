@@ -3,7 +3,7 @@
 import { values } from '../data/sample';
 import type { Live } from '../live/live';
 import type { Welcome } from '../live/protocol';
-import type { Ask } from '../live/told';
+import type { Ask } from '../live/pending_command';
 import { angle_count, angle_name, angle_range_deg } from '../model/robot';
 import { segment_colour } from '../scene/palette';
 import { h, set_text } from '../ui/dom';

@@ -1,8 +1,8 @@
 // Who moves the arm, and the buttons of its operating states, each with what it will do.
 import type { Connection } from '../live/connection';
 import type { Live } from '../live/live';
-import { NameForm } from '../live/own_name';
-import type { Ask } from '../live/told';
+import { NameForm } from '../live/display_name';
+import type { Ask } from '../live/pending_command';
 import { h, set_class, set_text } from '../ui/dom';
 import { kActions, role_blocked, type Action } from './actions';
 

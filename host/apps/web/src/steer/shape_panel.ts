@@ -1,7 +1,7 @@
 // Shape of a cable arm: where a node should be while the tip stays, and pitch angles that are held.
 import { value, values } from '../data/sample';
 import type { Live } from '../live/live';
-import type { Ask } from '../live/told';
+import type { Ask } from '../live/pending_command';
 import type { CableRobot } from '../model/robot';
 import { h, set_text } from '../ui/dom';
 

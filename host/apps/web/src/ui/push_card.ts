@@ -1,6 +1,6 @@
 // The card of an arm that pushes a payload or is led by its camera; not there for others.
 import type { Sample } from '../data/sample';
-import { push_lines } from '../model/push_words';
+import { push_lines } from '../model/force_control_text';
 import type { Scene } from '../model/robot';
 import { h, set_text } from './dom';
 

@@ -1,6 +1,6 @@
 // What was last asked of the arm, and what became of it: taken, until the controller says how it ended.
 import type { LianaEvent } from '../data/sample';
-import { ending_of, refusal_words, type Taken } from '../model/ending';
+import { ending_of, refusal_words, type Taken } from '../model/outcome_text';
 import { h, set_text } from '../ui/dom';
 import type { Connection } from './connection';
 import type { Live } from './live';

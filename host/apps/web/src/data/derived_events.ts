@@ -50,7 +50,7 @@ function of_payload({ payload: before }: Facts, { payload: now }: Facts): Change
 }
 
 // Between two states; none where one of them does not tell of it.
-export function told_changes(before: Facts, now: Facts, tick: number, sequence: number): LianaEvent[] {
+export function derived_events(before: Facts, now: Facts, tick: number, sequence: number): LianaEvent[] {
   const all = [of_payload, of_servo, of_push, of_adapter].flatMap((changes_of) => changes_of(before, now));
   return all.map((each) => ({ ...each, sequence, tick, subject: '', values: {} }));
 }
@@ -60,6 +60,6 @@ export function with_told_changes(
   events: readonly LianaEvent[],
   facts: readonly { tick: number; state: Facts }[],
 ): LianaEvent[] {
-  const told = facts.slice(1).flatMap(({ tick, state }, i) => told_changes(facts[i].state, state, tick, 0));
+  const told = facts.slice(1).flatMap(({ tick, state }, i) => derived_events(facts[i].state, state, tick, 0));
   return [...events, ...told].sort((a, b) => a.tick - b.tick);
 }

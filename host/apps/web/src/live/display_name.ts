@@ -4,13 +4,13 @@ import type { Connection } from './connection';
 import type { Live } from './live';
 
 const kKey = 'liana-name';
-const kMostBytes = 32;
+const kMaxBytes = 32;
 
 // Why nobody can be called so; empty: it is a name.
 export function name_problem(name: string): string {
   const bytes = new TextEncoder().encode(name).length;
-  if (bytes >= 1 && bytes <= kMostBytes && !/[\u0000-\u001f\u007f]/.test(name)) return '';
-  return `A name has 1 to ${kMostBytes} bytes without control characters; this one has ${bytes}.`;
+  if (bytes >= 1 && bytes <= kMaxBytes && !/[\u0000-\u001f\u007f]/.test(name)) return '';
+  return `A name has 1 to ${kMaxBytes} bytes without control characters; this one has ${bytes}.`;
 }
 
 function keep(name: string): void {
@@ -35,7 +35,7 @@ function invented_name(): string {
 
 // The name that was given in this browser; until then one like browser-3f2a, which is kept, too.
 let name = '';
-export function own_name(): string {
+export function display_name(): string {
   name ||= kept() ?? '';
   if (name_problem(name) !== '') keep((name = invented_name()));
   return name;
@@ -47,7 +47,7 @@ export class NameForm {
   private readonly hint = h('span', { class: 'hint' });
 
   constructor(private readonly live: Live, private readonly connection: Connection) {
-    this.field.value = own_name();
+    this.field.value = display_name();
     this.element = h('form', { class: 'filter', 'aria-label': 'Your name', onsubmit: (event: SubmitEvent) => this.submit(event) },
       h('label', {}, 'your name ', this.field), h('button', { type: 'submit' }, 'call me so'), this.hint);
     this.element.hidden = live.welcome?.ticket !== undefined; // whoever has proven a token is called by its name
@@ -58,7 +58,7 @@ export class NameForm {
     const wanted = this.field.value.trim();
     const why = name_problem(wanted) || (this.live.is_mine ? 'Give back motion first: a new name is a new connection.' : '');
     set_text(this.hint, why);
-    if (why || wanted === own_name()) return;
+    if (why || wanted === display_name()) return;
     keep((name = wanted));
     this.connection.again();
   }

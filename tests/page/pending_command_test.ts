@@ -1,10 +1,10 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import type { Facts, LianaEvent } from '../../host/apps/web/src/data/sample';
-import { name_problem } from '../../host/apps/web/src/live/own_name';
+import { name_problem } from '../../host/apps/web/src/live/display_name';
 import type { Alarm } from '../../host/apps/web/src/model/alarms';
 import { alarm_badge, owner_badge, state_badge } from '../../host/apps/web/src/model/badges';
-import { ending_of, refusal_words, type Ending, type Taken } from '../../host/apps/web/src/model/ending';
+import { ending_of, refusal_words, type Ending, type Taken } from '../../host/apps/web/src/model/outcome_text';
 import { hardware_text } from '../../host/apps/web/src/model/hardware';
 import { sample_of } from './support';
 
