@@ -25,10 +25,7 @@ ASIDE = (
     "tests/structure",
 )
 KNOWN = {  # file: how many sentences it may quote, and why
-    "tests/host/planning/error_budget/test_budget_command.py": (
-        2,
-        "names that the budget of the paper gives its terms",
-    ),
+    "tests/host/planning/error_budget/test_budget_command.py": (2, "names of terms in the budget of the paper"),
     "tests/host/base/json/message_test.cpp": (5, "messages on which the comparison of facts is tried"),
     "tests/host/api/python/recordings_test.py": (1, "a comment line that the reader of events has to skip"),
     "tests/host/socketcan/socketcan_test.cpp": (2, "commands that the test gives to the shell"),
