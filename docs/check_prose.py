@@ -20,7 +20,7 @@ def pages():
         ROOT / "CONTRIBUTING.md",
         ROOT / "CHANGELOG.md",
         *docs,
-        *(ROOT / "host").glob("**/README.md"),
+        *(ROOT / "host").glob("*/README.md"),
     ]
 
 
