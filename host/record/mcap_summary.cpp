@@ -32,7 +32,7 @@ std::string OpenChunk::content() const {
   put(out, start_ns);
   put(out, end_ns);
   put(out, static_cast<std::uint64_t>(records.size()));
-  put(out, crc_of(records));
+  put(out, record::crc_of(records));
   put_text(out, record::compression_name());
   const std::string compressed = record::compress(records);
   put(out, static_cast<std::uint64_t>(compressed.size()));
@@ -107,7 +107,7 @@ std::string Summary::bytes(std::uint64_t start) const {
   put(out, static_cast<std::uint64_t>(kFooterBytes));
   put(out, start);
   put(out, offsets_start);
-  put(out, crc_of(out));
+  put(out, record::crc_of(out));
   return out;
 }
 
