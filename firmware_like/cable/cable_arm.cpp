@@ -279,7 +279,7 @@ void CableArm::damp_payouts(bool tensions_valid, CableVector& wanted_m) noexcept
   if (tensions_valid) {
     // A cable stretches in proportion to its tension (to 0.3 %); as planned it is stretched by the path less the
     // unstretched length.
-    CableVector stretch_m;
+    CableVector stretch_m{};
     for (Index c = 0; c < cables(); ++c) {
       const double planned_N = larger(pull_N_[c], table_.tension.floor_anywhere_N);
       const double planned_m = model_.geometry.length_m[c] + table_.lead_m - wanted_m[c];

@@ -37,7 +37,7 @@ struct Chain::Engine {
 
 namespace {
 
-Vec3 at(const mjtNum* values, std::size_t i) { return {values[3 * i], values[3 * i + 1], values[3 * i + 2]}; }
+Vec3 row_of(const mjtNum* values, std::size_t i) { return {values[3 * i], values[3 * i + 1], values[3 * i + 2]}; }
 
 }  // namespace
 
@@ -119,8 +119,8 @@ const std::vector<Contact>& Chain::contacts() {
     const double sign = body1 == 0 ? 1.0 : -1.0;
     Contact contact;
     contact.link = static_cast<std::size_t>(body1 == 0 ? body2 : body1) - 1;
-    contact.point_m = at(found.pos, 0);
-    contact.normal = sign * at(found.frame, 0);
+    contact.point_m = row_of(found.pos, 0);
+    contact.normal = sign * row_of(found.frame, 0);
     contact.depth_m = -found.dist;
     contact.rod = found.geom1 == engine_->rod_geom || found.geom2 == engine_->rod_geom;
     contacts_.push_back(contact);
@@ -129,20 +129,20 @@ const std::vector<Contact>& Chain::contacts() {
 }
 
 Vec3 Chain::joint_center_m(std::size_t link) const {
-  return link < links_ ? at(engine_->data->xpos, link + 1) : tip().position_m;
+  return link < links_ ? row_of(engine_->data->xpos, link + 1) : tip().position_m;
 }
 
 Pose Chain::tip() const {
   const mjtNum* q = engine_->data->xquat + 4 * links_;
   const Quat attitude{q[0], q[1], q[2], q[3]};
-  return {at(engine_->data->xpos, links_) + rotate(attitude, {tip_offset_m_, 0.0, 0.0}), attitude};
+  return {row_of(engine_->data->xpos, links_) + rotate(attitude, {tip_offset_m_, 0.0, 0.0}), attitude};
 }
 
 void Chain::point_jacobian(std::size_t link, const Vec3& point_m, PointJacobian& jacobian) const {
   jacobian = {};
   for (std::size_t i = 0; i < 2 * (link + 1); ++i) {
     const Vec3 column =
-        share_of_hinge_[i] * cross(at(engine_->data->xaxis, i), point_m - at(engine_->data->xanchor, i));
+        share_of_hinge_[i] * cross(row_of(engine_->data->xaxis, i), point_m - row_of(engine_->data->xanchor, i));
     const std::size_t t = theta_of_hinge_[i];
     jacobian[0][t] += column.x;
     jacobian[1][t] += column.y;

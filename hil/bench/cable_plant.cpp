@@ -13,7 +13,6 @@ namespace liana::bench {
 
 namespace {
 
-constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
 constexpr double kGravity_m_s2 = 9.80665;  // standard gravity, ISO 80000-3
 constexpr double kStartSpread_rad = 0.5 / kDegPerRad;
 

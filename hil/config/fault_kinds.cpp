@@ -7,9 +7,9 @@ namespace liana::bench {
 namespace {
 
 using P = FaultParameters;
-using enum FaultKind;
 
 std::vector<KindOfFault> of_drives() {
+  using enum FaultKind;
   constexpr FaultOf kOf = FaultOf::kDrive;
   return {{"missing", kMissing, kOf, true, {}},
           {"wrong_identity", kWrongIdentity, kOf, false, {}},
@@ -36,6 +36,7 @@ std::vector<KindOfFault> of_drives() {
 }
 
 std::vector<KindOfFault> of_cables() {
+  using enum FaultKind;
   constexpr FaultOf kOf = FaultOf::kCable;
   return {{"slack", kSlack, kOf, true, {}},
           {"cable_slip",
@@ -48,6 +49,7 @@ std::vector<KindOfFault> of_cables() {
 }
 
 std::vector<KindOfFault> of_the_tip() {
+  using enum FaultKind;
   constexpr FaultOf kOf = FaultOf::kTip;
   return {{"camera_frozen", kCameraFrozen, kOf, true, {}},
           {"camera_late", kCameraLate, kOf, true, {{"seconds", &P::seconds, 0.001, 60, false, false}}},
@@ -59,6 +61,7 @@ std::vector<KindOfFault> of_the_tip() {
 }
 
 KindOfFault of_the_body() {
+  using enum FaultKind;
   return {"push",
           kPush,
           FaultOf::kBody,
@@ -71,6 +74,7 @@ KindOfFault of_the_body() {
 }
 
 std::vector<KindOfFault> of_the_payload() {
+  using enum FaultKind;
   constexpr FaultOf kOf = FaultOf::kPayload;
   return {
       {"target_lost", kTargetLost, kOf, true, {}},

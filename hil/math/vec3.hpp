@@ -6,6 +6,8 @@
 
 namespace liana::bench {
 
+constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
+
 // A vector in some frame named by its user.
 struct Vec3 {
   double x = 0.0;

@@ -10,7 +10,6 @@ namespace liana::bench {
 
 namespace {
 
-constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
 constexpr const char* kHolders[] = {"mechanism", "arm", "adapter"};
 
 void add_vector(std::vector<double>& row, const Vec3& v) { row.insert(row.end(), {v.x, v.y, v.z}); }

@@ -4,12 +4,6 @@
 
 namespace liana::bench {
 
-namespace {
-
-constexpr double kTorqueNoise_permille = 1.0;  // standard deviation of a reading
-
-}  // namespace
-
 DriveSettings joint_drive_settings(const SerialRobotConfig& robot, const BusesConfig& buses, std::size_t i) {
   DriveSettings settings;
   settings.node = static_cast<int>(i) + 1;

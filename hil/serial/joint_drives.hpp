@@ -10,6 +10,8 @@
 
 namespace liana::bench {
 
+constexpr double kTorqueNoise_permille = 1.0;  // standard deviation of a reading of torque
+
 // What the table says of the drive of joint i.
 DriveSettings joint_drive_settings(const SerialRobotConfig& robot, const BusesConfig& buses, std::size_t i);
 

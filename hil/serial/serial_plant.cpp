@@ -11,7 +11,6 @@ namespace liana::bench {
 
 namespace {
 
-constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
 constexpr double kLongestStep_s = 0.001;  // of the position servos; their time constant is some tens of it
 constexpr double kStribeck_rad_s = 1e-3;  // below this rate Coulomb friction fades
 }  // namespace

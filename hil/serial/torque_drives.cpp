@@ -4,12 +4,6 @@
 
 namespace liana::bench {
 
-namespace {
-
-constexpr double kTorqueNoise_permille = 1.0;  // standard deviation of a reading
-
-}  // namespace
-
 TorqueDrives::TorqueDrives(const TrueArm& arm, const BusesConfig& buses, bool noisy, std::uint64_t seed)
     : Drives(arm.robot.product, seed), arm_(arm), noisy_(noisy), torque_noise_(seed, "torque noise") {
   for (std::size_t i = 0; i < arm.robot.joints.size(); ++i)

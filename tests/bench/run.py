@@ -1,4 +1,4 @@
-"""Ours against the peers on the same arm: `./dev bench [--json FILE]`. Writes docs/measurements/benchmarks.md and shows
+"""Ours against the peers on the same arm: `./dev benchmark [--json FILE]`. Writes docs/measurements/benchmarks.md and shows
 its tables.
 """
 import argparse
@@ -34,7 +34,7 @@ MEANING = {
 }
 HEAD = """# Instructions and times beside peers
 
-Written by `./dev bench`; do not edit by hand. {date}, commit {commit}, {compiler} at plain -O2 throughout, {machine},
+Written by `./dev benchmark`; do not edit by hand. {date}, commit {commit}, {compiler} at plain -O2 throughout, {machine},
 took {seconds:.0f} s.
 
 Instructions are counted by callgrind (valgrind) in each call on its own; a row shows the median over all calls. They
@@ -62,11 +62,11 @@ which the controller holds or moves the arm (all but disabled and fault), the wo
 
 
 def arguments():
-    parser = argparse.ArgumentParser(prog="./dev bench", description=__doc__)
+    parser = argparse.ArgumentParser(prog="./dev benchmark", description=__doc__)
     parser.add_argument(
         "--json", type=argparse.FileType("w"), metavar="FILE", help="also write what was measured as JSON"
     )
-    parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/dev/bin", help="where the programs are")
+    parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/bin", help="where the programs are")
     return parser.parse_args()
 
 

@@ -402,7 +402,7 @@ def arguments():
     parser.add_argument(
         "--bin",
         type=lambda path: pathlib.Path(path).resolve(),
-        default=ROOT / "build/dev/bin",
+        default=ROOT / "build/bin",
         help="where the programs are",
     )
     parser.add_argument(

@@ -14,7 +14,7 @@ using Task = std::array<double, 6>;
 
 constexpr double kDamped = 1e-3;  // m2/rad2: directions that are all but lost take no wild accelerations
 
-Index thetas(const RobotParams& table) noexcept { return static_cast<Index>(table.theta_count()); }
+Index theta_total(const RobotParams& table) noexcept { return static_cast<Index>(table.theta_count()); }
 
 void update_pulls(const RobotParams& table, const TensionSolver& solver, Index first, Index last,
                   GovernorState& state) noexcept {
@@ -27,7 +27,7 @@ void update_pulls(const RobotParams& table, const TensionSolver& solver, Index f
 // J J^T + damping of the free thetas, factored.
 bool factor_of(const RobotParams& table, const Jacobian& J, std::uint32_t held_mask, SquareMatrix<6>& A) noexcept {
   A = {};
-  for (Index k = 0; k < thetas(table); ++k) {
+  for (Index k = 0; k < theta_total(table); ++k) {
     if ((held_mask >> k & 1u) != 0) continue;
     const Task column{J.linear[k][0],  J.linear[k][1],  J.linear[k][2],
                       J.angular[k][0], J.angular[k][1], J.angular[k][2]};
@@ -43,7 +43,7 @@ bool factor_of(const RobotParams& table, const Jacobian& J, std::uint32_t held_m
 Task pull_per_tip(const RobotParams& table, const Jacobian& J, std::uint32_t held_mask, const SquareMatrix<6>& factor,
                   const ThetaVector& pull_N_s2) noexcept {
   Task pull{};
-  for (Index k = 0; k < thetas(table); ++k) {
+  for (Index k = 0; k < theta_total(table); ++k) {
     if ((held_mask >> k & 1u) != 0) continue;
     for (Index r = 0; r < 3; ++r) {
       pull[r] += J.linear[k][r] * pull_N_s2[k];
@@ -60,7 +60,7 @@ void update_shares(const RobotParams& table, const Jacobian& J, std::uint32_t he
   if (!factor_of(table, J, held_mask, factor)) return;
   double linear_s2_m = 0.0, angular_s2_rad = 0.0;  // shares of the room, squared, per unit of acceleration
   Index c = 0;
-  for (Index j = 0; j < thetas(table) / 2; ++j) {
+  for (Index j = 0; j < theta_total(table) / 2; ++j) {
     const double per_room = 1.0 / (state.room_N[j] * state.room_N[j]);
     for (std::int32_t i = 0; i < table.segment[j].cables; ++i, ++c) {
       const Task pull = pull_per_tip(table, J, held_mask, factor, state.pull_N_s2[c]);
@@ -77,10 +77,10 @@ void update_shares(const RobotParams& table, const Jacobian& J, std::uint32_t he
 
 // What each theta may brake with by itself, with a part of the room.
 void update_accels(const RobotParams& table, GovernorState& state) noexcept {
-  for (Index k = 0; k < thetas(table); ++k) {
+  for (Index k = 0; k < theta_total(table); ++k) {
     double taken = kGovernorTip / (kGovernorAlone * table.limits.theta_accel_rad_s2);
     Index c = 0;
-    for (Index j = 0; j < thetas(table) / 2; ++j) {
+    for (Index j = 0; j < theta_total(table) / 2; ++j) {
       for (std::int32_t i = 0; i < table.segment[j].cables; ++i, ++c)
         taken = larger(taken, std::fabs(state.pull_N_s2[c][k]) / state.room_N[j]);
     }
@@ -99,7 +99,7 @@ void take_room(const RobotParams& table, const TensionPlan& plan, GovernorState&
   const TensionLimits& limits = table.tension;
   const double between_N =
       kLoadCeilingShare * limits.ceiling_free_N - limits.floor_motor_N - kGovernorKeep_N * limits.scale();
-  for (Index j = 0; j < thetas(table) / 2; ++j)
+  for (Index j = 0; j < theta_total(table) / 2; ++j)
     state.room_N[j] = larger(kGovernorLeast_N * limits.scale(), 0.5 * (between_N - plan.spread_N[j]));
 }
 
@@ -109,12 +109,12 @@ void look_at_load(const RobotParams& table, const CableGeometry& geometry, const
   const bool looks = state.cycle == 0;
   if (tick == 9) state.cycle = state.cycle + 1 < kGovernorCycles ? state.cycle + 1 : 0;
   if (!looks) return;
-  const Index half = thetas(table) / 2;
+  const Index half = theta_total(table) / 2;
   if (tick == 5) update_mass_matrix(table, arm, state.mass_kg_m2);
   if (tick == 6 || tick == 8) {
     const TensionSolver solver = tension_solver(table, geometry, ratio);
     if (tick == 6) update_pulls(table, solver, 0, half, state);
-    if (tick == 8) update_pulls(table, solver, half, thetas(table), state);
+    if (tick == 8) update_pulls(table, solver, half, theta_total(table), state);
   }
   if (tick == 9) {
     update_shares(table, arm.tip_jacobian, held_mask, state);
@@ -125,7 +125,7 @@ void look_at_load(const RobotParams& table, const CableGeometry& geometry, const
 double room_taken(const RobotParams& table, const ThetaVector& accel_rad_s2, const GovernorState& state) noexcept {
   double most = 0.0;
   Index c = 0;
-  for (Index j = 0; j < thetas(table) / 2; ++j) {
+  for (Index j = 0; j < theta_total(table) / 2; ++j) {
     for (std::int32_t i = 0; i < table.segment[j].cables; ++i, ++c)
       most = larger(most, std::fabs(dot_thetas(table, state.pull_N_s2[c], accel_rad_s2)) / state.room_N[j]);
   }
@@ -136,7 +136,7 @@ LoadShares shares_in_room(const RobotParams& table, const ThetaVector& asked_rad
                           const GovernorState& state) noexcept {
   LoadShares out;
   Index c = 0;
-  for (Index j = 0; j < thetas(table) / 2; ++j) {
+  for (Index j = 0; j < theta_total(table) / 2; ++j) {
     const double room_N_s = state.room_N[j] * table.tick_s;
     for (std::int32_t i = 0; i < table.segment[j].cables; ++i, ++c) {
       const double asked = dot_thetas(table, state.pull_N_s2[c], asked_rad_s);

@@ -119,7 +119,7 @@ void show(const calibration::CalibrationResult& result, bool as_json) {
   }
 }
 
-std::string text_of(const calibration::FrictionOf& friction) {
+std::string friction_text(const calibration::FrictionOf& friction) {
   char text[64];
   std::snprintf(text, sizeof text, "mu %.4f +- %.4f", friction.mu, friction.sd);
   return text;
@@ -130,10 +130,10 @@ void show(const calibration::Friction& friction, const calibration::Calibration&
     std::printf("%s\n", Json::parse(calibration::calibration_json(whole)).at("friction").dump().c_str());
     return;
   }
-  std::printf("friction of the arm: %s\n", text_of(friction.arm).c_str());
+  std::printf("friction of the arm: %s\n", friction_text(friction.arm).c_str());
   for (std::size_t j = 0; j < friction.segment.size(); ++j) {
     const auto& segment = friction.segment[j];
-    std::printf("  segment %zu: %s\n", j + 1, segment ? text_of(*segment).c_str() : "cannot be told apart");
+    std::printf("  segment %zu: %s\n", j + 1, segment ? friction_text(*segment).c_str() : "cannot be told apart");
   }
 }
 

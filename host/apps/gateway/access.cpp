@@ -15,7 +15,7 @@ namespace liana::gateway {
 namespace {
 
 constexpr std::array<const char*, 3> kNames{"watch", "operate", "administer"};
-constexpr std::size_t kLongestName = 32, kShortestToken = 16, kLongestToken = 128;
+constexpr std::size_t kLongestKeyName = 32, kShortestToken = 16, kLongestToken = 128;
 
 std::optional<Access> access_from(const std::string& name) {
   const auto found = std::find(kNames.begin(), kNames.end(), name);
@@ -28,7 +28,7 @@ bool is_name(const std::string& text) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
            c == '.';
   };
-  return !text.empty() && text.size() <= kLongestName && std::all_of(text.begin(), text.end(), allowed);
+  return !text.empty() && text.size() <= kLongestKeyName && std::all_of(text.begin(), text.end(), allowed);
 }
 
 bool is_token(const std::string& text) {

@@ -31,7 +31,7 @@ Clock::duration seconds(double count) {
 
 Clock::time_point after(double count) { return Clock::now() + seconds(count); }
 
-Pose pose_of(const Json& numbers) {
+Pose pose_or_none(const Json& numbers) {
   Pose pose;
   if (!numbers.is_array() || numbers.size() != 7) return pose;
   for (std::size_t i = 0; i < 3; ++i) pose.position_m[i] = numbers[i].get<double>();
@@ -222,7 +222,7 @@ void RunSession::take(const Json& message) {
 void RunSession::keep(const Json& state) {
   watch_.heard();
   progress_.show(state);
-  states_.push_back({state.value("tick", std::uint64_t{0}), pose_of(state.value("setpoint_cp", Json()))});
+  states_.push_back({state.value("tick", std::uint64_t{0}), pose_or_none(state.value("setpoint_cp", Json()))});
   report::keep_stage(stages_, state);
   const Json clearance = state.value("clearance", Json());
   if (clearance.is_object() && states_.back().tick > 0)  // of the angles at the tick before

@@ -19,7 +19,7 @@ constexpr double kRestGrace_s = 20.0;    // for a bench, which goes on until its
 constexpr double kLastGrace_s = 1.0;     // from SIGTERM to SIGKILL, for all together
 constexpr double kProcessLook_s = 0.02;
 
-Clock::time_point after(double seconds) {
+Clock::time_point time_after(double seconds) {
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
@@ -75,7 +75,7 @@ void System::send(const Json& message) {
 }
 
 std::optional<NamedResult> System::worst_end(const Counts& counts, double settle_s) {
-  const auto deadline = after(settle_s);
+  const auto deadline = time_after(settle_s);
   while (Clock::now() < deadline && !all_have_ended()) sleep(kProcessLook_s);
   return liana::launcher::worst_end(children_, counts);
 }
@@ -114,15 +114,15 @@ void System::dismiss() {
 void System::end(double grace_s, const Sink& sink) {
   dismiss();
   if (!sink) api_.reset();  // a client in lockstep that no longer answers would hold lianad up
-  auto deadline = after(standing_still().empty() ? grace_s : 0.0);
+  auto deadline = time_after(standing_still().empty() ? grace_s : 0.0);
   while (Clock::now() < deadline && !all_have_ended()) {
     const bool was_connected = is_connected();
     if (const auto message = receive(kProcessLook_s); message && sink) sink(*message);
     if (was_connected && !is_connected())
-      deadline = std::min(deadline, after(is_running("liana-bench") ? kRestGrace_s : kSummaryGrace_s));
+      deadline = std::min(deadline, time_after(is_running("liana-bench") ? kRestGrace_s : kSummaryGrace_s));
   }
   for (const auto& child : children_) child->ask_to_end();
-  const auto last_moment = after(kLastGrace_s);
+  const auto last_moment = time_after(kLastGrace_s);
   while (Clock::now() < last_moment && !all_have_ended()) sleep(kProcessLook_s);
   for (const auto& child : children_) child->end(0.0);
   remove_stale_entry();

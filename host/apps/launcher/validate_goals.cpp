@@ -33,7 +33,7 @@ auto in_radians(const std::vector<double>& angles_deg, auto angles_rad) {
   return angles_rad;
 }
 
-Pose pose_of(const Json& numbers) {
+Pose goal_pose(const Json& numbers) {
   const auto n = numbers.get<std::vector<double>>();
   return {{n[0], n[1], n[2]}, {n[3], n[4], n[5], n[6]}};
 }
@@ -45,7 +45,7 @@ std::string formatted(const char* format, auto... values) {
 }
 
 std::string named(const Json& mission, std::size_t i) {
-  const Pose goal = pose_of(mission.at("steps")[i].at("goal_tip"));
+  const Pose goal = goal_pose(mission.at("steps")[i].at("goal_tip"));
   const Vec3& p = goal.position_m;
   return step_where(mission, i) + formatted(": run: move_cp: goal at %g, %g, %g m: ", p[0], p[1], p[2]);
 }
@@ -110,7 +110,7 @@ std::vector<std::string> look_at_tip_goals(const Json& mission, const config::Ro
   const auto search = [&](std::size_t i, const Json& step, const std::vector<double>& from_deg) {
     inverse_kinematics::GoalIkProblem problem;
     problem.from_rad = in_radians(from_deg, problem.from_rad);
-    problem.tip_in_base = pose_of(step.at("goal_tip"));
+    problem.tip_in_base = goal_pose(step.at("goal_tip"));
     const std::string why = why_never(robot.table, problem.tip_in_base);
     if (!why.empty())
       throw BadInput(named(mission, i) + why + " (robot " + robot.name + "): choose a goal that the arm can reach");
@@ -125,7 +125,7 @@ std::vector<std::string> look_at_tip_goals(const Json& mission, const config::Ro
 std::vector<std::string> look_at_tip_goals(const Json& mission, const config::SerialRobotConfig& robot,
                                            const std::vector<double>& start_deg) {
   const auto search = [&](std::size_t, const Json& step, const std::vector<double>& from_deg) {
-    const inverse_kinematics::SerialGoal goal{pose_of(step.at("goal_tip")),
+    const inverse_kinematics::SerialGoal goal{goal_pose(step.at("goal_tip")),
                                               in_radians(from_deg, serial::JointVector{})};
     const inverse_kinematics::SerialGoalResult result = solve_goal(robot.table, goal);
     return Found{result.converged, in_degrees(result.joint_rad, start_deg.size()), result.position_error_m,

@@ -6,14 +6,14 @@ namespace {
 
 constexpr Range kMass{1, 1e5};
 constexpr Range kInertia{-1e6, 1e6};
-constexpr std::size_t kLongestName = 64;
+constexpr std::size_t kLongestPoseName = 64;
 constexpr Range kRadius{0.01, 10};
 constexpr double kMinLength_m = 0.05;
 
 void read_start(const Field& field, ScenePayload& payload) {
   payload.on_arm = field.at("start").choice({"mechanism", "arm"}) == "arm";
   const Json& json = field.json();
-  if (json.contains("fetch_pose")) payload.fetch_pose = field.at("fetch_pose").name(kLongestName);
+  if (json.contains("fetch_pose")) payload.fetch_pose = field.at("fetch_pose").name(kLongestPoseName);
   if (payload.on_arm && !payload.fetch_pose.empty())
     field.at("fetch_pose").refuse("no fetch_pose of a payload that is on the arm from the start", "leave it out");
   if (json.contains("start_lateral_m")) payload.start_lateral_m = field.at("start_lateral_m").number({0, 0.02});

@@ -9,7 +9,7 @@ namespace {
 constexpr std::uint64_t kTremorPurpose = 21;
 constexpr std::uint64_t kLivelyHandPurpose = 81;  // to 86
 constexpr double kSampleStep_s = 0.001;
-constexpr double kLongestGap_s = 0.1;  // pictures further apart count as this far apart
+constexpr double kLongestPictureGap_s = 0.1;  // pictures further apart count as this far apart
 constexpr double kSpeedMargin = 0.9;
 constexpr double kMoving_m_s = 0.001;
 constexpr double kRealTurn_rad = 0.05;  // a leg that turns less has no lag in attitude worth ignoring
@@ -113,7 +113,7 @@ void HapticOperatorModel::perceive(double now_s) {
 }
 
 void HapticOperatorModel::take_in(const Pose& seen_tip, double now_s) {
-  const double since_last_s = std::min(now_s - last_picture_s_, kLongestGap_s);
+  const double since_last_s = std::min(now_s - last_picture_s_, kLongestPictureGap_s);
   last_picture_s_ = now_s;
   if (phase_ == Phase::kLooking || phase_ == Phase::kReturning) return rest_eyes(seen_tip, now_s);
   if (phase_ != Phase::kSteering && phase_ != Phase::kSettling) return;  // correcting is the gripping hand's business

@@ -21,12 +21,6 @@ using Images = std::map<std::uint64_t, std::string>;  // packets by next tick
 
 constexpr double kBack_s = 70.0;  // so far before a tick there is an image, unless one came late
 
-std::uint32_t crc_of(std::string_view bytes) {
-  recording::Crc32 crc;
-  crc.add(bytes);
-  return crc.value();
-}
-
 // The images that a span can begin from. Those of another build are of no use: its core may tick otherwise.
 Images images_of(const RingReader& ring, Span span, double period_s) {
   const auto back = static_cast<std::uint64_t>(kBack_s / period_s);
@@ -56,8 +50,8 @@ class TicksWriter {
     RingTick whole = tick;
     const std::string again = about.build_id == recording::build_id() ? core_->outputs(tick.inputs) : std::string();
     if (tick.tick < span_.first) return;
-    if (!again.empty() && crc_of(again) != tick.outputs_crc) ++result_.differing;
-    if (whole.outputs.empty() && crc_of(again) == tick.outputs_crc) {
+    if (!again.empty() && recording::crc_of(again) != tick.outputs_crc) ++result_.differing;
+    if (whole.outputs.empty() && recording::crc_of(again) == tick.outputs_crc) {
       whole.outputs = again;
       ++result_.made_again;
     }

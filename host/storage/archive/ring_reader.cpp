@@ -47,12 +47,6 @@ std::uint64_t next_tick_of(std::string_view image_packet) {
 
 bool is_in(Span inner, Span span) { return inner.last >= span.first && inner.first <= span.last; }
 
-std::uint32_t crc_of(std::string_view bytes) {
-  recording::Crc32 crc;
-  crc.add(bytes);
-  return crc.value();
-}
-
 // Those of `files` that can hold ticks of the span; each goes until the next one of its life begins.
 std::vector<RingFile> around(const std::vector<RingFile>& files, Span span) {
   std::vector<RingFile> found;
@@ -77,7 +71,7 @@ class OutputsFiles {
     if (found == blocks_.end()) return;
     std::vector<std::string> outputs = outputs_of(found->second, about_.widths);
     for (std::size_t i = 0; i < ticks.size(); ++i) {
-      if (i >= outputs.size() || crc_of(outputs[i]) != ticks[i].outputs_crc)
+      if (i >= outputs.size() || recording::crc_of(outputs[i]) != ticks[i].outputs_crc)
         throw std::runtime_error(file->path + ": tick " + std::to_string(ticks[i].tick) +
                                  ": its Outputs do not match their checksum");
       ticks[i].outputs = std::move(outputs[i]);

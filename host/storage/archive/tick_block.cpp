@@ -12,12 +12,6 @@ namespace {
 constexpr std::size_t kCrcBytes = 4;
 constexpr std::uint32_t kMaxTicks = 100000;  // of a message: no robot ticks so often in a second
 
-std::uint32_t crc_of(std::string_view bytes) {
-  recording::Crc32 crc;
-  crc.add(bytes);
-  return crc.value();
-}
-
 // What stands at the front of a message.
 struct Head {
   Span span;
@@ -66,7 +60,7 @@ void TickBlock::add(std::string_view inputs, std::string_view outputs) {
   const std::size_t fixed = inputs_words_.bytes_of_fields();
   inputs_words_.append_words(inputs_, inputs.substr(0, fixed));
   recording::Writer writer(inputs_);
-  writer("outputs_crc", crc_of(outputs));
+  writer("outputs_crc", recording::crc_of(outputs));
   if (inputs.size() > fixed) {
     telecommand_words_.append_words(telecommands_, inputs.substr(fixed));
     ++telecommand_count_;

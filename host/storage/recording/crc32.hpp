@@ -17,4 +17,11 @@ class Crc32 {
   std::uint32_t value_ = 0;
 };
 
+// Of bytes that are all there.
+inline std::uint32_t crc_of(std::string_view bytes) noexcept {
+  Crc32 crc;
+  crc.add(bytes);
+  return crc.value();
+}
+
 }  // namespace liana::recording

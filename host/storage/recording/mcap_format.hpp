@@ -33,12 +33,6 @@ enum Opcode : std::uint8_t {
 constexpr std::size_t kRecordHeadBytes = 9;  // operation code and length
 constexpr std::size_t kFooterBytes = 20;     // summary start, summary offset start, summary CRC
 
-inline std::uint32_t crc_of(std::string_view bytes) {
-  recording::Crc32 crc;
-  crc.add(bytes);
-  return crc.value();
-}
-
 template <recording::Scalar T>
 void put(std::string& out, T value) {
   recording::Writer writer(out);

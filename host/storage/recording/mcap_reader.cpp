@@ -77,7 +77,7 @@ std::string chunk_records(std::string_view content, const std::string& path) {
   const std::string_view compressed = cursor.rest();
   const bool plausible = size <= kMaxRecordBytes && length == compressed.size();
   std::string records = plausible ? decompress(compressed, compression, size) : std::string();
-  if (!plausible || mcap::crc_of(records) != crc)
+  if (!plausible || crc_of(records) != crc)
     throw std::runtime_error("recording " + path + ": damaged: a chunk does not match its checksum");
   return records;
 }
@@ -160,7 +160,7 @@ bool is_good_summary(std::string summary, std::string_view footer) {
   mcap::put(summary, static_cast<std::uint8_t>(mcap::kFooter));
   mcap::put(summary, static_cast<std::uint64_t>(mcap::kFooterBytes));
   summary += before_crc;
-  return holds_crc(footer.substr(before_crc.size()), mcap::crc_of(summary));
+  return holds_crc(footer.substr(before_crc.size()), crc_of(summary));
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ std::string OpenChunk::content() const {
   put(out, start_ns);
   put(out, end_ns);
   put(out, static_cast<std::uint64_t>(records.size()));
-  put(out, crc_of(records));
+  put(out, recording::crc_of(records));
   put_text(out, recording::compression_name());
   const std::string compressed = recording::compress(records);
   put(out, static_cast<std::uint64_t>(compressed.size()));
@@ -107,7 +107,7 @@ std::string Summary::bytes(std::uint64_t start) const {
   put(out, static_cast<std::uint64_t>(kFooterBytes));
   put(out, start);
   put(out, offsets_start);
-  put(out, crc_of(out));
+  put(out, recording::crc_of(out));
   return out;
 }
 

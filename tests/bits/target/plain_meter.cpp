@@ -1,4 +1,4 @@
-// Targets on the host count nothing: `./dev bench` does.
+// Targets on the host count nothing: `./dev benchmark` does.
 #include "tests/bits/target/meter.hpp"
 
 namespace liana::bits {

@@ -26,12 +26,6 @@ constexpr double kTipTolerance_m = 1e-6;
 constexpr int kLooks = 8;        // at the tip between two waypoints
 constexpr int kMaxHalvings = 5;  // of the way between two poses, where the tip swings out or a step is too long
 
-double largest_change(const ThetaVector& a, const ThetaVector& b) {
-  double most = 0.0;
-  for (Index k = 0; k < a.size(); ++k) most = std::max(most, std::fabs(a[k] - b[k]));
-  return most;
-}
-
 Vec3 tip_of(const Room& room, const ThetaVector& theta) {
   return forward_kinematics(room.table(), theta).tip_in_base.position_m;
 }

@@ -50,4 +50,10 @@ ThetaVector between(const ThetaVector& a, const ThetaVector& b, double share) {
   return theta;
 }
 
+double largest_change(const ThetaVector& a, const ThetaVector& b) {
+  double most = 0.0;
+  for (Index k = 0; k < a.size(); ++k) most = std::max(most, std::fabs(a[k] - b[k]));
+  return most;
+}
+
 }  // namespace liana::planner

@@ -41,4 +41,7 @@ double arm_length_m(const RobotParams& table);
 // Pose at `share` (0..1) between a and b.
 ThetaVector between(const ThetaVector& a, const ThetaVector& b, double share);
 
+// Of any theta between a and b [rad].
+double largest_change(const ThetaVector& a, const ThetaVector& b);
+
 }  // namespace liana::planner

@@ -15,12 +15,6 @@ constexpr std::int32_t kPushIterations = 30;
 constexpr double kSame_rad = 0.02;
 constexpr double kClearWeight = 100.0;  // against control points
 
-double largest_change(const ThetaVector& a, const ThetaVector& b) {
-  double most = 0.0;
-  for (Index k = 0; k < a.size(); ++k) most = std::max(most, std::fabs(a[k] - b[k]));
-  return most;
-}
-
 inverse_kinematics::GoalIkProblem ik_problem(const PlanRequest& request) {
   inverse_kinematics::GoalIkProblem problem;
   problem.tip_in_base = *request.tip_in_base;

@@ -12,7 +12,7 @@ namespace {
 using Index = std::size_t;
 
 constexpr std::int32_t kSettleIterations = 6;
-constexpr double kTipTolerance_m = 0.01;  // how far the tip may leave the arm's line
+constexpr double kTipOffLine_m = 0.01;  // how far the tip may leave the arm's line
 
 // Shortest turn that brings the x axis onto a direction.
 Quat x_axis_along(const Vec3& direction) {
@@ -44,7 +44,7 @@ Path retract(const Room& room, const ThetaVector& theta_rad, std::uint32_t held_
     if (room.look(path.back()).nearest.distance_m > kOutside_m) break;
     const PoseAim aim{on_axis(line, behind_m), true, path.back(), held_mask, margin_m + kRelaxReach_m};
     const SettledPose next = settle(room, aim, path.back(), kSettleIterations);
-    if (next.clearance_m < margin_m || next.tip_error_m > kTipTolerance_m ||
+    if (next.clearance_m < margin_m || next.tip_error_m > kTipOffLine_m ||
         !room.is_free(path.back(), next.theta_rad, margin_m))
       break;
     path.push_back(next.theta_rad);
