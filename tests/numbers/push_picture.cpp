@@ -12,19 +12,19 @@ using svg::Pixel;
 using svg::Svg;
 
 constexpr double kWide = 900.0, kHigh = 700.0, kLeft = 80.0, kPlotWide = 780.0, kPlotHigh = 165.0, kDown = 210.0;
-constexpr double kMost_s = 40.0;
+constexpr double kShown_s = 40.0;
 constexpr std::string_view kSoftColour = "#1f65a3", kStiffColour = "#d62728", kSetColour = "#777777";
 constexpr int kEvery = 10;  // instants, of which a curve shows one
 
 Axes panel(int number, svg::AxisRange y) {
-  return {{kLeft, 66.0 + kDown * number}, kPlotWide, kPlotHigh, {0.0, kMost_s}, y};
+  return {{kLeft, 66.0 + kDown * number}, kPlotWide, kPlotHigh, {0.0, kShown_s}, y};
 }
 
 template <class Value>
 void curve(Svg& svg, const Axes& axes, const std::vector<Instant>& course, std::string_view colour, bool dashed,
            const Value& value) {
   std::vector<Pixel> line;
-  for (std::size_t i = 0; i < course.size() && course[i].time_s <= kMost_s; i += kEvery)
+  for (std::size_t i = 0; i < course.size() && course[i].time_s <= kShown_s; i += kEvery)
     line.push_back(axes.at(course[i].time_s, value(course[i])));
   svg.polyline(line, {.stroke = colour, .width = 1.8, .dashed = dashed});
 }
