@@ -10,7 +10,7 @@ export const screens = join(root, 'build', 'page', 'screens');
 mkdirSync(screens, { recursive: true });
 
 function programs() {
-  const folders = [process.env.LIANA_BIN, join(root, 'build', 'dev', 'bin'), join(root, 'build', 'bin')].filter(Boolean);
+  const folders = [process.env.LIANA_BIN, join(root, 'build', 'bin')].filter(Boolean);
   const found = folders.find((folder) => existsSync(join(folder, 'liana')) && existsSync(join(folder, 'liana-gateway')));
   if (!found) throw new Error(`no liana and liana-gateway in ${folders.join(', ')}: build first (./dev build)`);
   return found;
