@@ -42,7 +42,7 @@ class Lines(unittest.TestCase):
         wanted = mutation.mutations()
         self.assertEqual(len({one.name for one in wanted}), len(wanted))
         files = [edit.file for one in wanted for edit in one.edits]
-        for part in ("link_watch", "conditions", "faults", "supervisor", "gate"):
+        for part in ("drive_link_monitor", "conditions", "faults", "supervisor", "gate"):
             self.assertGreaterEqual(files.count(f"firmware_like/safety/{part}.cpp"), 2, part)
 
 
