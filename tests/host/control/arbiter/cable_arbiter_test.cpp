@@ -454,29 +454,41 @@ TEST_F(AtTheSlit, VrThatSteersIntoItIsLetGoAtTheMouth) {
 TEST_F(AtTheSlit, ATipThatComesOutOfItIsLetGoFasterSlowly) {
   CableArbiter arbiter(table_, SpeedZone(slit_, 0.03));
   Pose goal = now_.tip_command;
-  goal.position_m[0] -= 0.5;  // it has run ahead of the tip
+  goal.position_m[0] -= 1.5;  // it has run ahead of the tip
   arbiter.servo_tip(now_, goal);
   double asked_m_s = 0.0;
   for (int i = 0; i < 200; ++i) {  // 4 s before the mouth, on the way
-    now_.tip_command.position_m[0] -= 1e-4;
+    now_.tip_command.position_m[0] -= 2e-4;
     asked_m_s = arbiter.next_setpoint(tick_ += 5, now_)->tip_speed_m_s;
   }
   ASSERT_NEAR(asked_m_s, 0.0261, 1e-12);
   now_.tip_command.position_m[0] -= 0.2;
-  for (int i = 1; i <= 600; ++i) {
+  const auto go_on = [&] {
+    now_.tip_command.position_m[0] -= 0.02 * asked_m_s;
+    return arbiter.next_setpoint(tick_ += 5, now_)->tip_speed_m_s;
+  };
+  for (int i = 1; i <= 440; ++i) {
     const double before_m_s = asked_m_s;
-    asked_m_s = arbiter.next_setpoint(tick_ += 5, now_)->tip_speed_m_s;
+    asked_m_s = go_on();
     EXPECT_NEAR(asked_m_s - before_m_s, 0.006 * 0.02, 1e-12) << i;
   }
-  for (int i = 0; i < 100; ++i) asked_m_s = arbiter.next_setpoint(tick_ += 5, now_)->tip_speed_m_s;
-  EXPECT_DOUBLE_EQ(asked_m_s, table_.limits.tip_speed_m_s);
+  for (int i = 0; i < 100; ++i) asked_m_s = go_on();
+  EXPECT_DOUBLE_EQ(asked_m_s, kGoalSpeedShare * table_.limits.tip_speed_m_s);
 }
 
-TEST_F(Arbitration, ATipThatNothingHasSlowedIsAskedForItsWholeSpeedAtOnceAndForLessAtOnce) {
+TEST_F(Arbitration, ATipAfterADistantGoalSpeedsUpAsItMaySwingAndSlowsDownAtOnce) {
+  next();
   Pose goal = now_.tip_command;
   goal.position_m[0] -= 0.5;
   arbiter_.servo_tip(now_, goal);
-  EXPECT_DOUBLE_EQ(next()->tip_speed_m_s, table_.limits.tip_speed_m_s);
+  double asked_m_s = 0.0;
+  int intervals = 0;
+  for (; asked_m_s < kGoalSpeedShare * table_.limits.tip_speed_m_s && intervals < 100; ++intervals) {
+    now_.tip_command.position_m[0] -= 0.02 * asked_m_s;
+    asked_m_s = next()->tip_speed_m_s;
+  }
+  const double accel_m_s2 = kGoalAccelShare * table_.limits.tip_accel_m_s2;
+  EXPECT_NEAR(intervals * 0.02, asked_m_s / accel_m_s2, 0.25);
   arbiter_.cap_tip_speed(0.015);
   EXPECT_DOUBLE_EQ(next()->tip_speed_m_s, 0.015);
   arbiter_.cap_tip_speed(table_.limits.tip_speed_m_s);
