@@ -26,7 +26,7 @@ bool leads_away(const simulation::Distances& distances, double travel_m, const T
   const double start_m = distances.scene_at_start_m, least_m = distances.scene.distance_m;
   const double end_m = distances.scene_at_end_m;
   if (!too_near.stands()) return end_m >= start_m && least_m >= start_m - kGivenAway_m;
-  if (start_m >= too_near.least_m()) return least_m >= too_near.least_m();
+  if (start_m >= too_near.least_m()) return end_m >= too_near.least_m() && least_m >= start_m - kGivenAway_m;
   return end_m >= start_m + kAwayShare * travel_m && least_m >= start_m - kCreptDip_m;
 }
 

@@ -34,7 +34,7 @@ class TooNear {
   void forget() { *this = {}; }
   void refused() { was_refused_ = true; }
   bool stands() const { return stands_; }
-  // Nothing of a motion may be nearer than that.
+  // No motion may end nearer than that.
   double least_m() const { return min_m_; }
 
  private:
