@@ -62,7 +62,7 @@ void Arbiter<Arm>::move_line(const Now& now, const Pose& goal, const motion::Swi
 template <class Arm>
 void Arbiter<Arm>::servo_tip(const Now& now, const Pose& goal) {
   require_free(now);
-  way_.template emplace<TipTarget<Arm>>(goal, wishes_);
+  way_.template emplace<TipTarget<Arm>>(goal, wishes_, true);
 }
 
 template <class Arm>
@@ -221,7 +221,7 @@ void Arbiter<Arm>::end_motion() {
 
 template <class Arm>
 typename Arm::Setpoint Arbiter<Arm>::steer(const Now& now, const Pose& goal) {
-  way_.template emplace<TipTarget<Arm>>(goal, wishes_, true);
+  way_.template emplace<TipTarget<Arm>>(goal, wishes_);
   return tip_setpoint(now, goal);
 }
 
@@ -244,7 +244,7 @@ typename Arm::Setpoint Arbiter<Arm>::tip_setpoint(const Now& now, const Pose& go
   const double max_m_s = tip_speed_m_s_ * (target != nullptr ? target->speed_share() : 1.0);
   setpoint.tip_speed_m_s =
       speed_rise_.limited(zone_.advice_at(now.tip_command.position_m, zone_.advice_at(goal.position_m, max_m_s)));
-  if (target != nullptr && !target->is_steered())
+  if (target != nullptr && target->is_distant())
     setpoint.tip_speed_m_s = std::min(setpoint.tip_speed_m_s, goal_ramp_.speed_m_s());
   if (zone_.slows_at(now.tip_command.position_m))
     setpoint.tip_speed_m_s = std::min(setpoint.tip_speed_m_s, start_ramp_.speed_m_s());

@@ -22,9 +22,9 @@ class TipTarget {
   static constexpr bool kIsPlanned = false;
   using Wishes = typename ArmTraits<Arm>::Wishes;
 
-  // `wishes` has to outlive this. `is_steered`: a hand leads the goal, and is led gently by others.
-  TipTarget(const Pose& goal, const Wishes& wishes, bool is_steered = false)
-      : goal_(goal), wishes_(wishes), is_steered_(is_steered) {}
+  // `wishes` has to outlive this. `is_distant`: the goal was set far ahead at once.
+  TipTarget(const Pose& goal, const Wishes& wishes, bool is_distant = false)
+      : goal_(goal), wishes_(wishes), is_distant_(is_distant) {}
 
   const Pose& goal() const { return goal_; }
   // Something else was asked for besides the tip.
@@ -37,7 +37,7 @@ class TipTarget {
     return is_over_ ? Goal<Arm>{} : goal_;
   }
   bool is_over() const { return is_over_; }
-  bool is_steered() const { return is_steered_; }
+  bool is_distant() const { return is_distant_; }
   bool refused() {
     intervals_ = 0;
     return again_.refused();
@@ -53,7 +53,7 @@ class TipTarget {
   Pose goal_;
   const Wishes& wishes_;
   std::int32_t intervals_ = 0;  // since the goal or what is wished besides was set
-  bool is_steered_;
+  bool is_distant_;
   bool is_over_ = false;
   AnotherTry again_;
 };
