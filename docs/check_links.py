@@ -14,7 +14,14 @@ OTHERS = {"node_modules", "__pycache__", "corpus"}  # a fuzzer's corpus is data
 
 
 def pages():
-    return [ROOT / "README.md", ROOT / "CHANGELOG.md", ROOT / "CONTRIBUTING.md", *sorted(DOCS.rglob("*.md"))]
+    """All that people read: of the top, of docs, and the READMEs that open the folders."""
+    top = [ROOT / "README.md", ROOT / "CHANGELOG.md", ROOT / "CONTRIBUTING.md"]
+    folders = [ROOT / "tests/README.md", *(page for name in ("host", "hil", "lua") for page in readmes(ROOT / name))]
+    return [*top, *sorted(DOCS.rglob("*.md")), *folders]
+
+
+def readmes(folder):
+    return sorted({*folder.glob("README.md"), *folder.glob("*/README.md")})
 
 
 @functools.cache

@@ -8,20 +8,13 @@ import pathlib
 import re
 import sys
 
+from check_links import pages
+
 ROOT = pathlib.Path(__file__).resolve().parents[1]
+# These READMEs are still to be written anew.
+UNWRITTEN = {"hil/scenarios", "hil/vm", "lua", "lua/recordings"}
 GENERATED = {"api.md", "requirements.md", "figures.md", "benchmarks.md"}
 MAX_MEAN, MAX_WORDS = 15.0, 35
-
-
-def pages():
-    docs = (page for page in sorted((ROOT / "docs").rglob("*.md")) if page.name not in GENERATED)
-    return [
-        ROOT / "README.md",
-        ROOT / "CONTRIBUTING.md",
-        ROOT / "CHANGELOG.md",
-        *docs,
-        *(ROOT / "host").glob("*/README.md"),
-    ]
 
 
 def paragraphs(text):
@@ -64,8 +57,15 @@ def problems(page):
             yield f"{length} words, allowed {MAX_WORDS}: {sentence[:70]}..."
 
 
+def is_ours(page):
+    folder = page.relative_to(ROOT).parent.as_posix()
+    return page.name not in GENERATED and not (page.name == "README.md" and folder in UNWRITTEN)
+
+
 def main():
-    chosen = [pathlib.Path(name).resolve() for name in sys.argv[1:]] or pages()
+    chosen = [pathlib.Path(name).resolve() for name in sys.argv[1:]] or sorted(
+        page for page in pages() if is_ours(page)
+    )
     found = [f"{page.relative_to(ROOT)}: {problem}" for page in chosen for problem in problems(page)]
     print("\n".join(found) if found else f"{len(chosen)} pages, every sentence is short enough")
     return 1 if found else 0

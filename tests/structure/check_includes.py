@@ -124,12 +124,13 @@ def wrong_order(table):
         above.add(room)
 
 
-def folder_arrows(table, files):
+def folder_arrows(table, files, root):
     """{folder: folders of the same room that its files include}, but for what is excepted."""
     arrows = {}
     for file, content in files:
         folder = posixpath.dirname(file)
-        for target in re.findall(r'^\s*#\s*include\s*"([^"]+)"', content, re.M):
+        quoted = (found[1] for found in map(INCLUDE.match, content.splitlines()) if found and found[1])
+        for target in (file_of(name, file, root) for name in quoted):
             there = posixpath.dirname(target)
             if there == folder or table.room_of(target) != table.room_of(file):
                 continue
@@ -171,7 +172,7 @@ def problems(root, text):
         else:
             missing.add(posixpath.dirname(file))
     yield from (f"rooms.ini: [includes] has no row for {room}" for room in sorted(missing))
-    yield from circles(folder_arrows(table, files))
+    yield from circles(folder_arrows(table, files, root))
     for section, name, word in table.rows():
         if (section, name, word) not in table.used:
             yield f"rooms.ini: [{section}] {name}{': ' * bool(word)}{word}: nobody does it; take it out"

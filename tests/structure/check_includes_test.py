@@ -96,7 +96,7 @@ class CheckIncludes(unittest.TestCase):
 
     def test_folders_of_a_room_that_go_in_a_circle_are_found(self):
         planted = {
-            "host/planning/planner/start/a.hpp": '#include "host/planning/planner/check/b.hpp"\n',
+            "host/planning/planner/start/a.hpp": '#include "../check/b.hpp"\n',
             "host/planning/planner/check/b.hpp": '#include "host/planning/planner/start/a.hpp"\n',
         }
         folders = "host/planning/planner/check", "host/planning/planner/start"

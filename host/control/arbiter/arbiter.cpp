@@ -186,8 +186,10 @@ bool Arbiter<Arm>::begin_interval(std::uint64_t tick, const Now& now) {
     return false;
   }
   command_rad_ = Kind::command_rad(now);
-  start_ramp_.note(now.tip_command.position_m, interval_s(table_));
-  goal_ramp_.note(now.tip_command.position_m, interval_s(table_));
+  const double command_m_s = norm(subtract(now.tip_command.position_m, command_at_m_)) / interval_s(table_);
+  command_at_m_ = now.tip_command.position_m;
+  start_ramp_.note(command_m_s, interval_s(table_));
+  goal_ramp_.note(command_m_s, interval_s(table_));
   speed_rise_.pass(interval_s(table_));
   const auto* back = std::get_if<RetractMove<Arm>>(&way_);
   const bool stops = now.at_rest == 0 && (back != nullptr || std::holds_alternative<Idle>(way_));

@@ -119,6 +119,7 @@ class Arbiter {
   SpeedZone zone_;
   double tip_speed_m_s_;
   visual_servo::TargetServo servo_{interval_s(table_)};
+  Vec3 command_at_m_{};  // the tip, an interval ago
   StartRamp start_ramp_;
   GoalRamp goal_ramp_{Kind::goal_ramp(table_)};
   SpeedRise speed_rise_;

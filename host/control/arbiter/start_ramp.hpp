@@ -3,18 +3,14 @@
 
 #include <algorithm>
 
-#include "firmware_like/math/pose.hpp"
-
 namespace liana::arbiter {
 
 // Friction holds a cable arm until the command is some millimetres ahead; then it swings after it. Asked for 27 mm/s at
 // once the true tip reaches 42; with a ramp of 12 mm/s2 and 26 mm/s at its end 32.7; with one that ends gently 29.9.
 class StartRamp {
  public:
-  // Once per command interval of `dt_s`, with the command at `tip_m`.
-  void note(const Vec3& tip_m, double dt_s) {
-    const double speed_m_s = norm(subtract(tip_m, before_m_)) / dt_s;
-    before_m_ = tip_m;
+  // Once per command interval of `dt_s`, with the speed at which the command has gone in it.
+  void note(double speed_m_s, double dt_s) {
     speed_m_s_ = speed_m_s < kStands_m_s ? kFirst_m_s : std::min(speed_m_s_ + ramp_m_s2() * dt_s, kMost_m_s);
   }
   // Highest speed to ask for now [m/s].
@@ -30,7 +26,6 @@ class StartRamp {
 
   double ramp_m_s2() const { return speed_m_s_ < kGentleFrom_m_s ? kRamp_m_s2 : kGentle_m_s2; }
 
-  Vec3 before_m_{};
   double speed_m_s_ = kFirst_m_s;
 };
 
@@ -40,10 +35,8 @@ class StartRamp {
 class GoalRamp {
  public:
   GoalRamp(double accel_m_s2, double max_m_s) : accel_m_s2_(accel_m_s2), max_m_s_(max_m_s) {}
-  // Once per command interval of `dt_s`, with the command at `tip_m`.
-  void note(const Vec3& tip_m, double dt_s) {
-    const double speed_m_s = norm(subtract(tip_m, before_m_)) / dt_s;
-    before_m_ = tip_m;
+  // Once per command interval of `dt_s`, with the speed at which the command has gone in it.
+  void note(double speed_m_s, double dt_s) {
     speed_m_s_ = std::clamp(speed_m_s_ + accel_m_s2_ * dt_s, speed_m_s, speed_m_s + accel_m_s2_ * kAhead_s);
   }
   // Highest speed to ask for now [m/s].
@@ -53,7 +46,6 @@ class GoalRamp {
   static constexpr double kAhead_s = 0.2;
 
   double accel_m_s2_, max_m_s_;
-  Vec3 before_m_{};
   double speed_m_s_ = 0.0;
 };
 

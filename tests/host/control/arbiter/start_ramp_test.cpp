@@ -11,29 +11,27 @@ namespace {
 
 TEST(StartRamp, AsksForLittleWhileTheCommandStands) {
   StartRamp ramp;
-  for (int k = 0; k < 100; ++k) ramp.note({2.0, 0.0, 0.0}, kInterval_s);
+  for (int k = 0; k < 100; ++k) ramp.note(0.0, kInterval_s);
   EXPECT_LT(ramp.speed_m_s(), 0.006);
 }
 
 TEST(StartRamp, AHandThatTremblesIsNoStart) {
   StartRamp ramp;
-  for (int k = 0; k < 100; ++k) ramp.note({2.0 + (k % 2 == 0 ? 2e-5 : 0.0), 0.0, 0.0}, kInterval_s);
+  for (int k = 0; k < 100; ++k) ramp.note(2e-5 / kInterval_s, kInterval_s);
   EXPECT_LT(ramp.speed_m_s(), 0.006);
 }
 
 TEST(StartRamp, RisesWhileTheCommandMovesAndBeginsAnewWhenItHasStood) {
   StartRamp ramp;
-  Vec3 tip_m{2.0, 0.0, 0.0};
-  ramp.note(tip_m, kInterval_s);
+  ramp.note(0.0, kInterval_s);
   double time_s = 0.0;
   while (ramp.speed_m_s() < 0.026) {
-    tip_m[0] += ramp.speed_m_s() * kInterval_s;
-    ramp.note(tip_m, kInterval_s);
+    ramp.note(ramp.speed_m_s(), kInterval_s);
     time_s += kInterval_s;
     ASSERT_LT(time_s, 4.0);
   }
   EXPECT_GT(time_s, 2.5);
-  ramp.note(tip_m, kInterval_s);
+  ramp.note(0.0, kInterval_s);
   EXPECT_LT(ramp.speed_m_s(), 0.006);
 }
 
@@ -55,34 +53,33 @@ TEST(SpeedZone, AsksForLessThanItAllowsBecauseTheTrueTipSwings) {
 }
 
 // The tip follows what the ramp allows, at its own acceleration.
-double time_to(GoalRamp& ramp, double speed_m_s, Vec3& tip_m) {
+double time_to(GoalRamp& ramp, double speed_m_s) {
   constexpr double kAccel_m_s2 = 0.22;
   double time_s = 0.0, v_m_s = 0.0;
   while (v_m_s < speed_m_s && time_s < 10.0) {
     v_m_s = std::min(ramp.speed_m_s(), v_m_s + kAccel_m_s2 * kInterval_s);
-    tip_m[0] += v_m_s * kInterval_s;
-    ramp.note(tip_m, kInterval_s);
+    ramp.note(v_m_s, kInterval_s);
     time_s += kInterval_s;
   }
   return time_s;
 }
 
-TEST(GoalRamp, LetsTheTipSpeedUpAsItIsSetAndNoFurtherThanItsMost) {
+GoalRamp at_rest() {
   GoalRamp ramp(0.1, 0.08);
-  Vec3 tip_m{2.0, 0.0, 0.0};
-  ramp.note(tip_m, kInterval_s);
-  ramp.note(tip_m, kInterval_s);
-  EXPECT_NEAR(time_to(ramp, 0.08, tip_m), 0.6, 0.05) << "it begins a fifth of a second ahead";
+  for (int k = 0; k < 20; ++k) ramp.note(0.0, kInterval_s);
+  return ramp;
+}
+
+TEST(GoalRamp, LetsTheTipSpeedUpAsItIsSetAndNoFurtherThanItsMost) {
+  GoalRamp ramp = at_rest();
+  EXPECT_NEAR(time_to(ramp, 0.08), 0.6, 0.05) << "it begins a fifth of a second ahead";
   EXPECT_DOUBLE_EQ(ramp.speed_m_s(), 0.08);
 }
 
 TEST(GoalRamp, BeginsAnewWhereTheTipHasSlowedDown) {
-  GoalRamp ramp(0.1, 0.08);
-  Vec3 tip_m{2.0, 0.0, 0.0};
-  ramp.note(tip_m, kInterval_s);
-  ramp.note(tip_m, kInterval_s);
-  time_to(ramp, 0.08, tip_m);
-  ramp.note(tip_m, kInterval_s);
+  GoalRamp ramp = at_rest();
+  time_to(ramp, 0.08);
+  ramp.note(0.0, kInterval_s);
   EXPECT_NEAR(ramp.speed_m_s(), 0.02, 1e-9) << "a fifth of a second of its acceleration";
 }
 
