@@ -28,7 +28,7 @@ void HandTrack::add_sample(const device::Sample& sample) {
   if (!sample.valid || !is_valid(sample.pose)) return;
   any_good_ = true;
   last_good_t_us_ = sample.t_us;
-  average_in(sample.pose);
+  if (sample.deadman) average_in(sample.pose);
 }
 
 HandReading HandTrack::finish_interval() {

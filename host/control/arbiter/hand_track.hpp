@@ -10,7 +10,7 @@ namespace liana::arbiter {
 // What one command interval of samples says.
 struct HandReading {
   std::uint32_t samples = 0;  // all that came
-  std::uint32_t used = 0;     // averaged into `mean`
+  std::uint32_t used = 0;     // averaged into `mean`: those with the deadman closed, since it was open last
   bool let_go = false;        // the deadman was open in at least one sample
   bool pressed = false;       // closed in the newest sample
   bool lost = false;          // no usable pose for longer than kTrackingLost_s

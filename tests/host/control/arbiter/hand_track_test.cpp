@@ -70,10 +70,20 @@ TEST(HandTrack, WhatWasMovedWithAnOpenDeadmanDoesNotCount) {
   track.add_sample(sample(0, 0.0));
   track.add_sample(sample(10000, 0.02, true, false));
   track.add_sample(sample(20000, 0.04));
+  track.add_sample(sample(21000, 0.06));
   const HandReading reading = track.finish_interval();
   EXPECT_TRUE(reading.let_go);
   EXPECT_TRUE(reading.pressed);
-  EXPECT_NEAR(reading.mean.position_m[0], 0.03, 1e-12) << "only poses since the deadman was opened";
+  EXPECT_EQ(reading.used, 2u);
+  EXPECT_NEAR(reading.mean.position_m[0], 0.05, 1e-12);
+}
+
+TEST(HandTrack, AHandWithAnOpenDeadmanHasNoMeanAndIsNotLost) {
+  HandTrack track;
+  for (int i = 0; i < 40; ++i) track.add_sample(sample(10000 * i, 0.01 * i, true, false));
+  const HandReading reading = track.finish_interval();
+  EXPECT_FALSE(reading.has_mean);
+  EXPECT_FALSE(reading.lost);
 }
 
 }  // namespace
