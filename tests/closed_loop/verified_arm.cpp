@@ -66,7 +66,7 @@ void VerifiedArm::verify_next(const cable::Telecommand& in_force) {
   const verification::Verdict& worst =
       execution.passed() ? static_cast<const verification::Verdict&>(simulation_) : execution;
   refused_.push_back({time_s(), worst.code, worst.text});
-  arbiter_.refused(worst.text, verification::may_swing_less(worst.code));
+  arbiter_.refused(worst.text, verification::may_pass_slower(worst.code));
 }
 
 }  // namespace liana::closed_loop

@@ -72,9 +72,10 @@ constexpr double kLiftLimit_N = 20.0;  // without friction
 void keep_min_tension(const RobotParams& table, const CableVector& tension_N, SegmentVector& lift_N) noexcept;
 
 // An arm that friction holds beside its command has cables that are looser than planned, whatever the segment is pulled
-// to: a single cable under the floor is wound in until it is there, slower than the arm's modes.
+// to: a single cable under the floor is wound in until it is there, slower than the arm's modes. Out of a bend at the
+// limits of both angles it takes 90 N until friction has turned round.
 constexpr double kTautLeak_s = 10.0;
-constexpr double kTautLimit_N = 60.0;
+constexpr double kTautLimit_N = 120.0;
 
 // One tick of what each cable is pulled beyond the plan, from measured tensions at the motor, low-passed.
 void wind_in(const RobotParams& table, const CableVector& tension_N, CableVector& taut_N) noexcept;

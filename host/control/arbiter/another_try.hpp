@@ -20,7 +20,7 @@ class AnotherTry {
   // Once per command interval: whether nothing is asked for yet. Bounded: an arm that swings on is asked all the same.
   bool waits(bool at_rest) {
     rests_ = at_rest ? rests_ + 1 : 0;
-    waits_ = waits_ && rests_ < kRestIntervals && ++waited_ < kMaxWaitIntervals;
+    waits_ = waits_ && rests_ < (kRestIntervals << (2 * (tries_ - 1))) && ++waited_ < kMaxWaitIntervals;
     return waits_;
   }
   // After a wait: whether the motion is to be planned anew, which is said once.
@@ -30,7 +30,8 @@ class AnotherTry {
 
  private:
   static constexpr int kMaxTries = 4;
-  static constexpr std::int32_t kRestIntervals = 15;  // what is at rest by its command still swings
+  // What is at rest by its command still swings; at each further try four times as long, as a slack cable is wound in.
+  static constexpr std::int32_t kRestIntervals = 15;
   static constexpr std::int32_t kMaxWaitIntervals = 1000;
 
   int tries_ = 0;

@@ -161,9 +161,9 @@ void Arbiter<Arm>::ask_anew() {
 }
 
 template <class Arm>
-bool Arbiter<Arm>::refused(const std::string& why, bool may_swing_less) {
+bool Arbiter<Arm>::refused(const std::string& why, bool may_pass_slower) {
   const auto* back = std::get_if<RetractMove<Arm>>(&way_);
-  if ((back != nullptr || may_swing_less) && std::visit([](auto& way) { return way.refused(); }, way_)) return true;
+  if ((back != nullptr || may_pass_slower) && std::visit([](auto& way) { return way.refused(); }, way_)) return true;
   const std::string detail = why.empty() ? "" : ": " + why;
   hold((back != nullptr ? back->why_ended() : "refused") + detail);
   return false;

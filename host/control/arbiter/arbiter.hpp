@@ -62,8 +62,8 @@ class Arbiter {
   // Ends the interval: what to verify for the next one; nothing = the arm holds. `tick` counts the ticks done.
   std::optional<Setpoint> next_setpoint(std::uint64_t tick, const Now& now);
   // The setpoint was refused: planned moves end. The way back stops and starts again, some times, and where
-  // `may_swing_less` moves to a goal do (another_try.hpp). Whether what was asked for goes on.
-  bool refused(const std::string& why = "", bool may_swing_less = false);
+  // `may_pass_slower` moves to a goal do (another_try.hpp). Whether what was asked for goes on.
+  bool refused(const std::string& why = "", bool may_pass_slower = false);
 
   // A planned move is under way.
   bool is_busy() const;

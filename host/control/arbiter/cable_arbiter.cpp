@@ -182,8 +182,8 @@ void CableArbiter::hold() {
   device_.let_go();
 }
 
-bool CableArbiter::refused(const std::string& why, bool may_swing_less) {
-  const bool goes_on = moves_.refused(why, may_swing_less && !was_engaged_);
+bool CableArbiter::refused(const std::string& why, bool may_pass_slower) {
+  const bool goes_on = moves_.refused(why, may_pass_slower && !was_engaged_);
   dither_ = {};
   if (was_engaged_) refusal_wait_.refuse(led_from_, led_to_);
   return goes_on || was_engaged_;

@@ -71,9 +71,9 @@ class CableArbiter {
   // Ends the interval: what to verify for the next one; nothing = the arm holds. `tick` counts the ticks done.
   std::optional<cable::Setpoint> next_setpoint(std::uint64_t tick, const cable::Outputs& now);
   // The setpoint was refused: planned moves end, and the arm waits for an operator who steers it (refusal_wait.hpp).
-  // The way back stops and starts again, some times, and where `may_swing_less` moves to a goal do (another_try.hpp).
+  // The way back stops and starts again, some times, and where `may_pass_slower` moves to a goal do (another_try.hpp).
   // Whether what was asked for goes on.
-  bool refused(const std::string& why = "", bool may_swing_less = false);
+  bool refused(const std::string& why = "", bool may_pass_slower = false);
 
   // A planned move or a dither is under way.
   bool is_busy() const { return moves_.is_busy() || dither_.is_under_way(); }

@@ -11,6 +11,12 @@ namespace liana::arbiter {
 
 namespace {
 
+// How fast a move that was refused comes to its speed again: within less than its acceleration.
+constexpr double kPaceRise_1_s = 0.01;
+constexpr double kLeastPace = 1.0 / 16.0;
+// An arm that has gone so far since it was refused last is at another place.
+constexpr double kOtherPlace_rad = 2e-3;
+
 // The tip's way on the joint line.
 struct TipTravel {
   double travel_m = 0.0;
@@ -45,20 +51,18 @@ JointMove<Arm>::JointMove(const Table& table, const Joints<Arm>& from_rad, const
 template <class Arm>
 void JointMove<Arm>::plan(const Joints<Arm>& from_rad) {
   using Kind = ArmTraits<Arm>;
-  const double share = again_.speed_share();
   from_rad_ = from_rad;
   time_s_ = 0.0;
+  pace_ = begins_at_;
   motion::MoveNeeds needs;
   for (std::size_t i = 0; i < Kind::joint_count(table_); ++i) {
     const double way_rad = std::fabs(to_rad_[i] - from_rad[i]);
-    needs.speed_s = std::max(
-        needs.speed_s, way_rad / (motion::kMoveShare * std::min(share * rate_rad_s_, Kind::rate_rad_s(table_, i))));
+    needs.speed_s =
+        std::max(needs.speed_s, way_rad / (motion::kMoveShare * std::min(rate_rad_s_, Kind::rate_rad_s(table_, i))));
     needs.accel_s2 = std::max(needs.accel_s2, way_rad / Kind::move_accel_rad_s2(table_, i));
   }
   const TipTravel tip = steepest_tip_way<Arm>(table_, from_rad, to_rad_);
-  TipBounds bounds = Kind::tip_bounds(table_);
-  bounds.linear.speed *= share;
-  bounds.angular.speed *= share;
+  const TipBounds bounds = Kind::tip_bounds(table_);
   needs.add(tip.travel_m, motion::share_of(bounds.linear));
   needs.add(tip.turn_rad, motion::share_of(bounds.angular));
   law_ = motion::TrajectoryTiming(needs, swings_);
@@ -75,9 +79,22 @@ Goal<Arm> JointMove<Arm>::next(const liana::Outputs<Arm>& now) {
   if (!has_begun_ && now.at_rest == 0) return {};
   const Joints<Arm>& stands_rad = ArmTraits<Arm>::command_rad(now);
   if (!std::exchange(has_begun_, true) && (again_.begins_again() || stands_rad != from_rad_)) plan(stands_rad);
-  time_s_ += interval_s_;
+  time_s_ += pace_ * interval_s_;
+  pace_ = std::min(1.0, pace_ + kPaceRise_1_s * interval_s_);
   is_over_ = time_s_ >= law_.duration_s() && now.at_rest != 0;
   return at(time_s_);
+}
+
+template <class Arm>
+bool JointMove<Arm>::refused() {
+  const Joints<Arm> asked_rad = at(time_s_);
+  double gone_rad = 0.0;
+  for (std::size_t i = 0; i < ArmTraits<Arm>::joint_count(table_); ++i)
+    gone_rad = std::max(gone_rad, std::fabs(asked_rad[i] - from_rad_[i]));
+  if (has_begun_ && gone_rad > kOtherPlace_rad) again_ = AnotherTry{};
+  has_begun_ = false;
+  begins_at_ = std::max(kLeastPace, 0.5 * pace_);
+  return again_.refused();
 }
 
 template class JointMove<cable::CableArm>;

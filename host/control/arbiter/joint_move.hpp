@@ -1,5 +1,6 @@
 // A way of moving: all joints together from where they stand to a goal, on one time law. It begins from rest: an arm
-// that moves stops first. What was refused goes on from rest, more slowly.
+// that moves stops first. What was refused goes on from rest, half as fast, and comes to its speed again on the way; it
+// is given up after four refusals at one place.
 #pragma once
 
 #include "host/control/arbiter/another_try.hpp"
@@ -26,10 +27,7 @@ class JointMove {
   Goal<Arm> next(const liana::Outputs<Arm>& now);
   // The time is up and the arm, which follows, is at rest.
   bool is_over() const { return is_over_; }
-  bool refused() {
-    has_begun_ = false;
-    return again_.refused();
-  }
+  bool refused();
 
  private:
   void plan(const Joints<Arm>& from_rad);
@@ -40,7 +38,9 @@ class JointMove {
   Joints<Arm> from_rad_, to_rad_;
   double interval_s_;
   motion::TrajectoryTiming law_;
-  double time_s_ = 0.0;
+  double time_s_ = 0.0;     // of the law
+  double pace_ = 1.0;       // of that, in a second
+  double begins_at_ = 1.0;  // pace where it goes on from rest
   bool is_over_ = false, has_begun_ = false;
   AnotherTry again_;
 };

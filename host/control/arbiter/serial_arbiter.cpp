@@ -71,8 +71,8 @@ std::optional<SerialArbiter::Setpoint> SerialArbiter::next_setpoint(std::uint64_
   return setpoint;
 }
 
-bool SerialArbiter::refused(const std::string& why, bool may_swing_less) {
-  if (!asked_) return Base::refused(why, may_swing_less);
+bool SerialArbiter::refused(const std::string& why, bool may_pass_slower) {
+  if (!asked_) return Base::refused(why, may_pass_slower);
   asked_.reset();
   return false;
 }

@@ -35,7 +35,7 @@ class SerialArbiter : public Arbiter<serial::SerialArm> {
   void retract(const Now& now, std::uint64_t until_tick);
   void hold(const std::string& why = "held");
   std::optional<Setpoint> next_setpoint(std::uint64_t tick, const Now& now);
-  bool refused(const std::string& why = "", bool may_swing_less = false);
+  bool refused(const std::string& why = "", bool may_pass_slower = false);
 
   // A push or giving way is asked for.
   bool is_forcing() const { return asked_.has_value(); }

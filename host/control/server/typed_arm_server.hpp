@@ -224,7 +224,7 @@ LastVerdict TypedArmServer<Arm, Steering>::verify_and_release(const typename Arm
   if (released) {
     released_.push_back(*telecommand);
   } else {
-    goes_on = arbiter_.refused(worst.text, verification::may_swing_less(worst.code));
+    goes_on = arbiter_.refused(worst.text, verification::may_pass_slower(worst.code));
   }
   return {candidate.sequence(),
           released,

@@ -135,8 +135,8 @@ std::span<const RefusalRow> refusal_table() { return std::span(kRows).subspan(1)
 
 const RefusalRow& row_of(Refusal code) { return kRows[index_of(code)]; }
 
-bool may_swing_less(Refusal code) {
-  return code == kSwingTension || code == kTipSpeed || code == kNodeSpeed || code == kJointRate;
+bool may_pass_slower(Refusal code) {
+  return code == kSwingTension || code == kTipSpeed || code == kNodeSpeed || code == kJointRate || code == kNoRest;
 }
 
 const char* refusal_action_name(RefusalAction action) { return action == kStop ? "stop" : "hold"; }

@@ -32,7 +32,7 @@ std::span<const RefusalRow> refusal_table();
 const RefusalRow& row_of(Refusal code);
 
 // Refused for how the arm would swing: from rest, and more slowly, the same may pass.
-bool may_swing_less(Refusal code);
+bool may_pass_slower(Refusal code);
 
 const char* refusal_action_name(RefusalAction action);
 

@@ -46,6 +46,37 @@ TEST(JointMove, ASlowerRateTakesLonger) {
   EXPECT_GT(slow_s, 2.0 * fast_s);
 }
 
+cable::Outputs at_rest(const ThetaVector& theta_rad) {
+  cable::Outputs now{};
+  now.theta_command_rad = theta_rad;
+  now.at_rest = 1;
+  return now;
+}
+
+TEST(JointMove, AfterARefusalItGoesOnMoreSlowlyComesToItsSpeedAgainAndMayBeRefusedElsewhere) {
+  ThetaVector stands{}, to{};
+  to[8] = 0.3;
+  Move move(kTable, stands, to, kTable.limits.theta_rate_rad_s);
+  const auto intervals_for = [&](double way_rad) {
+    const double begin_rad = stands[8];
+    int intervals = 0;
+    for (; stands[8] < begin_rad + way_rad && !move.is_over() && intervals < 20000; ++intervals) {
+      const auto goal = move.next(at_rest(stands));
+      if (const auto* asked = std::get_if<ThetaVector>(&goal)) stands = *asked;
+    }
+    return intervals;
+  };
+  const int at_first = intervals_for(0.01);
+  for (int refusals = 0; refusals < 12; ++refusals) {
+    ASSERT_TRUE(move.refused()) << "each at another place";
+    const int after = intervals_for(0.01);
+    EXPECT_GT(after, at_first);
+    EXPECT_LT(after, 20000);
+  }
+  intervals_for(1.0);
+  EXPECT_EQ(stands, to);
+}
+
 TEST(JointMove, NoWayTakesNoTime) {
   const ThetaVector here = zhu2022::radians(zhu2022::kPrepare_deg);
   const Move move(kTable, here, here, 0.03);
