@@ -76,7 +76,8 @@ class MomentJudge {
 
   void joints(const simulation::JointSequence& sequence, const simulation::Motion& motion, const Moment& moment) {
     for (Index k = 0; k < thetas(); ++k) {
-      const double stands_rad = std::fabs(motion.moments.front().theta_rad[k]);
+      // Friction may hold it as far out from the beginning.
+      const double stands_rad = std::fabs(motion.moments.front().theta_rad[k]) + motion.friction_band_rad[k];
       judge_.check(Refusal::kJointAngle, "simulated theta", kDegrees, static_cast<int>(k),
                    std::fabs(moment.theta_rad[k]) + motion.friction_band_rad[k],
                    std::fmax(max_rad(sequence, k), stands_rad) + kSwingAngle_rad);
