@@ -14,7 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PRODUCT = ("firmware_like", "hil", "host", "lua")
 SOURCES = (".cpp", ".hpp", ".lua", ".py")
 MIN_LENGTH, MIN_BLANKS, WORDS_IN_A_ROW = 25, 4, 3
-# What prints texts of its own, or plants them: these folders test no message.
+# What prints texts of its own, or plants them: no message is tested here.
 ASIDE = (
     "tests/bench",
     "tests/bits",
@@ -23,6 +23,7 @@ ASIDE = (
     "tests/mutation",
     "tests/numbers",
     "tests/structure",
+    "tests/tiers.py",
 )
 KNOWN = {  # file: how many sentences it may quote, and why
     "tests/host/planning/error_budget/test_budget_command.py": (2, "names of terms in the budget of the paper"),

@@ -1,13 +1,20 @@
 """./dev test counts a skip that is not in its list as a failure, whoever skips: ctest, GoogleTest, or a part of a test
 of Python's."""
+
+import contextlib
+import io
 import pathlib
 import subprocess
+import sys
 import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import tiers
+
 TESTS = """
 add_test("Good.One" "/bin/true")
+add_test("Bad.One" "/bin/sh" "-c" "echo what is wrong; exit 1")
 add_test("FullDisk.Any" "/bin/sh" "-c" "exit 4")
 add_test("Other.One" "/bin/sh" "-c" "exit 4")
 set_tests_properties("FullDisk.Any" "Other.One" PROPERTIES SKIP_RETURN_CODE 4)
@@ -15,39 +22,26 @@ add_test("system.runs" "/bin/sh" "-c" "yes line | head -n 900; echo 'OK (skipped
 add_test("system.part" "/bin/sh" "-c" "yes line | head -n 900; echo 'OK (skipped=2, expected failures=1)'")
 add_test("system.whole" "/bin/echo" "OK")
 """
-# All of ./dev but its last line, which would do what it was called for.
-COUNT = """
-source <(head -n -1 dev)
-ctest --test-dir "$1" --test-output-size-passed 65536 --output-junit "$1/report.xml" >/dev/null
-count_report "$1/report.xml"
-bare_root_reason() { skip_one "README's first command on a bare Debian 12" "no root"; }
-bare_root_reason
-echo "passed $PASSED failed $FAILED skipped $SKIPPED"
-printf 'failed: %s\\n' "${FAILED_NAMES[@]}"
-printf 'skipped: %s\\n' "${SKIPPED_NAMES[@]}"
-"""
 
 
 class Skips(unittest.TestCase):
     def test_planned_ones_are_counted_as_skipped_others_fail_by_name(self):
-        with tempfile.TemporaryDirectory() as folder:
+        tally, told = tiers.Tally(), io.StringIO()
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stderr(told):
             (pathlib.Path(folder) / "CTestTestfile.cmake").write_text(TESTS)
-            done = subprocess.run(
-                ["bash", "-c", COUNT, "bash", folder], cwd=ROOT, capture_output=True, text=True, check=False
-            )
+            report = pathlib.Path(folder) / "report.xml"
+            ctest = ["ctest", "--test-dir", folder, "--test-output-size-passed", "65536", "--output-junit", report]
+            subprocess.run(ctest, stdout=subprocess.DEVNULL, check=False)
+            tally.add_report(report)
+        tally.skip(tiers.BARE_ROOT, "no root")
+        self.assertEqual(tally.passed, 2)
         self.assertEqual(
-            done.stdout.splitlines(),
-            [
-                "passed 2 failed 2 skipped 3",
-                "failed: Other.One: skipped, which nobody planned",
-                "failed: system.part: skipped, which nobody planned",
-                "skipped: FullDisk.Any",
-                "skipped: system.runs",
-                "skipped: README's first command on a bare Debian 12: no root",
-            ],
-            done.stderr,
+            tally.failed,
+            ["Bad.One", "Other.One: skipped, which nobody planned", "system.part: skipped, which nobody planned"],
         )
-        self.assertIn("skipped: FullDisk.Any (planned: a small disk is mounted", done.stderr)
+        self.assertEqual(tally.skipped, ["FullDisk.Any", "system.runs", f"{tiers.BARE_ROOT}: no root"])
+        self.assertEqual(tally.ends, ["--- Bad.One, its last lines:\nwhat is wrong"])
+        self.assertIn("skipped: FullDisk.Any (planned: a small disk is mounted", told.getvalue())
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ void judge_model(const cable::RobotParams& table, const cable::Outputs& now, Exe
                 static_cast<int>(i), now.theta_measured_rad[i] - now.theta_command_rad[i], kModelAngle_rad);
   }
   for (std::size_t c = 0; c < static_cast<std::size_t>(table.cable_count()); ++c) {
-    // Its plan has what it is wound in by, which friction may hold; slack is judged as simulated, and a fault as measured.
+    // Its plan has what it is wound in by, which friction may hold; slack is judged by simulation and monitors.
     if (now.tension_measured_N[c] < table.tension.floor_motor_N) continue;
     judge.check(Refusal::kModel, "the model does not hold: measured less planned tension of cable", kNewtons,
                 static_cast<int>(c), now.tension_measured_N[c] - now.tension_plan_N[c],

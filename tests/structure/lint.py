@@ -1,0 +1,117 @@
+"""How sources look, and what a program can say of them.
+  lint.py format [--check]   format the C++ and Python sources, or say which need it
+  lint.py tidy [PATH...]     clang-tidy over the sources below PATH, or over those that differ from the last commit
+`./dev test deep` runs every check of CHECKS."""
+
+import os
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+JOBS = str(os.cpu_count())
+
+
+def output(*command):
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout.splitlines()
+
+
+def sources(*patterns):
+    """Files that git knows or would know; no links to folders."""
+    listed = output("git", "ls-files", "--cached", "--others", "--exclude-standard", "--", *patterns)
+    return sorted({path for path in listed if (ROOT / path).is_file()})
+
+
+def scripts(program):
+    """Files whose first line names this program."""
+    found = []
+    for path in sources():
+        with open(ROOT / path, "rb") as file:
+            line = file.readline(80)
+        if line.startswith(b"#!") and line.split()[-1].split(b"/")[-1] == program.encode():
+            found.append(path)
+    return found
+
+
+def each(command, files, at_a_time=20):
+    """Whether the command takes all files, as many calls at once as there are processors."""
+    given = "\0".join(files).encode()
+    told = ["xargs", "-0", "-r", "-P", JOBS, "-n", str(at_a_time), *command]
+    return subprocess.run(told, cwd=ROOT, input=given, check=False).returncode == 0
+
+
+def format_cpp(check=False):
+    return each(["clang-format", *(["--dry-run", "--Werror"] if check else ["-i"])], sources("*.cpp", "*.hpp"))
+
+
+def format_python(check=False):
+    files = sorted({*sources("*.py"), *scripts("python3")})
+    return each(["black", "-l", "120", *(["--check"] if check else [])], files, len(files))
+
+
+def check_shell():
+    return each(["shellcheck"], scripts("bash") + scripts("sh"))
+
+
+def tidy(files):
+    """What clang-tidy has to say of them fails. Its preset is only configured: it names the commands."""
+    told = ["cmake", "--preset", "tidy"]
+    configured = subprocess.run(told, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+    if configured.returncode != 0:
+        sys.stderr.buffer.write(configured.stdout)
+        return False
+    return each(["clang-tidy", "-p", "build/tidy", "--quiet", "--warnings-as-errors=*"], files, 6)
+
+
+def runs(*command):
+    return lambda: subprocess.run(command, cwd=ROOT, check=False).returncode == 0
+
+
+CHECKS = {
+    "luacheck": runs("luacheck", "-q", "--no-color", "lua", "tests/lua"),
+    "clang-format": lambda: format_cpp(check=True),
+    "black": lambda: format_python(check=True),
+    "shellcheck": check_shell,
+    "the checks of structure find what is planted": runs(
+        "python3", "-m", "unittest", "discover", "-q", "-s", "tests/structure", "-p", "*_test.py"
+    ),
+    "includes, libraries and clocks": runs("python3", "tests/structure/check_includes.py"),
+    "type names": runs("python3", "tests/structure/check_type_names.py"),
+    "retired words (docs/development/glossary.md)": runs("codespell"),
+    "lengths of sentences in the pages": runs("python3", "docs/check_prose.py"),
+    "quoted sentences of messages": runs("python3", "tests/structure/quoted_sentences.py"),
+    "namespaces of rooms": runs("python3", "tests/structure/check_namespaces.py"),
+    "tags of requirements, and their page": runs("python3", "tests/structure/requirements.py", "--check"),
+    "the page of missions and their library": runs("python3", "docs/mission_page.py", "--check"),
+    "documentation links": runs("python3", "docs/check_links.py"),
+}
+
+
+def complain(text):
+    print(f"lint: {text}", file=sys.stderr)
+    return 2
+
+
+def tidied(paths):
+    absent = [path for path in paths if not (ROOT / path).exists()]
+    if absent:
+        return complain(f"tidy: {absent[0]} is not there; give files or folders, or nothing for what differs")
+    changed = output("git", "diff", "--name-only", "--diff-filter=d", "HEAD")
+    changed += output("git", "ls-files", "--others", "--exclude-standard")
+    files = [path for path in (sources(*paths) if paths else changed) if path.endswith(".cpp")]
+    if not files:
+        print("no sources there")
+    return 0 if not files or tidy(files) else 1
+
+
+def main(command, *words):
+    if command == "tidy":
+        return tidied(words)
+    if command != "format" or words not in ((), ("--check",)):
+        return complain(f"{' '.join((command, *words))} is not known; allowed: format, format --check, tidy PATH...")
+    cpp, python = format_cpp(bool(words)), format_python(bool(words))
+    return 0 if cpp and python else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(*(sys.argv[1:] or [""])))

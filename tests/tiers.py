@@ -1,0 +1,451 @@
+"""The tests, in two tiers: `./dev test [deep | FOLDER] [--json]` and `./dev tsan [FOLDER]`.
+
+A tier is a row of stages. Each test of ctest and each other check is counted; what fails or is skipped is named at the
+end. A failure does not keep later stages from running. Exit code 0: all passed; 1: not; 2: bad input."""
+
+import contextlib
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import time
+import xml.etree.ElementTree
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tests/structure"))
+import lint
+
+JOBS = os.cpu_count()
+
+# What the proof runs: unit tests of these folders, and whole processes by the names of their tests.
+PROVED = ["firmware_like", "host/model/config", "host/control/verification", "host/api/server"]
+PROOF = (
+    r"^(cli\.(slit_crossing|command_line|mission_steps|new_arm_moves)"
+    r"|system\.(drive_faults|requests|killed|recordings|archive|calibration|devices|attacks|way_out))$"
+)
+# Unit tests that g++ builds, without sanitizers; all others clang builds, with them. alloc_guard_tests: the guard has a
+# malloc of its own, and so have sanitizers. socketcan_tests: a virtual machine runs them. closed_loop_tests,
+# reach_tests: minutes of arithmetic, of which sanitizers see a part.
+UNSANITIZED = ["alloc_guard_tests", "socketcan_tests", "closed_loop_tests", "reach_tests"]
+# What clang-tidy looks at on every run, a minute of one processor for the core and about as long for the others; all of
+# the host takes an hour (./dev tidy host).
+TIDIED = ["firmware_like", "host/base/net", "host/api/server", "host/control/realtime"]
+# What has threads of its own.
+THREADED = ["host/base/event", "host/storage/archive", "host/control/realtime", "host/control/server"]
+FUZZ_SECONDS = 5  # each target
+PAGE_SUITES = ["unit", "console", "tls", "run_page", "vr", "frames"]
+BARE_ROOT = "README's first command on a bare Debian 12"
+# Tests that may be skipped, by the beginning of their name, and why; any other skip fails.
+PLANNED_SKIPS = {
+    "AnotherUser.": "only root can connect as somebody else",
+    "FullDisk.": "a small disk is mounted, which takes root and a kernel that lets it",
+    "RingOfARun.OnAFullDisk": "a small disk is mounted, which takes root and a kernel that lets it",
+    "system.runs": "one of its tests is for kernels without CAN, one for those that have real time",
+    BARE_ROOT: "makes a root of its own, which takes root and the network",
+}
+NO_SHARED_MEMORY = (
+    "/dev/shm is not there or cannot be written; as root: mkdir -p /dev/shm && mount -t tmpfs tmpfs /dev/shm"
+)
+LAST_LINES = 40  # of what a failed test printed, said once more beside the verdict
+
+
+def say(text):
+    print(f"== {text}", flush=True)
+
+
+def complain(text):
+    print(f"test: {text}", file=sys.stderr, flush=True)
+
+
+def does(*command, **options):
+    """Whether the command, told from the top of the tree, ends well."""
+    return subprocess.run(command, cwd=ROOT, check=False, **options).returncode == 0
+
+
+class Tally:
+    """What passed, what failed and what was skipped."""
+
+    def __init__(self):
+        self.passed = 0
+        self.failed, self.skipped, self.ends = [], [], []
+
+    def count(self, name, is_good):
+        if is_good:
+            self.passed += 1
+        else:
+            self.failed.append(name)
+            complain(f"failed: {name}")
+        return is_good
+
+    def skip(self, name, reason=""):
+        """A skip that is not planned fails."""
+        text = f"{name}: {reason}" if reason else name
+        planned = [why for begin, why in PLANNED_SKIPS.items() if name.startswith(begin)]
+        if planned:
+            self.skipped.append(text)
+            complain(f"skipped: {text} (planned: {planned[0]})")
+        else:
+            self.failed.append(f"{name}: skipped, which nobody planned{': ' + reason if reason else ''}")
+            complain(f"failed: {text}: skipped, which is not in PLANNED_SKIPS of tests/tiers.py")
+
+    def add_report(self, path):
+        """Counts a report of ctest (JUnit). Of some tests that ctest takes for passed Python has left out a part."""
+        for case in xml.etree.ElementTree.parse(path).getroot().iter("testcase"):
+            name, status = case.get("name"), case.get("status")
+            printed = case.findtext("system-out") or ""
+            if status == "fail":
+                self.failed.append(name)
+                self.ends.append(f"--- {name}, its last lines:\n" + "\n".join(printed.splitlines()[-LAST_LINES:]))
+            elif status != "run" or re.search(r"^OK \(.*skipped=[1-9]", printed, re.M):
+                self.skip(name)
+            else:
+                self.passed += 1
+
+    def verdict(self, seconds, as_json):
+        for text in self.ends:
+            print(text)
+        for name in self.failed:
+            print(f"failed: {name}")
+        for name in self.skipped:
+            print(f"skipped: {name}")
+        print(f"total: {seconds} s")
+        counts = {"passed": self.passed, "failed": len(self.failed), "skipped": len(self.skipped), "seconds": seconds}
+        if as_json:
+            print(json.dumps({**counts, "failed_names": self.failed, "skipped_names": self.skipped}))
+        print(", ".join(f"{counts[what]} {what}" for what in ("passed", "failed", "skipped")), flush=True)
+        return 0 if self.passed and not self.failed else 1
+
+
+TALLY = Tally()
+
+
+@contextlib.contextmanager
+def stage(name):
+    """Headline, what is done in it, time."""
+    say(name)
+    start = time.monotonic()
+    yield
+    print(f"   {name}: {time.monotonic() - start:.0f} s", flush=True)
+
+
+# --- building ---
+
+
+def folder_of(preset):
+    """Preset tests adds the tests to the folder of programs."""
+    return "build/programs" if preset == "tests" else f"build/{preset}"
+
+
+def configure(preset):
+    done = subprocess.run(
+        ["cmake", "--preset", preset],
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+    )
+    if done.returncode != 0:
+        print(done.stdout, file=sys.stderr)
+    return done.returncode == 0
+
+
+def build(preset, *targets, **options):
+    return configure(preset) and does("ninja", "-C", folder_of(preset), "-j", str(JOBS), *targets, **options)
+
+
+def objects():
+    """Where what was compiled is kept: the bare root need not compile it again."""
+    return os.environ.get("CCACHE_DIR", str(ROOT / "build/objects"))
+
+
+def keeping_objects():
+    """Paths count from the top of the tree, so that another one with the same sources has the same objects."""
+    return {
+        **os.environ,
+        "CMAKE_CXX_COMPILER_LAUNCHER": "ccache",
+        "CCACHE_DIR": objects(),
+        "CCACHE_BASEDIR": str(ROOT),
+        "CCACHE_NOHASHDIR": "1",
+        "CCACHE_SLOPPINESS": "pch_defines,time_macros,locale",
+    }
+
+
+def build_tests(*targets):
+    """Programs and these; what is compiled is kept where ccache is."""
+    env = keeping_objects() if does("which", "ccache", stdout=subprocess.DEVNULL) else dict(os.environ)
+    told = ["cmake", "--preset", "tests"]
+    if not does(*told, env=env, stdout=subprocess.DEVNULL):
+        return False
+    if not does("ninja", "-C", "build/programs", "-j", str(JOBS), "programs", *targets, env=env):
+        return False
+    return does("ln", "-sfn", "programs/bin", "build/bin")
+
+
+@contextlib.contextmanager
+def beside(preset, *targets):
+    """The targets of what comes later are compiled while the rest leaves a processor idle. What does not compile is told
+    when its turn comes."""
+    told = f"cmake --preset {preset} && ninja -C {folder_of(preset)} -j {JOBS} {' '.join(targets)}"
+    with subprocess.Popen(
+        told, shell=True, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    ) as compiling:
+        yield
+        compiling.wait()
+
+
+def install(*groups):
+    if not does("host/apps/install/packages", *groups):
+        raise SystemExit(1)
+
+
+# --- stages ---
+
+
+def run_ctest(preset, folder, *options):
+    """The tests registered below tests/FOLDER. `liana estop` of one must not find the systems of others."""
+    report = ROOT / "build/report.xml"
+    report.unlink(missing_ok=True)
+    with tempfile.TemporaryDirectory() as home:
+        told = ["ctest", "--test-dir", f"{folder_of(preset)}/tests/{folder}", "-j", str(JOBS)]
+        told += ["--output-on-failure", "--no-tests=error", "--test-output-size-passed", "65536"]
+        told += ["--output-junit", str(report), *(["--progress"] if sys.stdout.isatty() else []), *options]
+        does(*told, env={**os.environ, "XDG_RUNTIME_DIR": home, "TMPDIR": home})
+    if report.exists() and report.stat().st_size > 0:
+        TALLY.add_report(report)
+    else:
+        TALLY.count(f"ctest in tests/{folder}", False)
+
+
+def other_tests():
+    """What needs the programs as they are shipped. The unit tests are not built there, and ctest knows of each of their
+    programs no more than that: sanitizers() runs them. That both compilers make the same of the core, bits.quick sees.
+    """
+    run_ctest("tests", ".", "-LE", "unit", "-E", f"_NOT_BUILT$|{PROOF}")
+
+
+def sanitizers():
+    """One build by clang with its warnings as errors, its sanitizers and its fuzzer's coverage serves three purposes."""
+    compiles = build("checked", "unit_tests", "fuzz_targets")
+    if TALLY.count("unit tests and parsers compile with clang", compiles):
+        run_ctest("checked", ".", "-L", "unit")
+    return compiles
+
+
+def threads(folders):
+    """Their unit tests with ThreadSanitizer."""
+    compiles = build("tsan", *(f"tests/{folder}/all" for folder in folders))
+    if TALLY.count("what has threads compiles with ThreadSanitizer", compiles):
+        for folder in folders:
+            run_ctest("tsan", folder, "-L", "unit")
+
+
+def tidy():
+    files = [path for path in lint.sources(*TIDIED) if path.endswith(".cpp")]
+    TALLY.count(f"clang-tidy has nothing to say of {' '.join(TIDIED)}", bool(files) and lint.tidy(files))
+
+
+def fuzz_targets_say(*options):
+    told = ["python3", "tests/fuzz/targets.py", "--seed", "1", *options]
+    return subprocess.run(told, cwd=ROOT, stdout=subprocess.PIPE, text=True, check=False)
+
+
+def fuzzing(say_of=fuzz_targets_say):
+    """A crash, a hang or too much memory of any target fails by its name."""
+    planted = say_of("--seconds", "30", "planted")
+    TALLY.count("the fuzzer finds a planted bug", planted.returncode == 1)
+    lines = say_of("--seconds", str(FUZZ_SECONDS), "--jobs", str(JOBS)).stdout.splitlines()
+    for line in lines:
+        verdict, name, rest = (line.split(maxsplit=2) + ["", ""])[:3]
+        TALLY.count(f"fuzzing {name}: {rest}", verdict == "good")
+    if not lines:
+        TALLY.count("fuzzing: no target ran", False)
+
+
+def no_alloc():
+    """The guarded lianad aborts on allocation, locks or file calls inside a tick; a whole mission and the fault paths go
+    through it."""
+    if not TALLY.count("the no-alloc build", build("tests", "lianad_no_alloc", env=keeping_objects())):
+        return
+    programs, guarded = ROOT / "build/programs/bin", ROOT / "build/programs/no-alloc"
+    for program in programs.glob("liana*"):
+        if program.name != "lianad":
+            does("cp", "-f", str(program), str(guarded))
+    mission = [str(guarded / "liana"), "run", "slit_crossing", "--time", "fast", "--json", str(guarded / "report.json")]
+    TALLY.count("a mission without allocation inside a tick", does(*mission))
+    env = {**os.environ, "LIANA_BIN": str(guarded)}
+    faults = does("python3", "tests/system/drive_faults_test.py", env=env)
+    TALLY.count("fault paths without allocation inside a tick", faults)
+
+
+def vcan():
+    """In a virtual machine, because hardly any build machine has CAN in its kernel."""
+    sockets = does("hil/vm/run_in_vm", "build/programs/bin/socketcan_tests")
+    TALLY.count("SocketCAN on vcan in the virtual machine", sockets)
+    scenarios = does("python3", "hil/scenarios/run.py", "--part", "can", "--reduced")
+    TALLY.count("scenarios on vcan and SJA1000 controllers, latency in the virtual machine", scenarios)
+
+
+def page():
+    """The page's modules without a browser, then the page in Chromium against a running system; pictures and a table of
+    frame times stay in build/page/screens."""
+    if TALLY.count("the page's packages", does("host/apps/web/bundle", "--dev")):
+        for suite in PAGE_SUITES:
+            TALLY.count(f"the page: {suite}", does("node", "tests/page/run.mjs", suite))
+
+
+def bare_root(*kept):
+    can = subprocess.run(["tests/install/run", "--possible"], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=False)
+    if can.returncode != 0:
+        TALLY.skip(BARE_ROOT, can.stdout.strip())
+    else:
+        TALLY.count(BARE_ROOT, does("tests/install/run", *kept))
+
+
+# --- tiers ---
+
+
+def proof():
+    """A user's proof: the controller's arithmetic and rules, then whole processes, by the compiler that made the
+    programs."""
+    install("build", "configure")
+    with stage("build"):
+        is_built = TALLY.count("build", build_tests(*(f"tests/{folder}/all" for folder in PROVED), "tests/system/all"))
+    if not is_built:
+        return
+    for folder in PROVED:
+        with stage(f"tests/{folder}"):
+            run_ctest("tests", folder, "-L", "unit")
+    with stage("whole processes"):
+        run_ctest("tests", ".", "-R", PROOF)
+
+
+def deep():
+    """All the rest. The page comes first: some of the tests are of the page that it builds."""
+    install("build", "configure", "format", "clang", "deep", "vm", "bits", "npm")
+    with stage("lint"):
+        for name, is_clean in lint.CHECKS.items():
+            TALLY.count(name, is_clean())
+    with stage("build"):
+        is_built = TALLY.count("build", build_tests("all", *UNSANITIZED))
+    if not is_built:
+        return
+    with stage("page"):
+        page()
+    with stage("tests"):
+        other_tests()
+    with stage("vcan"), beside("checked", "unit_tests", "fuzz_targets"):
+        vcan()
+    with stage("unit tests"):
+        compiles = sanitizers()
+    with stage("bare root"), beside("tsan", *(f"tests/{folder}/all" for folder in THREADED)):
+        bare_root(objects())
+    with stage("threads"):
+        threads(THREADED)
+    with stage("clang-tidy"):
+        tidy()
+    with stage("fuzzing"):
+        if compiles:
+            fuzzing()
+    with stage("no-alloc"):
+        no_alloc()
+
+
+def only_page():
+    install("build", "chromium", "npm")
+    with stage("build"):
+        is_built = TALLY.count("build", build("programs", "programs"))
+    with stage("page"):
+        if is_built and does("ln", "-sfn", "programs/bin", "build/bin"):
+            page()
+
+
+def only_fuzzing():
+    install("build", "configure", "clang")
+    with stage("build"):
+        is_built = TALLY.count("build", build("checked", "fuzz_targets"))
+    with stage("fuzzing"):
+        if is_built:
+            fuzzing()
+
+
+def only_install():
+    does("host/apps/install/packages", "install")  # without them it is skipped
+    with stage("bare root"):
+        bare_root()
+
+
+def only_folder(folder):
+    install("build", "configure", "format", "clang", "deep", "vm", "bits", "npm")
+    with stage("build"):
+        is_built = TALLY.count("build", build_tests(f"tests/{folder}/all"))
+    with stage("tests"):
+        if is_built:
+            run_ctest("tests", folder)
+
+
+def only_threads(folders):
+    install("build", "configure")
+    with stage("threads"):
+        threads(folders)
+
+
+OTHERS = {"deep": deep, "page": only_page, "fuzz": only_fuzzing, "install": only_install}
+
+
+def folders():
+    """Those with tests of their own."""
+    found = {str(path.parent.relative_to(ROOT / "tests")) for path in (ROOT / "tests").glob("*/**/CMakeLists.txt")}
+    return sorted(found | set(OTHERS))
+
+
+def has_shared_memory():
+    """Python's process pools make their locks there."""
+    return os.path.isdir("/dev/shm") and os.access("/dev/shm", os.W_OK)
+
+
+def folder_in(word):
+    """As the tests have it; raises ValueError for one without tests."""
+    folder = word.removeprefix("tests/").rstrip("/")
+    if folder not in folders():
+        raise ValueError(f"tests/{folder} has no tests of its own; folders with tests: {' '.join(folders())}")
+    return folder
+
+
+def tier(words):
+    """What these words ask for; raises ValueError where nothing does."""
+    if words[:1] == ["--threads"]:
+        chosen = [folder_in(word) for word in words[1:]] or THREADED
+        return lambda: only_threads(chosen)
+    if len(words) > 1:
+        raise ValueError(f"{' '.join(words)} are several; give one folder, or nothing for the proof")
+    folder = folder_in(words[0]) if words else ""
+    if folder in ("", "deep", "system", "mutation") and not has_shared_memory():
+        raise ValueError(NO_SHARED_MEMORY)
+    return OTHERS.get(folder, (lambda: only_folder(folder)) if folder else proof)
+
+
+def main(words):
+    if words == ["--folders"]:
+        print(" ".join(folders()))
+        return 0
+    as_json = "--json" in words
+    words = [word for word in words if word != "--json"]
+    options = [word for word in words if word.startswith("-") and word != "--threads"]
+    try:
+        if options:
+            raise ValueError(f"{options[0]}: no such option; allowed: --json")
+        run = tier(words)
+    except ValueError as error:
+        complain(error)
+        return 2
+    start = time.monotonic()
+    run()
+    return TALLY.verdict(round(time.monotonic() - start), as_json)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
