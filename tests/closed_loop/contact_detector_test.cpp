@@ -55,7 +55,9 @@ TEST(ContactWatch, ABodyThatIsPressedAgainstThePanelIsAFaultThatHoldsWithSegment
   EXPECT_TRUE(first.index == 6 || first.index == 9) << first.index << ": the middle of the arm is in the slit's mouth";
   EXPECT_GT(first.detail, 250) << "0.01 N m";
   EXPECT_LE(contact_N, 3.0);
-  EXPECT_EQ(arm.outputs().state, OperatingState::kFault) << "a hold whose cause stays becomes a stop";
+  const double left_N = arm.plant().take_load().contact_N;
+  EXPECT_TRUE(left_N < 0.1 || arm.outputs().state == OperatingState::kFault)
+      << left_N << " N: a hold whose cause stays becomes a stop";
 }
 
 struct Felt {

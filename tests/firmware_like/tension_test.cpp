@@ -295,10 +295,10 @@ TEST(Tension, EveryCableThatNearsTheFloorLiftsItsOwnSegment) {
   }
 }
 
-TEST(Tension, ACableUnderTheFloorAloneIsWoundInUntilItIsThere) {
+TEST(Tension, ACableNearTheFloorAloneIsWoundInUntilItIsThere) {
   const RobotParams robot = zhu2022::table();
-  const double floor_N = robot.tension.floor_motor_N;
-  for (const double looser_N : {5.0, 20.0, 55.0}) {
+  const double floor_N = robot.tension.floor_motor_N + kTautBelow_N;
+  for (const double looser_N : {5.0, 20.0, 55.0, 110.0}) {
     CableVector measured_N, taut_N{};
     for (double time_s = 0.0; time_s < 10.0; time_s += robot.tick_s) {
       measured_N.fill(floor_N);

@@ -82,9 +82,9 @@ std::array<double, 2> torque_beyond(const RobotParams& table, const TensionSolve
 }
 
 // What is pulled beyond the plan grows with what is missing, and is let go again.
-double one_tick_tighter(const RobotParams& table, double pulled_N, double missing_N, double leak_s,
+double one_tick_tighter(const RobotParams& table, double pulled_N, double missing_N_s, double leak_s,
                         double limit_N) noexcept {
-  const double rate_N_s = kLiftRate_1_s * missing_N - pulled_N / leak_s;
+  const double rate_N_s = missing_N_s - pulled_N / leak_s;
   return smaller(pulled_N + rate_N_s * table.tick_s, limit_N);
 }
 
@@ -177,15 +177,16 @@ void keep_min_tension(const RobotParams& table, const CableVector& tension_N, Se
     double missing_N = 0.0;
     for (std::int32_t i = 0; i < table.segment[j].cables; ++i, ++c)
       missing_N = larger(missing_N, enough_N - tension_N[c]);
-    lift_N[j] = one_tick_tighter(table, lift_N[j], missing_N, kLiftLeak_s, limit_N);
+    lift_N[j] = one_tick_tighter(table, lift_N[j], kLiftRate_1_s * missing_N, kLiftLeak_s, limit_N);
   }
 }
 
 void wind_in(const RobotParams& table, const CableVector& tension_N, CableVector& taut_N) noexcept {
   const double limit_N = kTautLimit_N * table.tension.scale();
+  const double enough_N = table.tension.floor_motor_N + kTautBelow_N * table.tension.scale();
   for (Index c = 0; c < static_cast<Index>(table.cable_count()); ++c) {
-    const double missing_N = larger(0.0, table.tension.floor_motor_N - tension_N[c]);
-    taut_N[c] = one_tick_tighter(table, taut_N[c], missing_N, kTautLeak_s, limit_N);
+    const double missing_N = larger(0.0, enough_N - tension_N[c]);
+    taut_N[c] = one_tick_tighter(table, taut_N[c], kTautRate_1_s * missing_N, kTautLeak_s, limit_N);
   }
 }
 

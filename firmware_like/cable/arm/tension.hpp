@@ -64,7 +64,7 @@ TensionPlan plan_tension(const RobotParams& table, const CableGeometry& geometry
 // friction, the less lift, and none above kMarginFriction: there more tension brings more friction than it repairs
 // (with mu 0.1 it let cables go slack in whole missions).
 constexpr double kLiftBelow_N = 9.0;   // over the floor: under it the lift rises
-constexpr double kLiftRate_1_s = 3.0;  // share of what is missing, per second; of single cables, too
+constexpr double kLiftRate_1_s = 3.0;  // share of what is missing, per second
 constexpr double kLiftLeak_s = 5.0;    // time constant of letting go
 constexpr double kLiftLimit_N = 20.0;  // without friction
 
@@ -72,8 +72,12 @@ constexpr double kLiftLimit_N = 20.0;  // without friction
 void keep_min_tension(const RobotParams& table, const CableVector& tension_N, SegmentVector& lift_N) noexcept;
 
 // An arm that friction holds beside its command has cables that are looser than planned, whatever the segment is pulled
-// to: a single cable under the floor is wound in until it is there, slower than the arm's modes. Out of a bend at the
-// limits of both angles it takes 90 N until friction has turned round.
+// to: a single cable that nears the floor is wound in. While friction holds the arm this moves nothing, so it may be
+// quicker than the arm's modes: at 3 / s from the floor on, a hand's cable came down to 0.3 N where it now has 6.6. Out
+// of a bend at the limits of both angles it takes 90 N until friction has turned round.
+constexpr double kTautBelow_N = 5.0;  // over the floor: under it a cable is wound in
+constexpr double kTautRate_1_s =
+    10.0;  // share of what is missing, per second; with more its own lag makes it oscillate
 constexpr double kTautLeak_s = 10.0;
 constexpr double kTautLimit_N = 120.0;
 
