@@ -8,7 +8,7 @@
 namespace liana {
 
 // How the arm comes to rest. A higher category wins, and a stop at once over one along the path
-// (docs/explanation/fault-priorities.md).
+// (docs/explanation/fault-detection.md).
 enum class StopCategory : std::uint8_t { kNone = 0, kHold = 1, kStop = 2, kOff = 3 };
 
 // 1xxx command, 2xxx motion, 3xxx drive, 4xxx bus, 5xxx cable, 6xxx internal. Numbers never change meaning.

@@ -1,4 +1,4 @@
-// Dynamics of a chain of revolute joints by the recursive Newton-Euler method (docs/explanation/serial-dynamics.md).
+// Dynamics of a chain of revolute joints by the recursive Newton-Euler method (docs/explanation/serial-arm.md).
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 """Every pair of these faults, the second 0 to 50 ticks after the first, into a moving arm: what is latched first, what
-wins (docs/explanation/fault-priorities.md), and that it ends at rest.
+wins (docs/explanation/fault-detection.md), and that it ends at rest.
 """
 import collections
 import itertools

@@ -278,7 +278,7 @@ def weakest_reaction_broken(before, now, highest, was, persisted):
 
 def weak_reactions(ticks, reactions):
     """The highest reaction of all latched faults is what happens, in the tick in which they are latched
-    (docs/explanation/fault-priorities.md).
+    (docs/explanation/fault-detection.md).
     """
     complaints, was = [], kNone
     for before, now in neighbours(ticks):

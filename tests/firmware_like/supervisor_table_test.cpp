@@ -24,14 +24,14 @@ struct Severity {
   std::uint8_t immediate;
 };
 
-// Names of the phases in docs/explanation/fault-priorities.md, in the order of Phase.
+// Names of the phases in docs/explanation/fault-detection.md, in the order of Phase.
 const std::array<std::string, kPhaseCount> kPhaseNames{"disabled",   "switching on", "powering", "tensioning",
                                                        "enabled",    "path stop",    "braking",  "quick stop",
                                                        "power down", "fault",        "resetting"};
 
 // The rows of the page's table that begin with a phase: that phase and what it leads to, by rising severity.
 std::vector<std::vector<Phase>> documented_reactions() {
-  std::ifstream page(LIANA_DOCS_DIR "/explanation/fault-priorities.md");
+  std::ifstream page(LIANA_DOCS_DIR "/explanation/fault-detection.md");
   std::vector<std::vector<Phase>> rows;
   for (std::string line; std::getline(page, line);) {
     std::vector<Phase> row;

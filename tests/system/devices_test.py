@@ -171,7 +171,7 @@ class Drivers(DevicesTest):
 
     def test_the_driver_in_plain_c_of_the_documentation_steers(self):
         built = self.system.directory / "device_driver"
-        source = SOURCE / "docs" / "examples" / "device_driver" / "driver.c"
+        source = SOURCE / "docs" / "examples" / "04_device_driver" / "driver.c"
         compiler = ["gcc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic"]
         subprocess.run([*compiler, "-I", SOURCE / "host" / "api" / "device", source, "-o", built, "-lm"], check=True)
         driver = self.start(built, self.path)

@@ -3,7 +3,7 @@
 // Nothing pushes the arm from outside, so that at each of its axes the torques of the cables balance: sum_c J_ck
 // exp(-mu slid_cj) t_c = 0, where slid_cj is the bend that cable c slides over until the middle of the axis' segment,
 // signed as planned (friction.hpp). One axis after another gives one equation for mu; a Kalman filter of that one
-// number weighs them. Derivation, what was left out and measured errors: docs/explanation/friction.md.
+// number weighs them. Derivation, what was left out and measured errors: docs/explanation/arm-control.md.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ constexpr double kFrictionFlag = 0.004;
 
 // The arm plans with what was found where that is not as declared and certain enough, and never changes faster: cables
 // move by micrometres a second for it, tensions by less than 1 N a second. Within the flag's band the declared plan's
-// margins were measured, and a plan that follows every per cent is no better (docs/explanation/friction.md).
+// margins were measured, and a plan that follows every per cent is no better (docs/explanation/arm-control.md).
 constexpr double kFrictionPlanSd = 0.006;
 constexpr double kFrictionPlanRate_1_s = 0.005;
 constexpr double kFrictionPlanMost = 0.10;  // or what was declared: more than that spreads tensions beyond the ceiling

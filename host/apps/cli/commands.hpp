@@ -59,7 +59,7 @@ struct BudgetOptions {
   bool json = false;
 };
 // How far beside its goal a chain of arms puts what it carries, by formula and by chance
-// (docs/explanation/error-budget.md).
+// (docs/explanation/workspace.md).
 int budget_command(const BudgetOptions& options);
 
 struct SweepOptions {
@@ -69,7 +69,7 @@ struct SweepOptions {
   bool json = false;
 };
 // All configurations of a 7-joint arm with the tip still, and how far each gives way; exit code 1 when they form no
-// closed motion (docs/explanation/self-motion.md).
+// closed motion (docs/explanation/workspace.md).
 int sweep_command(const SweepOptions& options);
 
 struct VerifyOptions {

@@ -30,7 +30,7 @@ enum class EventKind : std::uint8_t {
   kPath,         // number: PathEvent; subject the path's hash; `share` of its time, `duration_s`
   kWayBack,      // number: RetractEvent; `points` of the path, `distance_m` of the arm from it
   kFriction,     // number: 5009 where it is not as declared, 0: as declared again; `mu`, `sd`, `declared_mu`
-  kStop,         // number: stop category (docs/explanation/fault-priorities.md); subject who asked for it
+  kStop,         // number: stop category (docs/explanation/fault-detection.md); subject who asked for it
   kShutdown,     // subject who asked for it, or nothing
   kLeftOut,      // subject: a kind of which too many came within one interval; `count` of those without a number
 };

@@ -10,7 +10,7 @@ namespace liana::virtual_fixtures {
 
 inline constexpr Vec3 kX{1.0, 0.0, 0.0}, kY{0.0, 1.0, 0.0}, kZ{0.0, 0.0, 1.0};
 
-// What is known beside the drawing and the command (docs/explanation/clearance.md); zeros: nothing.
+// What is known beside the drawing and the command (docs/explanation/verification.md); zeros: nothing.
 struct Sight {
   Pose drawing_in_base{};  // where the frame stands that the scene is drawn in
   Vec3 off_m{};            // the tip as it is believed to be less as it is commanded, base frame

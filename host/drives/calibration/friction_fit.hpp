@@ -1,6 +1,6 @@
 // Friction of the cables from what their drives report while the arm moves slowly: the balance of torques that the core
 // watches, too (firmware_like/cable/arm/friction_estimator.hpp), fitted to a whole motion at once
-// (docs/explanation/friction.md).
+// (docs/explanation/arm-control.md).
 #pragma once
 
 #include <Eigen/Core>

@@ -185,8 +185,8 @@ struct SceneContact {
   double friction = 0.0;
 };
 
-// What the scene asks of claimed clearances (docs/explanation/clearance.md, docs/explanation/verification.md), and how
-// far it may stand beside its drawing.
+// What the scene asks of clearance bounds (docs/explanation/verification.md), and how far it may be from its nominal
+// place.
 struct SceneMargins {
   double prediction_m = 0.009;  // how much nearer the true arm may be than a predicted one: taken off every distance
   double slow_m = 0.003;        // at or below this claim the tip is slowed down

@@ -17,7 +17,7 @@ constexpr const char* kStateSchema = R"({"title":"state","description":"docs/ref
 "setpoint_cp":{"type":"array","items":{"type":"number"}},"goal_cp":{"type":"array","items":{"type":"number"}},
 "tension_N":{"type":"array","items":{"type":"number"}},
 "node_m":{"type":"array","items":{"type":"array","items":{"type":"number"}}},
-"clearance":{"type":["object","null"],"description":"verified clearance; docs/explanation/clearance.md","properties":{
+"clearance":{"type":["object","null"],"description":"clearance bound; docs/explanation/verification.md","properties":{
 "distance_m":{"type":"number"},"bound_m":{"type":"number"},"body":{"type":"string"},"link":{"type":"integer"},
 "where_m":{"type":"array","items":{"type":"number"}},"sure":{"type":"string"},"picture_age_s":{"type":["number","null"]},
 "camera":{"type":"string"},"level":{"type":"string"},"shift_m":{"type":"array","items":{"type":"number"}},

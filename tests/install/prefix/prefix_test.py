@@ -135,10 +135,11 @@ class Installed(Messages, unittest.TestCase):
         self.assertEqual(json.loads(robot)["name"], "micro")
 
     def build_by_cmake(self, example):
+        """The program of an example, named as its folder without the number."""
         folder = self.folder / "cmake" / example
         run("cmake", "-S", EXAMPLES / example, "-B", folder, f"-DCMAKE_PREFIX_PATH={self.prefix}")
         run("cmake", "--build", folder)
-        return folder / example
+        return folder / example.split("_", 1)[1]
 
     def build_by_pkg_config(self, example, package):
         where = {"PKG_CONFIG_PATH": str(self.prefix / "lib" / "pkgconfig")}
@@ -148,11 +149,13 @@ class Installed(Messages, unittest.TestCase):
         return program
 
     def test_the_core_is_embedded_by_cmake_and_by_pkg_config(self):
-        for program in (self.build_by_cmake("embedded_core"), self.build_by_pkg_config("embedded_core", "liana-core")):
+        example = "05_embedded_core"
+        for program in (self.build_by_cmake(example), self.build_by_pkg_config(example, "liana-core")):
             self.assertRegex(run(program).stdout, r"^enabled, 0 faults, largest error 0\.00\d+ deg\n$")
 
     def test_a_client_prints_the_state_of_a_running_system(self):
-        programs = [self.build_by_cmake("state_client"), self.build_by_pkg_config("state_client", "liana-client")]
+        example = "03_state_client"
+        programs = [self.build_by_cmake(example), self.build_by_pkg_config(example, "liana-client")]
         words = ["console", "--simulate", "--robot", "micro", "--listen", "127.0.0.1:0", "--json"]
         command = [str(self.prefix / "bin" / "liana"), *words]
         console = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)

@@ -1,5 +1,5 @@
-"""The examples of docs/getting-started/python.md run as they stand there, and a system ends whatever happens in its
-block.
+"""The examples of docs/getting-started/python.md and docs/examples run as they stand there, and a system ends whatever
+happens in its block.
 """
 import contextlib
 import io
@@ -18,6 +18,7 @@ def examples_of(page):
     return re.findall(r"^```python\n(.*?)^```", (ROOT / page).read_text(), re.M | re.S)
 
 
+FOLDER = ROOT / "docs" / "examples"
 EXAMPLES, README = examples_of("docs/getting-started/python.md"), examples_of("README.md")
 
 
@@ -33,6 +34,14 @@ class Examples(unittest.TestCase):
 
     def test_what_the_readme_shows_is_accepted(self):
         self.assertEqual(said_by(README[0]), "")
+
+    def test_the_smallest_example_reads_the_state(self):
+        said = said_by((FOLDER / "01_read_state" / "read_state.py").read_text())
+        self.assertRegex(said, r"^DISABLED at \d+\.\d\d s, joints at (-?\d+\.\d\d, ){9}-?\d+\.\d\d deg\n$")
+
+    def test_the_second_example_moves_to_a_named_pose(self):
+        said = said_by((FOLDER / "02_named_pose" / "named_pose.py").read_text())
+        self.assertRegex(said, r"^ENABLED, largest error 0\.[01]\d deg after \d+ s\n$")
 
     def test_a_client_of_a_running_system_is_told_why_it_may_not_move_the_arm(self):
         with System() as system:
