@@ -1,5 +1,5 @@
-// `liana`: the command line. Commands are done in files of their own, their options declared in options/; here are the
-// exit codes.
+// `liana`: the command line. Commands are done in files of their own, their options declared beside this file; here are
+// the exit codes.
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
@@ -10,7 +10,6 @@
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/interrupt.hpp"
 #include "host/apps/launcher/output.hpp"
-#include "host/base/install_paths/places.hpp"
 #include "host/base/json/json.hpp"
 #include "host/drives/commissioning/desk.hpp"
 
@@ -19,37 +18,6 @@ using namespace liana::cli;
 namespace {
 
 using liana::launcher::ExitCode;
-
-constexpr const char* kFooter =
-    "Exit codes: 0 done, 1 failed, 2 bad input, 3 inverse kinematics did not converge or there is no plan,\n"
-    "4 estop found nothing to stop, 130 interrupted; one message on standard error says what, with --json standard "
-    "output has it, too.\n"
-    "Angles are degrees where the option says deg, lengths metres, poses in the base frame.";
-
-// What stands before the command: for every command the same.
-void declare_global(CLI::App& app) {
-  app.require_subcommand(1);
-  app.footer(kFooter);
-  app.set_version_flag("--version", "liana " LIANA_VERSION, "say which version");
-  app.add_option_function<std::string>(
-      kLuaDir, [](const std::string& folder) { liana::install_paths::search_first(kLuaDir, folder); },
-      "before the command: a folder of tables and missions that is searched first (docs/how-to/install.md)");
-}
-
-// What tells of the host and of the commands themselves.
-void declare_help(CLI::App& app, Action& action) {
-  auto [doctor, options] = add<DoctorOptions>(
-      app, action, "doctor", "what this host can and cannot do, and what to do about it", doctor_command);
-  add_json(doctor, options.json);
-
-  CLI::App* completion = app.add_subcommand("completion", "tab completion: source <(liana completion bash)");
-  const auto shell = std::make_shared<std::string>("bash");
-  completion->add_option("shell", *shell, "bash or zsh; or robots, scenes, buses, missions: the names that there are")
-      ->capture_default_str();
-  completion->callback(
-      [&app, &action, shell] { action = [&app, shell] { return completion_command(*shell, help_of(app, "liana")); }; });
-  app.add_subcommand("help", "this text, or `liana help COMMAND`");
-}
 
 // How a command ends that has no answer: one message on standard error, and with --json that as JSON in the answer's
 // place. Returns the code.
@@ -88,17 +56,9 @@ int perform(const Action& action, const Refusal& refuse) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Liana: control of cable-driven snake arms", "liana");
+  CLI::App app("", "liana");
   Action action;
-  declare_global(app);
-  declare_geometry(app, action);
-  declare_missions(app, action);
-  declare_seeing(app, action);
-  declare_arm(app, action);
-  declare_device(app, action);
-  declare_drive(app, action);
-  declare_robot(app, action);
-  declare_help(app, action);
+  declare_all(app, action);
   const std::vector<std::string> words(argv + 1, argv + argc);
   const Refusal refuse(prints_json(words));
   try {

@@ -1,6 +1,7 @@
 """`liana` as users call it: kinematics, tables and what it says about bad input. A fresh process per call."""
 import json
 import math
+import os
 import pathlib
 import random
 import subprocess
@@ -10,6 +11,9 @@ import unittest
 
 from programs import BIN, ROOT, json_of_refusal, liana, liana_json, liana_to_full_disk
 from message import Messages
+
+sys.path.append(str(ROOT / "host/apps/install"))
+import make_pages  # noqa: E402
 
 GOLDEN = json.loads((ROOT / "tests/golden/arm.json").read_text())["cases"]
 MICRO = json.loads((ROOT / "tests/golden/micro.json").read_text())["cases"]
@@ -361,28 +365,49 @@ class Dev(unittest.TestCase):
 
 
 class Help(Messages, unittest.TestCase):
-    def test_help_names_every_command(self):
-        code, out, _ = liana("help")
-        self.assertEqual(code, 0)
-        for command in [
-            "run",
-            "check",
-            "pose",
-            "ik",
-            "reach",
-            "plan",
-            "budget",
-            "sweep",
-            "verify",
-            "status",
-            "estop",
-            "clear",
-            "replay",
-            "robot",
-            "doctor",
-            "completion",
-        ]:
-            self.assertIn(f"\n  {command} ", out)
+    def examples(self, *path):
+        """The examples of a command and of all below it, by what calls the command."""
+        code, out, _ = liana(*path, "--help")
+        told = make_pages.Help(out)
+        self.assertEqual((code, len(told.examples)), (0, 1), path)
+        self.assertTrue(out.endswith(f"Example: {told.examples[0]}\n"), path)
+        found = {" ".join(path): told.examples[0]}
+        for command in told.commands():
+            found |= self.examples(*path, command)
+        return found
+
+    def test_help_ends_with_an_example_and_each_works_that_needs_neither_a_system_nor_a_drive(self):
+        examples = self.examples()
+        self.assertGreater(len(examples), 40)
+        runs_long = {"", "check", "run", "console", "teleop", "calibrate", "latency", "force", "link"}
+        needs_system = {"mission", "status", "device", "estop", "clear"}
+        with tempfile.TemporaryDirectory() as folder:
+            environment = os.environ | {"PATH": f"{BIN}:{os.environ['PATH']}", "XDG_STATE_HOME": folder}
+            for command, example in examples.items():
+                if command.split(" ")[0] in runs_long | needs_system | {"drive"} or "liana run" in example:
+                    continue
+                done = subprocess.run(
+                    ["sh", "-c", example],
+                    cwd=folder,
+                    env=environment,
+                    capture_output=True,
+                    text=True,
+                    check=False,
+                    timeout=120,
+                )
+                self.assertEqual(done.returncode, 0, (example, done.stderr))
+
+    def test_the_page_of_the_command_line_has_the_groups_of_help(self):
+        """Each command has a heading of its own, under the heading of its group."""
+        told = make_pages.Help(liana("help")[1])
+        page, group = [], None
+        for line in (ROOT / "docs/reference/command-line.md").read_text("utf-8").splitlines():
+            if line.startswith("## "):
+                group = line.removeprefix("## ")
+            elif line.startswith("### liana "):
+                page.append((group, line.removeprefix("### liana ")))
+        wanted = [(group, name) for group, rows in told.lists.items() for name, _ in rows if name != "help"]
+        self.assertEqual(page, wanted)
 
     def test_an_empty_argument_is_never_taken_for_a_missing_one(self):
         for words in (
