@@ -23,10 +23,11 @@ using liana::launcher::ExitCode;
 // place. Returns the code.
 class Refusal {
  public:
-  explicit Refusal(bool as_json) : as_json_(as_json) {}
-  int operator()(ExitCode code, const std::string& text) const {
+  Refusal(const CLI::App& app, const std::vector<std::string>& words) : app_(app), words_(words) {}
+  int operator()(ExitCode code, std::string text) const {
+    if (code == ExitCode::kExitBadInput) text += suggestion(app_, words_);
     std::fprintf(stderr, "liana: %s\n", text.c_str());
-    if (as_json_)
+    if (prints_json(words_))
       std::printf("%s\n", liana::Json{{"error", {{"exit_code", int{code}}, {"text", text}}}}
                               .dump(-1, liana::Json::BadUtf8::kReplace)
                               .c_str());
@@ -34,7 +35,8 @@ class Refusal {
   }
 
  private:
-  bool as_json_;
+  const CLI::App& app_;
+  const std::vector<std::string>& words_;
 };
 
 int perform(const Action& action, const Refusal& refuse) {
@@ -60,7 +62,7 @@ int run(int argc, char** argv) {
   Action action;
   declare_all(app, action);
   const std::vector<std::string> words(argv + 1, argv + argc);
-  const Refusal refuse(prints_json(words));
+  const Refusal refuse(app, words);
   try {
     app.parse(arguments_of(app, words));
   } catch (const CLI::ExtrasError&) {

@@ -434,6 +434,51 @@ class Help(Messages, unittest.TestCase):
             self.assert_names(error, *(("export",) if words[:1] == ["robot"] else known))
             self.assertEqual(error.count("\n"), 1, error)
 
+    def test_a_misspelt_command_option_or_name_is_named_as_it_is_spelt(self):
+        for words, wrong, meant in [
+            (["statsu"], "statsu", "status"),
+            (["--lua-dir", "/tmp", "statsu"], "statsu", "status"),
+            (["help", "robott"], "robott", "robot"),
+            (["robot", "chek"], "chek", "check"),
+            (["pose", "--jsn"], "--jsn", "--json"),
+            (["pose", "--theta-deq=0"], "--theta-deq", "--theta-deg"),
+            (["pose", "--robot", "zhu202", f"--theta-deg={ZERO}"], "zhu202", "zhu2022"),
+            (["pose", "--robot=mirco", "--theta-deg=0"], "mirco", "micro"),
+            (["pose", "--json", "--scene", "panel_slid", f"--theta-deg={ZERO}"], "panel_slid", "panel_slit"),
+            (["robot", "export", "zhu2202"], "zhu2202", "zhu2022"),
+            (["run", "slit_crosing"], "slit_crosing", "slit_crossing"),
+            (["check", "slit_crossing", "--bus", "embeded"], "embeded", "embedded"),
+            (["run", "slit_crossing", "--physics", "wron"], "wron", "worn"),
+            (["run", "slit_crossing", "--time=fats"], "fats", "fast"),
+            (["run", "slit_crossing", "--operator", "hunan"], "hunan", "human"),
+            (["mission", "paus"], "paus", "pause"),
+            (["completion", "bsh"], "bsh", "bash"),
+            (["verify", "--from-deg=prepared", "--to-deg=zero", "--duration=5"], "prepared", "prepare"),
+            (["sweep", "--from-deg=prepar"], "prepar", "prepare"),
+        ]:
+            code, out, error = liana(*words)
+            self.assertEqual((code, error.count("\n")), (2, 1), (words, error))
+            self.assertRegex(error, rf"did you mean {meant}\?\n$", words)
+            self.assert_names(error, wrong)
+            if "--json" in words:
+                self.assertEqual(json.loads(out), json_of_refusal(2, error))
+
+    def test_nothing_is_suggested_where_no_name_is_near_or_another_thing_is_wrong(self):
+        with tempfile.TemporaryDirectory() as folder:
+            own = pathlib.Path(folder) / "zhu2023.lua"
+            own.write_text("return 1\n", "utf-8")
+            for words in (
+                ["nosuch"],
+                ["pose", "--frob"],
+                ["pose", "--robot", "nosuch", f"--theta-deg={ZERO}"],
+                ["pose", "--robot", own, f"--theta-deg={ZERO}"],
+                ["pose", "--robot", "zhu2022", "--theta-deg=1"],
+                ["latency", "--rate", "251"],
+                ["run", "slit_crossing", "--gravity", "1.01"],
+            ):
+                code, _, error = liana(*words)
+                self.assertEqual((code, error.count("did you mean")), (2, 0), error)
+
     def test_an_option_that_a_command_does_not_have_is_named_whatever_else_is_missing(self):
         for words, named in [
             (["pose", "--frob"], ("--frob", "liana pose")),
