@@ -80,7 +80,7 @@ constexpr CommandText kCommands[] = {
     {"liana latency", kScripts, "measure wake-up delay and tick duration of the real-time thread on this computer",
      "liana latency --seconds 5"},
     {"liana force", kScripts, "measure how well contact forces are estimated, on a simulated arm",
-     "liana force --self-test --configurations 1 --pushes 1"},
+     "liana force --self-test"},
 
     {"liana device list", kBelow, "list what is connected: kind, rate, delays, force", "liana device list"},
     {"liana device watch", kBelow, "print the newest sample of a device, again and again",
