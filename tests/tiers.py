@@ -28,8 +28,8 @@ PROOF = (
 )
 # Unit tests that g++ builds, without sanitizers; all others clang builds, with them. alloc_guard_tests: the guard has a
 # malloc of its own, and so have sanitizers. socketcan_tests: a virtual machine runs them. closed_loop_tests,
-# reach_tests: minutes of arithmetic, of which sanitizers see a part.
-UNSANITIZED = ["alloc_guard_tests", "socketcan_tests", "closed_loop_tests", "reach_tests"]
+# workspace_tests: minutes of arithmetic, of which sanitizers see a part.
+UNSANITIZED = ["alloc_guard_tests", "socketcan_tests", "closed_loop_tests", "workspace_tests"]
 # What clang-tidy looks at on every run, a minute of one processor for the core and about as long for the others; all of
 # the host takes an hour (./dev tidy host).
 TIDIED = ["firmware_like", "host/base/net", "host/api/server", "host/control/realtime"]

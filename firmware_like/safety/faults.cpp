@@ -1,5 +1,6 @@
 #include "firmware_like/safety/faults.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "firmware_like/math/convert.hpp"
@@ -9,71 +10,11 @@ namespace {
 
 using enum FaultNumber;
 
-// Row of a fault in kFaultTable. No default: a new number without a row does not compile.
-constexpr std::int32_t row_of(FaultNumber number) noexcept {
-  switch (number) {
-    case kNone:
-      return 0;
-    case kCommandInvalid:
-      return 1;
-    case kTicksLost:
-      return 2;
-    case kJointOutOfRange:
-      return 3;
-    case kJointJump:
-      return 4;
-    case kWristSensorLost:
-      return 5;
-    case kPushOverload:
-      return 6;
-    case kDriveMissing:
-      return 7;
-    case kDriveSilent:
-      return 8;
-    case kDriveFault:
-      return 9;
-    case kDriveLeftOperation:
-      return 10;
-    case kDriveEnableTimeout:
-      return 11;
-    case kFollowingError:
-      return 12;
-    case kDriveNotOperational:
-      return 13;
-    case kDriveStopTimeout:
-      return 14;
-    case kNodeTwice:
-      return 15;
-    case kBusLost:
-      return 16;
-    case kCableSlack:
-      return 17;
-    case kCableOverload:
-      return 18;
-    case kTensionAlarm:
-      return 19;
-    case kHomingImplausible:
-      return 20;
-    case kCableSlip:
-      return 21;
-    case kCableBreak:
-      return 22;
-    case kTensionScatters:
-      return 23;
-    case kBodyContact:
-      return 24;
-    case kFrictionNotAsDeclared:
-      return 25;
-    case kGateRefused:
-      return 26;
-  }
-  return 0;
-}
-
 constexpr StopCategory kHold = StopCategory::kHold;
 constexpr StopCategory kStop = StopCategory::kStop;
 
-constexpr std::array<FaultInfo, 27> kFaultTable{{
+// A new number without a row does not compile.
+constexpr std::array<FaultInfo, count_enumerators<FaultNumber, 1000>()> kFaultTable{{
     {kNone, "none", StopCategory::kNone, false, true, "No fault.", "Nothing to do."},
     {kCommandInvalid, "command_invalid", kHold, false, true,
      "A released command held a value that is not finite or out of range.",
@@ -163,8 +104,7 @@ constexpr std::array<FaultInfo, 27> kFaultTable{{
 constexpr bool is_complete() noexcept {
   for (std::int32_t row = 0; row < static_cast<std::int32_t>(kFaultTable.size()); ++row) {
     const FaultInfo& info = kFaultTable[as_index(row)];
-    if (row_of(info.number) != row || info.name[0] == '\0' || info.text[0] == '\0' || info.remedy[0] == '\0')
-      return false;
+    if (info.name[0] == '\0' || info.text[0] == '\0' || info.remedy[0] == '\0') return false;
     if (row > 0 && (info.number <= kFaultTable[as_index(row - 1)].number || info.category == StopCategory::kNone))
       return false;
     if (info.immediate && info.category < kStop) return false;  // a hold keeps the drives on the path
@@ -183,7 +123,11 @@ void raise(FaultList& list, const FaultInfo& info) noexcept {
 
 std::span<const FaultInfo> all_faults() noexcept { return kFaultTable; }
 
-const FaultInfo& fault_info(FaultNumber number) noexcept { return kFaultTable[as_index(row_of(number))]; }
+const FaultInfo& fault_info(FaultNumber number) noexcept {
+  const auto* row = std::lower_bound(kFaultTable.begin(), kFaultTable.end(), number,
+                                     [](const FaultInfo& info, FaultNumber wanted) { return info.number < wanted; });
+  return row != kFaultTable.end() && row->number == number ? *row : kFaultTable.front();
+}
 
 bool allow_retreat(const FaultList& faults) noexcept {
   bool allowed = faults.category <= kHold && faults.dropped == 0;

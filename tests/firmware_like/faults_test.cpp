@@ -68,7 +68,24 @@ TEST(Faults, EveryFaultSaysWhatHappenedWhatToDoAndHowTheArmStops) {
 }
 
 TEST(Faults, ANumberThatDoesNotExistHasTheEntryOfNone) {
-  EXPECT_EQ(fault_info(static_cast<FaultNumber>(1234)).number, FaultNumber::kNone);
+  std::size_t found = 0;
+  for (int value = 0; value <= 65535; ++value) {
+    const auto number = static_cast<FaultNumber>(value);
+    const FaultInfo& info = fault_info(number);
+    if (info.number == number) {
+      ++found;
+    } else {
+      ASSERT_EQ(&info, &all_faults().front()) << value;
+    }
+  }
+  EXPECT_EQ(found, all_faults().size());
+}
+
+TEST(Faults, EnumeratorsAreCountedAndOtherValuesAreNone) {
+  enum class Few : std::uint16_t { kA = 0, kB = 7, kC = 101, kD = 150 };
+  static_assert(is_enumerator<Few::kB>() && !is_enumerator<static_cast<Few>(8)>());
+  static_assert(count_enumerators<Few, 100>() == 4 && count_enumerators<Few, 1000>() == 2);
+  static_assert(count_enumerators<FaultNumber, 1000>() == 27);
 }
 
 TEST(Faults, TheSameNumberAndIndexIsLatchedOnceAndKeepsItsFirstTick) {

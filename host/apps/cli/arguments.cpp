@@ -8,6 +8,7 @@
 #include "firmware_like/cable/arm/setpoint.hpp"
 #include "firmware_like/math/trig.hpp"
 #include "host/apps/launcher/errors.hpp"
+#include "host/base/options/nearest.hpp"
 
 namespace liana::cli {
 namespace {
@@ -142,6 +143,19 @@ serial::JointVector parse_joint_deg(std::string_view option, std::string_view te
     joint_rad[i] = std::clamp(angles_deg[i] * kDegree, joint.low_rad, joint.high_rad);
   }
   return joint_rad;
+}
+
+void refuse_pose(std::string_view option, std::string_view text, std::size_t count, const std::string& robot,
+                 const std::map<std::string, std::vector<double>>& poses) {
+  std::vector<std::string> names;
+  std::string list;
+  for (const auto& [name, angles_deg] : poses) {
+    list += (list.empty() ? "" : ", ") + name;
+    names.push_back(name);
+  }
+  refuse(option, text,
+         std::to_string(count) + " angles, or a pose of robot " + robot + ": " + list +
+             options::did_you_mean(text, names));
 }
 
 Pose parse_pose(std::string_view option, std::string_view text) {

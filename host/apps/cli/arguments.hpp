@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,6 +53,10 @@ cable::ThetaVector parse_theta_deg(std::string_view option, std::string_view tex
 
 // The angles of a serial arm's joints in degrees, from the base to the tip, within their ranges.
 serial::JointVector parse_joint_deg(std::string_view option, std::string_view text, const serial::RobotParams& robot);
+
+// Refuses a word that is no pose of the robot: `count` angles, or the name of one of `poses`, are allowed.
+[[noreturn]] void refuse_pose(std::string_view option, std::string_view text, std::size_t count,
+                              const std::string& robot, const std::map<std::string, std::vector<double>>& poses);
 
 // x,y,z,qw,qx,qy,qz: metres in the base frame within +-1000, quaternion of unit length within 1e-6.
 Pose parse_pose(std::string_view option, std::string_view text);

@@ -1,64 +1,16 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <filesystem>
-#include <set>
 
 #include "host/apps/cli/commands.hpp"
+#include "host/apps/cli/known_values.hpp"
 #include "host/apps/launcher/errors.hpp"
 #include "host/base/install_paths/places.hpp"
 
 namespace liana::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::array<const char*, 4> kKinds{"robots", "scenes", "buses", "missions"};
-
-// What may follow an option, or stand in a command: names of a table, words, files.
-struct Values {
-  const char* after;
-  const char* table;
-  const char* words;
-  bool files;
-};
-
-constexpr Values kValues[] = {
-    {"--robot", "robots", "", true},
-    {"--scene", "scenes", "", true},
-    {"--bus", "buses", "", true},
-    {"--buses", "buses", "", true},
-    {"--follow", "", "slit", true},
-    {"--time", "", "fast paced real", false},
-    {"--physics", "", "nominal ideal worn", false},
-    {"--true-physics", "", "nominal ideal worn", false},
-    {"--gravity", "", "0.01", false},
-    {"--linkage-error", "", "0.01", false},
-    {"--arm", "", "full light", false},
-    {"--rate", "", "250 500", false},
-    {"--record", "", "", true},
-    {"--calibration", "", "", true},
-    {"--faults", "", "", true},
-    {"--svg", "", "", true},
-    {"--path", "", "", true},
-    {"--api", "", "", true},
-    {"--out", "", "", true},
-    {"--csv", "", "", true},
-    {"--mcap", "", "", true},
-    {"--candump", "", "", true},
-    {"--token-file", "", "", true},
-    {"--cert", "", "", true},
-    {"--key", "", "", true},
-    {"--lua-dir", "", "", true},
-    {"liana run", "missions", "", true},
-    {"liana check", "missions", "", true},
-    {"liana robot export", "robots", "", true},
-    {"liana mission", "", "pause resume step confirm abort", false},
-    {"liana completion", "", "bash zsh", false},
-    {"liana replay", "", "", true},
-    {"liana commands", "", "", true},
-    {"liana view", "", "", true},
-};
 
 // What is the same for both shells: names are looked up when they are asked for, by the program itself.
 constexpr const char* kBash = R"bash(_liana_names() { "${_liana_program:-liana}" completion "$1" 2>/dev/null; }
@@ -130,7 +82,7 @@ void print_bash(const std::vector<CommandHelp>& commands) {
   for (const CommandHelp& command : commands)
     std::printf("  [%s]=%s\n", quoted(command.path).c_str(), quoted(names_of(command)).c_str());
   std::puts(")\n_liana_values() {\n  case $1 in");
-  for (const Values& values : kValues) {
+  for (const KnownValues& values : known_values()) {
     const std::string names = *values.table == '\0' ? "" : std::string("$(_liana_names ") + values.table + ")";
     std::printf("    %s) COMPREPLY=($(compgen -W \"%s%s\" -- \"$2\")%s) ;;\n", quoted(values.after).c_str(),
                 values.words, names.c_str(), values.files ? " $(compgen -f -- \"$2\")" : "");
@@ -151,7 +103,7 @@ void print_zsh(const std::vector<CommandHelp>& commands) {
     std::puts("    ) ;;");
   }
   std::puts("  esac\n}\n_liana_values() {\n  case $1 in");
-  for (const Values& values : kValues) {
+  for (const KnownValues& values : known_values()) {
     std::printf("    (%s)", quoted(values.after).c_str());
     if (*values.words != '\0') std::printf(" compadd -- %s;", values.words);
     if (*values.table != '\0')
@@ -162,18 +114,6 @@ void print_zsh(const std::vector<CommandHelp>& commands) {
   std::fputs(kZsh, stdout);
 }
 
-// The names that there are in the Lua folders.
-void print_names(const std::string& table) {
-  std::set<std::string> names;
-  for (const std::string& folder : install_paths::lua_folders()) {
-    std::error_code unreadable;
-    for (const auto& entry : fs::directory_iterator(fs::path(folder) / table, unreadable)) {
-      if (entry.path().extension() == ".lua") names.insert(entry.path().stem().string());
-    }
-  }
-  for (const std::string& name : names) std::puts(name.c_str());
-}
-
 }  // namespace
 
 int completion_command(const std::string& what, const std::vector<CommandHelp>& commands) {
@@ -182,7 +122,7 @@ int completion_command(const std::string& what, const std::vector<CommandHelp>& 
   } else if (what == "zsh") {
     print_zsh(commands);
   } else if (std::find(kKinds.begin(), kKinds.end(), what) != kKinds.end()) {
-    print_names(what);
+    for (const std::string& name : table_names(what)) std::puts(name.c_str());
   } else {
     throw launcher::BadInput("completion: '" + what + "': allowed: bash, zsh, robots, scenes, buses, missions");
   }

@@ -30,8 +30,11 @@ config::SerialRobotConfig sweepable(const std::string& name) {
 }
 
 serial::JointVector start_of(const config::SerialRobotConfig& robot, const std::string& given) {
-  if (!given.empty() && !robot.named_poses_deg.contains(given))
+  if (!given.empty() && !robot.named_poses_deg.contains(given)) {
+    if (given.find(',') == given.npos)
+      refuse_pose("--from-deg", given, robot.table.joints(), robot.name, robot.named_poses_deg);
     return parse_joint_deg("--from-deg", given, robot.table);
+  }
   std::string name = !given.empty() ? given : robot.start_pose;
   if (name.empty()) name = robot.named_poses_deg.contains("prepare") ? "prepare" : robot.named_poses_deg.begin()->first;
   serial::JointVector start{};

@@ -29,10 +29,7 @@ std::vector<double> angles_deg_of(const char* option, const std::string& text, c
   const auto named = robot.named_poses_deg.find(text);
   if (named != robot.named_poses_deg.end()) return named->second;
   if (text.find(',') != std::string::npos) return parse_numbers(option, text, count);
-  std::string names;
-  for (const auto& [name, angles_deg] : robot.named_poses_deg) names += (names.empty() ? "" : ", ") + name;
-  throw launcher::BadInput(std::string(option) + ": '" + text + "': allowed " + std::to_string(count) +
-                           " angles, or a pose of robot " + robot.name + ": " + names);
+  refuse_pose(option, text, count, robot.name, robot.named_poses_deg);
 }
 
 // Whatever the angles are: those beyond their limits are what verification refuses.

@@ -12,7 +12,8 @@ import sys
 
 ENTRY = re.compile(r"^  (\S.*?)(?:\s{2,}(.*))?$")
 CONTINUED = re.compile(r"^\s{10,}(\S.*)$")
-LISTS = ("Positionals:", "Options:", "Subcommands:")
+HEADING = re.compile(r"^(\S.*):$")
+EXAMPLE = "Example: "
 
 
 def say(program, *words):
@@ -21,28 +22,32 @@ def say(program, *words):
 
 
 class Help:
-    """A help text in parts: `about`, `usage`, for each list its entries (name, text), `footer`."""
+    """A help text in parts: `about`, `usage`, lists of entries (name, text) by their headings, `examples`, `footer`."""
 
     def __init__(self, text):
-        self.usage, self.footer, self.lists = "", [], {name: [] for name in LISTS}
+        self.usage, self.footer, self.examples, self.lists = "", [], [], {}
         about, current = [], None
         for line in text.splitlines():
             if line.startswith("Usage:"):
                 self.usage = line.removeprefix("Usage:").strip()
-            elif line in LISTS:
-                current = self.lists[line]
             elif not self.usage:
                 about.append(line)
+            elif heading := HEADING.match(line):
+                current = self.lists.setdefault(heading[1], [])
             elif current is not None and (entry := ENTRY.match(line)):
                 current.append([entry[1], entry[2] or ""])
             elif current and (more := CONTINUED.match(line)):
                 current[-1][1] = f"{current[-1][1]} {more[1]}".strip()
+            elif line.startswith(EXAMPLE):
+                self.examples.append(line.removeprefix(EXAMPLE))
             elif line.strip():
                 self.footer.append(line)
         self.about = " ".join(about)
+        self.arguments, self.options = self.lists.pop("Positionals", []), self.lists.pop("Options", [])
 
     def commands(self):
-        return [name for name, _ in self.lists["Subcommands:"] if name != "help"]
+        """Their names; all lists but those of arguments and options are groups of commands."""
+        return [name for entries in self.lists.values() for name, _ in entries if name != "help"]
 
 
 def roff(text):
@@ -51,13 +56,15 @@ def roff(text):
     return "\n".join("\\&" + line if line.startswith(".") else line for line in text.splitlines())
 
 
-def entries(title, rows):
-    if not rows:
-        return []
-    lines = [f".SH {title}"]
+def entries(heading, rows):
+    lines = [heading] if rows else []
     for name, text in rows:
         lines += [".TP", rf"\fB{roff(name)}\fR", roff(text)]
     return lines
+
+
+def section(title, lines):
+    return [f".SH {title}", *(roff(line) + "\n.br" for line in lines)] if lines else []
 
 
 def page(words, text, version):
@@ -66,14 +73,17 @@ def page(words, text, version):
     usage = " ".join(words) + "".join(re.findall(r" (?:\[|SUBCOMMAND).*$", told.usage)[:1])
     lines = [f'.TH "{name.upper()}" 1 "" "{version}" "Liana"', ".SH NAME", rf"{roff(name)} \- {roff(told.about)}"]
     lines += [".SH SYNOPSIS", roff(usage)]
-    lines += entries("ARGUMENTS", told.lists["Positionals:"])
-    lines += entries("OPTIONS", told.lists["Options:"])
-    lines += entries("COMMANDS", told.lists["Subcommands:"])
+    lines += entries(".SH ARGUMENTS", told.arguments)
+    lines += entries(".SH OPTIONS", told.options)
+    if told.commands():
+        lines += [".SH COMMANDS"]
+        for group, rows in told.lists.items():
+            lines += entries(f".SS {roff(group)}", rows)
+    lines += section("EXAMPLES", told.examples)
     if told.commands():
         names = ", ".join(rf"\fB{roff(name + '-' + command)}\fR(1)" for command in told.commands())
         lines += [".SH SEE ALSO", names]
-    if told.footer:
-        lines += [".SH NOTES", *(roff(line) + "\n.br" for line in told.footer)]
+    lines += section("NOTES", told.footer)
     return "\n".join(lines) + "\n"
 
 

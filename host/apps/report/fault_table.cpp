@@ -1,6 +1,8 @@
 #include "host/apps/report/fault_table.hpp"
 
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "firmware_like/cable/arm/cable_monitor.hpp"
 #include "firmware_like/cable/arm/contact_detector.hpp"
@@ -16,93 +18,94 @@ namespace {
 
 constexpr double kHeartbeatPeriod_s = 0.1;  // of every drive (docs/reference/drives.md)
 
+using enum FaultNumber;
+using WithinTicks = int (*)(const FaultTimes&);
+
 struct Detection {
-  const char* detector;
-  int within_ticks;
+  FaultNumber number = kNone;
+  const char* detector = "";
+  WithinTicks within_ticks = nullptr;
 };
 
-int of_cables(const FaultTimes& times, int ticks) { return times.segments > 0 ? ticks : -1; }
+int heartbeat_period(const FaultTimes& times) { return static_cast<int>(std::ceil(kHeartbeatPeriod_s / times.tick_s)); }
 
-// No default: a number without a detection does not compile.
-Detection detection_of(FaultNumber number, const FaultTimes& times) {
-  const int heartbeat_period = static_cast<int>(std::ceil(kHeartbeatPeriod_s / times.tick_s));
-  switch (number) {
-    case FaultNumber::kNone:
-      break;
-    case FaultNumber::kCommandInvalid:
-      return {"controller: each value of a released command when it takes force", 0};
-    case FaultNumber::kTicksLost:
-      return {"watchdog: deadlines lost in a row, more than 2", 1};
-    case FaultNumber::kJointOutOfRange:
-      return {"serial arm: encoder more than 1 deg beyond the joint's range, in a row", serial::kRangeDebounceTicks};
-    case FaultNumber::kJointJump:
-      return {"serial arm: encoder against the tick before, over three times the joint's rate", 1};
-    case FaultNumber::kWristSensorLost:
-      return {
-          "push: no new sample of the wrist sensor, or one that is saturated, failed or no number (at once); the very "
-          "same numbers (after wrist_still_samples of the table)",
-          serial::kWristSilentTicks + 1};
-    case FaultNumber::kPushOverload:
-      return {"push: force felt at the wrist or torque of a joint over the most that a push may, in a row",
-              serial::kOverloadTicks + 1};
-    case FaultNumber::kDriveMissing:
-      return {"watchdog: age of the drive's heartbeat, more than 0.3 s",
-              heartbeat_age_ticks(times.tick_s) + heartbeat_period};
-    case FaultNumber::kDriveSilent:
-      return {"watchdog: age of the drive's report, more than 2 ticks", kFeedbackAgeTicks + 1};
-    case FaultNumber::kDriveFault:
-      return {"watchdog: statusword says fault", 1};
-    case FaultNumber::kDriveLeftOperation:
-      return {"watchdog: statusword of a drive that should be in Operation enabled", 1};
-    case FaultNumber::kDriveEnableTimeout:
-      return {"supervisor: time in a step of enabling (a ramp of tension has 15000 ticks)",
-              static_cast<int>(patience(times.tick_s).powering) + 1};
-    case FaultNumber::kFollowingError:
-      return {"watchdog: sent target less reported place, over the window, in a row", kFollowingDebounceTicks};
-    case FaultNumber::kDriveNotOperational:
-      return {"watchdog: NMT state in the drive's heartbeat or boot-up", heartbeat_period};
-    case FaultNumber::kDriveStopTimeout:
-      return {"supervisor: time until every drive confirms that it is off",
-              static_cast<int>(patience(times.tick_s).off_budget) + 1};
-    case FaultNumber::kNodeTwice:
-      return {"host: two reports that differ in one tick, or a command that is not ours, in a row", kTwiceTicks};
-    case FaultNumber::kBusLost:
-      return {"interface down or in bus-off (1 tick), or no drive of the bus is heard", kFeedbackAgeTicks + 1};
-    case FaultNumber::kCableSlack:
-      return {"watchdog: motor tension under the floor, in a row", of_cables(times, cable::kSlackDebounceTicks)};
-    case FaultNumber::kCableOverload:
-      return {"watchdog: motor tension over the hard limit, in a row", of_cables(times, cable::kOverloadDebounceTicks)};
-    case FaultNumber::kTensionAlarm:
-      return {"watchdog: motor tension over the alarm limit, in a row", of_cables(times, cable::kAlarmDebounceTicks)};
-    case FaultNumber::kHomingImplausible:
-      return {
-          "cable watch: the part of a segment's lengths that no two angles explain, against its value when the arm was "
-          "enabled, in a row",
-          of_cables(times, cable::kContradictionTicks + times.segments - 1)};
-    case FaultNumber::kCableSlip:
-      return {"cable watch: tension and length of a cable against the tick before, over the limit, and still there",
-              of_cables(times, cable::kJumpConfirmTicks)};
-    case FaultNumber::kCableBreak:
-      return {"watchdog: motor tension under the floor while its 20 ms low-pass is not, in a row",
-              of_cables(times, cable::kBreakDebounceTicks)};
-    case FaultNumber::kTensionScatters:
-      return {"cable watch: the same as 5005, but back again, three times (in a row: 4 ticks)",
-              of_cables(times, cable::kScatterReversals + 1)};
-    case FaultNumber::kBodyContact:
-      return {
-          "contact watch: torques that cables, friction, inertia and a push of up to 3 N at the tip do not explain, "
-          "low-passed over 0.6 s and in their own deviations, in a row",
-          of_cables(times, static_cast<int>(cable::kFrictionTicks) * 2 * times.segments * (cable::kContactSweeps + 1))};
-    case FaultNumber::kFrictionNotAsDeclared:
-      return {
-          "friction watch: mu found from the balance of torques, less twice its uncertainty, over what can be "
-          "planned for",
-          -1};
-    case FaultNumber::kGateRefused:
-      return {"gate: every command before it is sent", 0};
-  }
-  return {"", -1};
+template <int kTicks>
+int ticks(const FaultTimes&) {
+  return kTicks;
 }
+
+template <int kTicks>
+int ticks_of_cables(const FaultTimes& times) {
+  return times.segments > 0 ? kTicks : -1;
+}
+
+// In ascending order, as all_faults(). A new number without a row does not compile.
+constexpr std::array<Detection, count_enumerators<FaultNumber, 1000>() - 1> kDetections{{
+    {kCommandInvalid, "controller: each value of a released command when it takes force", ticks<0>},
+    {kTicksLost, "watchdog: deadlines lost in a row, more than 2", ticks<1>},
+    {kJointOutOfRange, "serial arm: encoder more than 1 deg beyond the joint's range, in a row",
+     ticks<serial::kRangeDebounceTicks>},
+    {kJointJump, "serial arm: encoder against the tick before, over three times the joint's rate", ticks<1>},
+    {kWristSensorLost,
+     "push: no new sample of the wrist sensor, or one that is saturated, failed or no number (at once); the very "
+     "same numbers (after wrist_still_samples of the table)",
+     ticks<serial::kWristSilentTicks + 1>},
+    {kPushOverload, "push: force felt at the wrist or torque of a joint over the most that a push may, in a row",
+     ticks<serial::kOverloadTicks + 1>},
+    {kDriveMissing, "watchdog: age of the drive's heartbeat, more than 0.3 s",
+     [](const FaultTimes& times) { return heartbeat_age_ticks(times.tick_s) + heartbeat_period(times); }},
+    {kDriveSilent, "watchdog: age of the drive's report, more than 2 ticks", ticks<kFeedbackAgeTicks + 1>},
+    {kDriveFault, "watchdog: statusword says fault", ticks<1>},
+    {kDriveLeftOperation, "watchdog: statusword of a drive that should be in Operation enabled", ticks<1>},
+    {kDriveEnableTimeout, "supervisor: time in a step of enabling (a ramp of tension has 15000 ticks)",
+     [](const FaultTimes& times) { return static_cast<int>(patience(times.tick_s).powering) + 1; }},
+    {kFollowingError, "watchdog: sent target less reported place, over the window, in a row",
+     ticks<kFollowingDebounceTicks>},
+    {kDriveNotOperational, "watchdog: NMT state in the drive's heartbeat or boot-up", heartbeat_period},
+    {kDriveStopTimeout, "supervisor: time until every drive confirms that it is off",
+     [](const FaultTimes& times) { return static_cast<int>(patience(times.tick_s).off_budget) + 1; }},
+    {kNodeTwice, "host: two reports that differ in one tick, or a command that is not ours, in a row",
+     ticks<kTwiceTicks>},
+    {kBusLost, "interface down or in bus-off (1 tick), or no drive of the bus is heard", ticks<kFeedbackAgeTicks + 1>},
+    {kCableSlack, "watchdog: motor tension under the floor, in a row", ticks_of_cables<cable::kSlackDebounceTicks>},
+    {kCableOverload, "watchdog: motor tension over the hard limit, in a row",
+     ticks_of_cables<cable::kOverloadDebounceTicks>},
+    {kTensionAlarm, "watchdog: motor tension over the alarm limit, in a row",
+     ticks_of_cables<cable::kAlarmDebounceTicks>},
+    {kHomingImplausible,
+     "cable watch: the part of a segment's lengths that no two angles explain, against its value when the arm was "
+     "enabled, in a row",
+     [](const FaultTimes& times) { return times.segments > 0 ? cable::kContradictionTicks + times.segments - 1 : -1; }},
+    {kCableSlip, "cable watch: tension and length of a cable against the tick before, over the limit, and still there",
+     ticks_of_cables<cable::kJumpConfirmTicks>},
+    {kCableBreak, "watchdog: motor tension under the floor while its 20 ms low-pass is not, in a row",
+     ticks_of_cables<cable::kBreakDebounceTicks>},
+    {kTensionScatters, "cable watch: the same as 5005, but back again, three times (in a row: 4 ticks)",
+     ticks_of_cables<cable::kScatterReversals + 1>},
+    {kBodyContact,
+     "contact watch: torques that cables, friction, inertia and a push of up to 3 N at the tip do not explain, "
+     "low-passed over 0.6 s and in their own deviations, in a row",
+     [](const FaultTimes& times) {
+       return times.segments > 0
+                  ? static_cast<int>(cable::kFrictionTicks) * 2 * times.segments * (cable::kContactSweeps + 1)
+                  : -1;
+     }},
+    {kFrictionNotAsDeclared,
+     "friction watch: mu found from the balance of torques, less twice its uncertainty, over what can be "
+     "planned for",
+     ticks<-1>},
+    {kGateRefused, "gate: every command before it is sent", ticks<0>},
+}};
+
+constexpr bool is_complete() {
+  FaultNumber last = kNone;
+  for (const Detection& each : kDetections) {
+    if (each.number <= last || each.detector[0] == '\0' || each.within_ticks == nullptr) return false;
+    last = each.number;
+  }
+  return true;
+}
+static_assert(is_complete(), "detections: every number but none once, ascending, with detector and ticks");
 
 std::string stops_by(const FaultInfo& info) {
   constexpr const char* kNames[] = {"none", "hold", "stop", "off"};
@@ -113,10 +116,9 @@ std::string stops_by(const FaultInfo& info) {
 
 std::vector<FaultRow> fault_rows(const FaultTimes& times) {
   std::vector<FaultRow> rows;
-  for (const FaultInfo& info : all_faults().subspan(1)) {
-    const Detection detection = detection_of(info.number, times);
-    rows.push_back({info, detection.detector, detection.within_ticks, stops_by(info)});
-  }
+  const std::span<const FaultInfo> faults = all_faults().subspan(1);
+  for (std::size_t i = 0; i < faults.size(); ++i)
+    rows.push_back({faults[i], kDetections[i].detector, kDetections[i].within_ticks(times), stops_by(faults[i])});
   return rows;
 }
 

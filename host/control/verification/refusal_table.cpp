@@ -1,6 +1,9 @@
 #include "host/control/verification/refusal_table.hpp"
 
+#include <algorithm>
 #include <array>
+
+#include "firmware_like/safety/faults.hpp"
 
 namespace liana::verification {
 
@@ -8,65 +11,11 @@ namespace {
 
 using enum Refusal;
 
-// Row of a code in kRows. No default: a new code without a row does not compile.
-constexpr std::size_t index_of(Refusal code) {
-  switch (code) {
-    case kNone:
-      return 0;
-    case kTwinFault:
-      return 1;
-    case kGate:
-      return 2;
-    case kTension:
-      return 3;
-    case kCableSpeed:
-      return 4;
-    case kNotAccepted:
-      return 5;
-    case kTooSlow:
-      return 6;
-    case kJointTravel:
-      return 7;
-    case kTickTime:
-      return 8;
-    case kModel:
-      return 9;
-    case kJointAngle:
-      return 10;
-    case kJointRate:
-      return 11;
-    case kTipSpeed:
-      return 12;
-    case kNoRest:
-      return 13;
-    case kNotFinite:
-      return 14;
-    case kUnreachable:
-      return 15;
-    case kPath:
-      return 16;
-    case kSceneContact:
-      return 17;
-    case kSelfContact:
-      return 18;
-    case kNodeSpeed:
-      return 19;
-    case kSwingTension:
-      return 20;
-    case kNoVerdict:
-      return 21;
-    case kFixture:
-      return 22;
-    case kPushTube:
-      return 23;
-  }
-  return 0;
-}
-
 constexpr RefusalAction kHold = RefusalAction::kHold;
 constexpr RefusalAction kStop = RefusalAction::kStop;
 
-constexpr std::array<RefusalRow, 24> kRows{{
+// A new code without a row does not compile.
+constexpr std::array<RefusalRow, count_enumerators<Refusal, 100>()> kRows{{
     {},
     {kTwinFault, "twin_fault", "The controller would latch a fault.", "", kHold,
      "Retract, which needs no clear where the fault allows it; else remove what the fault names, then clear."},
@@ -122,7 +71,7 @@ constexpr std::array<RefusalRow, 24> kRows{{
 constexpr bool is_complete() {
   for (std::size_t i = 1; i < kRows.size(); ++i) {
     const RefusalRow& row = kRows[i];
-    if (index_of(row.code) != i || row.code <= kRows[i - 1].code) return false;
+    if (row.code <= kRows[i - 1].code) return false;
     if (row.name[0] == '\0' || row.says[0] == '\0' || row.remedy[0] == '\0') return false;
   }
   return true;
@@ -133,7 +82,11 @@ static_assert(is_complete(), "refusal table: every code once, ascending, with na
 
 std::span<const RefusalRow> refusal_table() { return std::span(kRows).subspan(1); }
 
-const RefusalRow& row_of(Refusal code) { return kRows[index_of(code)]; }
+const RefusalRow& row_of(Refusal code) {
+  const auto* row = std::lower_bound(kRows.begin(), kRows.end(), code,
+                                     [](const RefusalRow& each, Refusal wanted) { return each.code < wanted; });
+  return row != kRows.end() && row->code == code ? *row : kRows.front();
+}
 
 bool may_pass_slower(Refusal code) {
   return code == kSwingTension || code == kTipSpeed || code == kNodeSpeed || code == kJointRate || code == kNoRest;

@@ -6,17 +6,14 @@
 namespace liana::cli {
 namespace {
 
-void add_client(CLI::App& app, Action& action, const char* name, const char* text,
-                int (*command)(const ClientOptions&)) {
-  auto [sub, client] = add<ClientOptions>(app, action, name, text, command);
+void add_client(CLI::App& app, Action& action, const char* name, int (*command)(const ClientOptions&)) {
+  auto [sub, client] = add<ClientOptions>(app, action, name, command);
   sub.add_option("--api", client.api, "API socket of one lianad; where not given, all running systems of this user");
   sub.add_flag("--json", client.json, "print JSON, one line for each system");
 }
 
 void add_clear(CLI::App& app, Action& action) {
-  auto [sub, client] = add<ClientOptions>(
-      app, action, "clear", "clear an emergency stop and the latched faults of one running system; enables nothing",
-      clear_command);
+  auto [sub, client] = add<ClientOptions>(app, action, "clear", clear_command);
   sub.add_option("--api", client.api,
                  "API socket of the lianad; where not given, that of the one running system of this user (several are "
                  "refused)");
@@ -24,9 +21,7 @@ void add_clear(CLI::App& app, Action& action) {
 }
 
 void add_calibrate(CLI::App& app, Action& action) {
-  auto [sub, calibrate] = add<CalibrateOptions>(
-      app, action, "calibrate", "zeros, drums, directions and wiring of all drives, with the arm in fixtures",
-      calibrate_command);
+  auto [sub, calibrate] = add<CalibrateOptions>(app, action, "calibrate", calibrate_command);
   add_robot(sub, calibrate.robot);
   sub.add_option("--bus", calibrate.bus, "bus table; where not given as for liana run");
   sub.add_option("--poses", calibrate.poses,
@@ -46,9 +41,7 @@ void add_calibrate(CLI::App& app, Action& action) {
 }
 
 void add_latency(CLI::App& app, Action& action) {
-  auto [sub, latency] = add<LatencyOptions>(
-      app, action, "latency", "how late this machine wakes lianad's real-time thread, and how long its ticks take",
-      latency_command);
+  auto [sub, latency] = add<LatencyOptions>(app, action, "latency", latency_command);
   sub.add_option("--robot", latency.robot, "robot table: a name under lua/robots or a file; zhu2022 where not given");
   sub.add_option("--rate", latency.rate_hz, "250 or 500 Hz")->default_str("250");
   sub.add_option_function<std::string>(
@@ -69,8 +62,7 @@ void add_latency(CLI::App& app, Action& action) {
 }
 
 void add_faults(CLI::App& app, Action& action) {
-  auto [sub, faults] = add<FaultsOptions>(
-      app, action, "faults", "every fault number: how it is detected, what it stops, what to do", faults_command);
+  auto [sub, faults] = add<FaultsOptions>(app, action, "faults", faults_command);
   sub.add_option("--robot", faults.robot, "robot table whose tick counts")->capture_default_str();
   sub.add_flag("--refusals", faults.refusals, "error codes M_e of verification in place of faults");
   sub.add_flag("--markdown", faults.markdown,
@@ -79,8 +71,7 @@ void add_faults(CLI::App& app, Action& action) {
 }
 
 void add_force(CLI::App& app, Action& action) {
-  auto [sub, force] =
-      add<ForceOptions>(app, action, "force", "how well contact forces are estimated, on the bench", force_command);
+  auto [sub, force] = add<ForceOptions>(app, action, "force", force_command);
   sub.add_flag("--self-test", force.self_test, "push a simulated arm and compare what it tells with the truth");
   sub.add_option("--robot", force.robot, "a cable arm's table")->capture_default_str();
   add_physics(sub, force.physics);
@@ -95,8 +86,8 @@ void add_force(CLI::App& app, Action& action) {
 }  // namespace
 
 void declare_arm(CLI::App& app, Action& action) {
-  add_client(app, action, "status", "state of every running system", status_command);
-  add_client(app, action, "estop", "emergency stop of every running system: stop, brakes, disable", estop_command);
+  add_client(app, action, "status", status_command);
+  add_client(app, action, "estop", estop_command);
   add_clear(app, action);
   add_calibrate(app, action);
   add_latency(app, action);

@@ -13,12 +13,10 @@ void add_api(CLI::App& sub, DeviceOptions& device) {
 }  // namespace
 
 void declare_device(CLI::App& app, Action& action) {
-  CLI::App& group = add_group(app, "device", "input devices of a running system (docs/reference/device-protocol.md)");
-  auto [list, listed] =
-      add<DeviceOptions>(group, action, "list", "what is connected: kind, rate, delays, force", device_list_command);
+  CLI::App& group = add_group(app, "device");
+  auto [list, listed] = add<DeviceOptions>(group, action, "list", device_list_command);
   add_api(list, listed);
-  auto [watch, watched] = add<DeviceOptions>(group, action, "watch", "the newest sample of a device, again and again",
-                                             device_watch_command);
+  auto [watch, watched] = add<DeviceOptions>(group, action, "watch", device_watch_command);
   watch.add_option("name", watched.name, "of the device, as device list says it")->required();
   watch.add_option("--rate", watched.rate_hz, "how often, Hz; 0.1 to 50")->capture_default_str();
   watch.add_option("--seconds", watched.seconds, "how long; 0.1 to 86400")->capture_default_str();

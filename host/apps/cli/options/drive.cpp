@@ -5,14 +5,10 @@
 namespace liana::cli {
 namespace {
 
-constexpr const char* kDriveFooter =
-    "Exit codes: 0 done, 1 refused or failed, 2 bad input, a bus that is not there included, 3 nobody answers,\n"
-    "130 interrupted; one message on standard error says what, with --json standard output has it, too.";
-
 // A command of `drive`, with what says on which bus.
-Declared<DriveOptions> add_on_bus(CLI::App& group, Action& action, const char* name, const char* text,
+Declared<DriveOptions> add_on_bus(CLI::App& group, Action& action, const char* name,
                                   int (*command)(const DriveOptions&)) {
-  auto [sub, drive] = add<DriveOptions>(group, action, name, text, command);
+  auto [sub, drive] = add<DriveOptions>(group, action, name, command);
   sub.add_option("--can", drive.can, "SocketCAN interface, e.g. can0");
   sub.add_option("--bitrate", drive.bitrate, "of --can, bit/s; 10000 to 1000000")->capture_default_str();
   sub.add_option("--bus", drive.bus, "bus table in place of --can: a name under lua/buses or a file");
@@ -23,36 +19,35 @@ Declared<DriveOptions> add_on_bus(CLI::App& group, Action& action, const char* n
 }
 
 void add_scan(CLI::App& group, Action& action) {
-  auto [sub, scan] = add_on_bus(group, action, "scan", "which nodes answer, and what they are", drive_scan_command);
+  auto [sub, scan] = add_on_bus(group, action, "scan", drive_scan_command);
   sub.add_option("--first", scan.first, "least node id, 1 to 126")->capture_default_str();
   sub.add_option("--last", scan.last, "largest node id, to 126")->capture_default_str();
 }
 
 // A command for one drive.
-Declared<DriveOptions> add_on_node(CLI::App& group, Action& action, const char* name, const char* text,
+Declared<DriveOptions> add_on_node(CLI::App& group, Action& action, const char* name,
                                    int (*command)(const DriveOptions&)) {
-  auto [sub, drive] = add_on_bus(group, action, name, text, command);
+  auto [sub, drive] = add_on_bus(group, action, name, command);
   sub.add_option("--node", drive.node, "node id of the drive, 1 to 126; has to be said");
   return {sub, drive};
 }
 
 // A command for one object of a drive.
-Declared<DriveOptions> add_on_object(CLI::App& group, Action& action, const char* name, const char* text,
+Declared<DriveOptions> add_on_object(CLI::App& group, Action& action, const char* name,
                                      int (*command)(const DriveOptions&)) {
-  auto [sub, drive] = add_on_node(group, action, name, text, command);
+  auto [sub, drive] = add_on_node(group, action, name, command);
   sub.add_option("object", drive.object, "index, or index:sub-index, e.g. 6064 or 1018:1")->required();
   return {sub, drive};
 }
 
 void add_write(CLI::App& group, Action& action) {
-  auto [sub, write] =
-      add_on_object(group, action, "write", "give an object a value, and read it back", drive_write_command);
+  auto [sub, write] = add_on_object(group, action, "write", drive_write_command);
   sub.add_option("value", write.value, "whole number that fits in --bits, decimal or as 0x1F")->required();
   sub.add_option("--bits", write.bits, "size of the object: 8, 16 or 32")->capture_default_str();
 }
 
 void add_watch(CLI::App& group, Action& action) {
-  auto [sub, watch] = add_on_object(group, action, "watch", "an object, again and again", drive_watch_command);
+  auto [sub, watch] = add_on_object(group, action, "watch", drive_watch_command);
   sub.add_option("--rate", watch.rate_hz, "how often, Hz; 0.1 to 20")->capture_default_str();
   sub.add_option("--seconds", watch.seconds, "how long; 0.1 to 86400")->capture_default_str();
 }
@@ -62,8 +57,7 @@ void add_type(CLI::App& sub, DriveOptions& drive) {
 }
 
 void add_drive_check(CLI::App& group, Action& action) {
-  auto [sub, check] =
-      add_on_node(group, action, "check", "everything that a boot would refuse; reads only", drive_check_command);
+  auto [sub, check] = add_on_node(group, action, "check", drive_check_command);
   add_type(sub, check);
   sub.add_option("--robot", check.robot,
                  "in place of --node: all drives of a robot table, of the types that the bus table says")
@@ -72,8 +66,7 @@ void add_drive_check(CLI::App& group, Action& action) {
 }
 
 void add_jog(CLI::App& group, Action& action) {
-  auto [sub, drive] =
-      add_on_node(group, action, "jog", "turn a motor a short way: enable, move, stop, disable", drive_jog_command);
+  auto [sub, drive] = add_on_node(group, action, "jog", drive_jog_command);
   add_type(sub, drive);
   JogOptions& jog = drive.jog;
   sub.add_option("--by", jog.by, "how far, in --unit, of either sign; at most --most")->required();
@@ -92,11 +85,9 @@ void add_jog(CLI::App& group, Action& action) {
 }  // namespace
 
 void declare_drive(CLI::App& app, Action& action) {
-  CLI::App& group =
-      add_group(app, "drive", "one motor on a desk, before there is a robot table (docs/reference/drives.md)");
-  group.footer(kDriveFooter);  // of its commands, too
+  CLI::App& group = add_group(app, "drive");
   add_scan(group, action);
-  add_on_object(group, action, "read", "an object of a drive", drive_read_command);
+  add_on_object(group, action, "read", drive_read_command);
   add_write(group, action);
   add_watch(group, action);
   add_drive_check(group, action);

@@ -6,8 +6,7 @@ namespace liana::cli {
 namespace {
 
 void add_pose(CLI::App& app, Action& action) {
-  auto [sub, pose] = add<PoseOptions>(
-      app, action, "pose", "tip pose, segment ends, Jacobian and cable lengths of joint angles", pose_command);
+  auto [sub, pose] = add<PoseOptions>(app, action, "pose", pose_command);
   add_robot(sub, pose.robot);
   sub.add_option("--theta-deg", pose.theta_deg, "joint angles t1,t2,... (pitch, yaw per segment)")->required();
   sub.add_option("--scene", pose.scene,
@@ -16,7 +15,7 @@ void add_pose(CLI::App& app, Action& action) {
 }
 
 void add_ik(CLI::App& app, Action& action) {
-  auto [sub, ik] = add<IkOptions>(app, action, "ik", "joint angles of a tip pose (goal solver)", ik_command);
+  auto [sub, ik] = add<IkOptions>(app, action, "ik", ik_command);
   add_robot(sub, ik.robot);
   sub.add_option("--from-deg", ik.from_deg, "joint angles to start from")->required();
   sub.add_option("--tip", ik.tip, "goal x,y,z,qw,qx,qy,qz")->required();
@@ -27,9 +26,7 @@ void add_ik(CLI::App& app, Action& action) {
 }
 
 void add_reach(CLI::App& app, Action& action) {
-  auto [sub, reach] =
-      add<ReachOptions>(app, action, "reach",
-                        "where tip or node can go; conditioning and limits along a path (cable arms)", reach_command);
+  auto [sub, reach] = add<ReachOptions>(app, action, "reach", reach_command);
   add_robot(sub, reach.robot);
   sub.add_option("--scene", reach.scene, "scene table drawn to scale; takes nothing away from the region");
   sub.add_option("--hold", reach.hold,
@@ -46,8 +43,7 @@ void add_reach(CLI::App& app, Action& action) {
 }
 
 void add_plan(CLI::App& app, Action& action) {
-  auto [sub, plan] = add<PlanOptions>(
-      app, action, "plan", "joint angles or a tip pose reached past the scene (offline planner)", plan_command);
+  auto [sub, plan] = add<PlanOptions>(app, action, "plan", plan_command);
   add_robot(sub, plan.robot);
   sub.add_option("--scene", plan.scene, "scene table: a name under lua/scenes, a file, or none")->capture_default_str();
   sub.add_option("--from-deg", plan.from_deg, "joint angles to start from")->required();
@@ -76,8 +72,7 @@ void add_plan(CLI::App& app, Action& action) {
 }
 
 void add_budget(CLI::App& app, Action& action) {
-  auto [sub, budget] = add<BudgetOptions>(
-      app, action, "budget", "how far beside its goal a chain of arms ends: by formula and by chance", budget_command);
+  auto [sub, budget] = add<BudgetOptions>(app, action, "budget", budget_command);
   sub.add_option("budget", budget.budget, "error chain: a name under lua/budgets or a file")->capture_default_str();
   sub.add_option("--draws", budget.draws, "tries of chance")->capture_default_str();
   add_seed(sub, budget.seed, "of chance");
@@ -86,8 +81,7 @@ void add_budget(CLI::App& app, Action& action) {
 }
 
 void add_sweep(CLI::App& app, Action& action) {
-  auto [sub, sweep] = add<SweepOptions>(
-      app, action, "sweep", "self-motion of a 7-joint arm with the tip still, and how far it gives way", sweep_command);
+  auto [sub, sweep] = add<SweepOptions>(app, action, "sweep", sweep_command);
   sub.add_option("--robot", sweep.robot, "serial arm: a name under lua/robots or a file")->capture_default_str();
   sub.add_option("--from-deg", sweep.from_deg, "joint angles, or a named pose, that the tip stays at");
   sub.add_option("--svg", sweep.svg_file, "write the deflections as a picture to this file");
@@ -95,9 +89,7 @@ void add_sweep(CLI::App& app, Action& action) {
 }
 
 void add_verify(CLI::App& app, Action& action) {
-  auto [sub, verify] = add<VerifyOptions>(
-      app, action, "verify", "whether a straight motion of the joints would be released, and what it leaves",
-      verify_command);
+  auto [sub, verify] = add<VerifyOptions>(app, action, "verify", verify_command);
   add_robot(sub, verify.robot);
   sub.add_option("--scene", verify.scene,
                  "scene table: a name under lua/scenes or a file; panel_slit where not given, for a serial arm none");

@@ -78,8 +78,7 @@ void add_people(CLI::App& sub, launcher::OperatorChoice& people) {
 }
 
 void add_run(CLI::App& app, Action& action) {
-  auto [sub, run] =
-      add<launcher::RunOptions>(app, action, "run", "start the whole system and run a mission", run_command);
+  auto [sub, run] = add<launcher::RunOptions>(app, action, "run", run_command);
   add_mission_options(sub, run);
   sub.add_option("--time", run.time, "fast, paced or real; fast where nothing is said, real on SocketCAN")
       ->check(CLI::IsMember({"fast", "paced", "real"}));
@@ -92,14 +91,12 @@ void add_run(CLI::App& app, Action& action) {
 }
 
 void add_check(CLI::App& app, Action& action) {
-  auto [sub, check] = add<launcher::RunOptions>(
-      app, action, "check", "dry run of a mission: what its steps leave of the limits, what is refused", check_command);
+  auto [sub, check] = add<launcher::RunOptions>(app, action, "check", check_command);
   add_mission_options(sub, check);
 }
 
 void add_mission(CLI::App& app, Action& action) {
-  auto [sub, mission] =
-      add<MissionOptions>(app, action, "mission", "tells the mission that runs how to go on", mission_command);
+  auto [sub, mission] = add<MissionOptions>(app, action, "mission", mission_command);
   sub.add_option("command", mission.command,
                  "pause: the arm holds; resume: go on; step: one step, then a pause; confirm: what the step asks for; "
                  "abort: end it")

@@ -6,8 +6,8 @@
 
 namespace liana::cli {
 
-CLI::App& add_group(CLI::App& app, const char* name, const char* text) {
-  CLI::App* group = app.add_subcommand(name, text);
+CLI::App& add_group(CLI::App& app, const char* name) {
+  CLI::App* group = app.add_subcommand(name);
   group->require_subcommand(1);
   return *group;
 }

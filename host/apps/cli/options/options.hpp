@@ -20,18 +20,18 @@ struct Declared {
   Options& options;
 };
 
-// Adds a command whose options have their defaults; when it is chosen, `command` with them becomes the action.
+// Adds a command whose options have their defaults; when it is chosen, `command` with them becomes the action. Its line
+// in help is in tasks.cpp.
 template <class Options>
-Declared<Options> add(CLI::App& app, Action& action, const char* name, const char* text,
-                      int (*command)(const Options&)) {
+Declared<Options> add(CLI::App& app, Action& action, const char* name, int (*command)(const Options&)) {
   const auto options = std::make_shared<Options>();
-  CLI::App* sub = app.add_subcommand(name, text);
+  CLI::App* sub = app.add_subcommand(name);
   sub->callback([&action, options, command] { action = [options, command] { return command(*options); }; });
   return {*sub, *options};
 }
 
 // A word before commands: `robot` of `robot export`.
-CLI::App& add_group(CLI::App& app, const char* name, const char* text);
+CLI::App& add_group(CLI::App& app, const char* name);
 
 // A number from `low` to `high`, both allowed; CLI::Range lets NaN through.
 CLI::Validator within(double low, double high);
@@ -51,5 +51,8 @@ void declare_arm(CLI::App& app, Action& action);       // status, estop, clear, 
 void declare_drive(CLI::App& app, Action& action);     // drive scan, read, write, watch, check, jog
 void declare_device(CLI::App& app, Action& action);    // device list, watch
 void declare_robot(CLI::App& app, Action& action);     // robot export, check, new
+
+// All of these, what stands before the command, and what help says of each.
+void declare_all(CLI::App& app, Action& action);
 
 }  // namespace liana::cli

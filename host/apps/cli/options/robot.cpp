@@ -12,16 +12,14 @@ void add_robot_in_either_place(CLI::App& sub, std::string& robot) {
 }
 
 void add_robot_export(CLI::App& group, Action& action) {
-  auto [sub, exported] = add<ExportOptions>(group, action, "export", "a robot table as canonical JSON", export_command);
+  auto [sub, exported] = add<ExportOptions>(group, action, "export", export_command);
   add_robot_in_either_place(sub, exported.robot);
   sub.add_option("--out", exported.file, "file to write; standard output where not given");
   sub.add_flag("--json")->description("the output is JSON with or without it");
 }
 
 void add_robot_check(CLI::App& group, Action& action) {
-  auto [sub, checked] = add<RobotCheckOptions>(
-      group, action, "check", "what of a robot fits: capacity, bus load, workspace, tensions, holes, fixtures",
-      robot_check_command);
+  auto [sub, checked] = add<RobotCheckOptions>(group, action, "check", robot_check_command);
   add_robot_in_either_place(sub, checked.robot);
   sub.add_option("--bus", checked.bus, "bus table; where not given as for liana run");
   sub.add_option("--scene", checked.scene,
@@ -31,8 +29,7 @@ void add_robot_check(CLI::App& group, Action& action) {
 }
 
 void add_robot_new(CLI::App& group, Action& action) {
-  auto [sub, made] =
-      add<RobotNewOptions>(group, action, "new", "write a commented robot table from a few answers", robot_new_command);
+  auto [sub, made] = add<RobotNewOptions>(group, action, "new", robot_new_command);
   sub.add_option("name", made.name, "name of the robot: small letters, digits, _")->required();
   sub.add_option("--out", made.file, "file to write; NAME.lua where not given");
   sub.add_option("--segments", made.segments, about(kAskSegments));
@@ -46,7 +43,7 @@ void add_robot_new(CLI::App& group, Action& action) {
 }  // namespace
 
 void declare_robot(CLI::App& app, Action& action) {
-  CLI::App& group = add_group(app, "robot", "robot tables");
+  CLI::App& group = add_group(app, "robot");
   add_robot_export(group, action);
   add_robot_check(group, action);
   add_robot_new(group, action);

@@ -36,25 +36,21 @@ void add_system(CLI::App& sub, SystemSelection& wish) {
 }
 
 void add_console(CLI::App& app, Action& action) {
-  auto [sub, console] = add<ConsoleOptions>(
-      app, action, "console", "the arm in a browser: of a running system, or a simulated one", console_command);
+  auto [sub, console] = add<ConsoleOptions>(app, action, "console", console_command);
   add_system(sub, console.wish);
   add_gateway_options(sub, console.gateway);
   add_json(sub, console.json);
 }
 
 void add_teleop(CLI::App& app, Action& action) {
-  auto [sub, teleop] =
-      add<TeleopOptions>(app, action, "teleop",
-                         "drive the arm from this terminal: of a running system, or a simulated one", teleop_command);
+  auto [sub, teleop] = add<TeleopOptions>(app, action, "teleop", teleop_command);
   add_system(sub, teleop.wish);
   sub.add_option("--gamepad", teleop.gamepad,
                  "a joystick device like /dev/input/js0, beside the keys (docs/how-to/teleoperate.md)");
 }
 
 void add_link(CLI::App& app, Action& action) {
-  auto [sub, link] = add<LinkOptions>(
-      app, action, "link", "a delayed link between devices and lianad, to try it out; ends with Ctrl-C", link_command);
+  auto [sub, link] = add<LinkOptions>(app, action, "link", link_command);
   sub.add_option("--listen", link.listen, "socket at which devices come")->required();
   sub.add_option("--devices", link.devices, "lianad's socket of devices, to which they go on")->required();
   sub.add_option("--delay", link.delay, "FORWARD_S,RETURN_S, e.g. 0.5,0.5, each 0 to 2 s");
@@ -65,8 +61,7 @@ void add_link(CLI::App& app, Action& action) {
 }
 
 void add_view(CLI::App& app, Action& action) {
-  auto [sub, view] = add<ViewOptions>(app, action, "view",
-                                      "the page of a run: what happened, in one file for a browser", view_command);
+  auto [sub, view] = add<ViewOptions>(app, action, "view", view_command);
   CLI::Option* run = sub.add_option(
       "run", view.run, "a folder, or the name of one of the newest runs; where not given, the one that ended last");
   CLI::Option* out = sub.add_option("--out", view.out_file, "write the page here, not as page.html beside the run");
@@ -76,8 +71,7 @@ void add_view(CLI::App& app, Action& action) {
 }
 
 void add_commands(CLI::App& app, Action& action) {
-  auto [sub, commands] = add<CommandsOptions>(
-      app, action, "commands", "what became of the commands of a run: verdicts, margins, refusals", command_log);
+  auto [sub, commands] = add<CommandsOptions>(app, action, "commands", command_log);
   sub.add_option("run", commands.run,
                  "a folder, the name of one of the newest runs, or a commands.txt; where not given, the newest run");
   sub.add_option_function<std::string>(
@@ -102,9 +96,9 @@ void add_arm_time(CLI::App& sub, const char* option, double& value_s) {
 }
 
 // What a command of `log` is for one run.
-Declared<LogOptions> add_log_of_run(CLI::App& log, Action& action, const char* name, const char* text,
+Declared<LogOptions> add_log_of_run(CLI::App& log, Action& action, const char* name,
                                     int (*command)(const LogOptions&)) {
-  auto [sub, options] = add<LogOptions>(log, action, name, text, command);
+  auto [sub, options] = add<LogOptions>(log, action, name, command);
   sub.add_option("run", options.run, "a folder, or the name of one of the newest runs; the newest where not given");
   add_json(sub, options.json);
   return {sub, options};
@@ -116,8 +110,7 @@ void add_arm_times(CLI::App& sub, LogOptions& log) {
 }
 
 void add_log_export(CLI::App& log, Action& action) {
-  auto [sub, exported] = add_log_of_run(
-      log, action, "export", "a run for other tools: CSV, MCAP (Foxglove), candump, ticks", log_export_command);
+  auto [sub, exported] = add_log_of_run(log, action, "export", log_export_command);
   add_arm_times(sub, exported);
   sub.add_option("--csv", exported.csv, "file for telemetry as a table");
   sub.add_option("--mcap", exported.mcap, "file for the arm in its scene, angles, events, as Foxglove shows them");
@@ -126,20 +119,17 @@ void add_log_export(CLI::App& log, Action& action) {
 }
 
 void add_log(CLI::App& app, Action& action) {
-  CLI::App& log = add_group(app, "log", "what the archives of runs hold (docs/reference/archive.md)");
-  auto [list, listed] =
-      add<LogOptions>(log, action, "list", "the newest runs: begin, outcome, length, size", log_list_command);
+  CLI::App& log = add_group(app, "log");
+  auto [list, listed] = add<LogOptions>(log, action, "list", log_list_command);
   add_json(list, listed.json);
-  auto [show, shown] =
-      add_log_of_run(log, action, "show", "events, refusals, faults, steps of a run", log_show_command);
+  auto [show, shown] = add_log_of_run(log, action, "show", log_show_command);
   add_arm_times(show, shown);
-  add_log_of_run(log, action, "verify", "whether an archive is whole, and what it holds", log_verify_command);
+  add_log_of_run(log, action, "verify", log_verify_command);
   add_log_export(log, action);
 }
 
 void add_replay(CLI::App& app, Action& action) {
-  auto [sub, replay] = add<ReplayOptions>(
-      app, action, "replay", "run a recording through the core again and compare every output", replay_command);
+  auto [sub, replay] = add<ReplayOptions>(app, action, "replay", replay_command);
   sub.add_option("directory", replay.directory,
                  "what `liana run --record` wrote: a folder, or the name of one of the newest runs")
       ->required();

@@ -1,8 +1,12 @@
 #include "host/apps/cli/options/words.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <filesystem>
 
+#include "host/apps/cli/known_values.hpp"
 #include "host/apps/launcher/errors.hpp"
+#include "host/base/options/nearest.hpp"
 
 namespace liana::cli {
 namespace {
@@ -70,6 +74,30 @@ std::span<const std::string> after_global_options(std::span<const std::string> w
   return words;
 }
 
+std::vector<std::string> names_of(const std::vector<const CLI::App*>& commands) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : commands) names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> options_of(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+// The known name near a value that is none, where there is a list of what may stand there. Numbers are no names.
+std::string near_value(const std::string& option_or_command, const std::string& value) {
+  const bool is_name = !value.empty() && std::isalpha(static_cast<unsigned char>(value.front())) != 0 &&
+                       value.find_first_of("/.") == value.npos;
+  if (!is_name || std::filesystem::exists(value)) return "";
+  const std::vector<std::string> known = values_after(option_or_command);
+  const bool is_known = std::find(known.begin(), known.end(), value) != known.end();
+  return is_known ? "" : options::did_you_mean(value, known);
+}
+
 struct Chosen {
   const CLI::App* command;
   std::string words;  // of it, each after a blank
@@ -120,6 +148,37 @@ std::string extra_word_text(const CLI::App& app) {
   const std::vector<std::string> words = app.remaining(true);
   return "'" + (words.empty() ? "" : words.front()) + "': liana" + command +
          " takes no such word; leave it out, or see liana" + command + " --help";
+}
+
+std::string suggestion(const CLI::App& app, std::span<const std::string> words) {
+  words = after_global_options(words);
+  const CLI::App* command = &app;
+  std::string path = "liana", near;
+  for (std::size_t i = 0; i < words.size() && near.empty(); ++i) {
+    const std::string& word = words[i];
+    const auto below = command->get_subcommands([](const CLI::App*) { return true; });
+    if (word.starts_with("--")) {
+      const std::size_t equals = word.find('=');
+      const std::string name = word.substr(0, equals);
+      const CLI::Option* option = command->get_option_no_throw(name);
+      if (option == nullptr) {
+        near = options::did_you_mean(name, options_of(*command));
+      } else if (equals != word.npos) {
+        near = near_value(name, word.substr(equals + 1));
+      } else if (option->get_items_expected_max() > 0 && i + 1 < words.size()) {
+        near = near_value(name, words[++i]);
+      }
+    } else if (below.empty()) {
+      near = near_value(path, word);
+    } else if (i > 0 || word != "help") {
+      const auto found =
+          std::find_if(below.begin(), below.end(), [&](const auto* sub) { return sub->get_name() == word; });
+      if (found == below.end()) return options::did_you_mean(word, names_of(below));
+      command = *found;
+      path += " " + word;
+    }
+  }
+  return near;
 }
 
 bool prints_json(std::span<const std::string> words) {

@@ -29,6 +29,10 @@ std::string problem_text(const CLI::App& app, const std::string& error);
 // A word that the command has no place for.
 std::string extra_word_text(const CLI::App& app);
 
+// "; did you mean NAME?" for the end of a refusal: of the first command, option or value of an option that is unknown
+// and near to a known one; empty where there is none.
+std::string suggestion(const CLI::App& app, std::span<const std::string> words);
+
 // Whether standard output takes JSON: with --json; of `run` and `check`, whose --json wants a file, where that is -.
 bool prints_json(std::span<const std::string> words);
 

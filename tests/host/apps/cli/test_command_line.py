@@ -1,6 +1,7 @@
 """`liana` as users call it: kinematics, tables and what it says about bad input. A fresh process per call."""
 import json
 import math
+import os
 import pathlib
 import random
 import subprocess
@@ -10,6 +11,9 @@ import unittest
 
 from programs import BIN, ROOT, json_of_refusal, liana, liana_json, liana_to_full_disk
 from message import Messages
+
+sys.path.append(str(ROOT / "host/apps/install"))
+import make_pages  # noqa: E402
 
 GOLDEN = json.loads((ROOT / "tests/golden/arm.json").read_text())["cases"]
 MICRO = json.loads((ROOT / "tests/golden/micro.json").read_text())["cases"]
@@ -365,28 +369,49 @@ class Dev(unittest.TestCase):
 
 
 class Help(Messages, unittest.TestCase):
-    def test_help_names_every_command(self):
-        code, out, _ = liana("help")
-        self.assertEqual(code, 0)
-        for command in [
-            "run",
-            "check",
-            "pose",
-            "ik",
-            "reach",
-            "plan",
-            "budget",
-            "sweep",
-            "verify",
-            "status",
-            "estop",
-            "clear",
-            "replay",
-            "robot",
-            "doctor",
-            "completion",
-        ]:
-            self.assertIn(f"\n  {command} ", out)
+    def examples(self, *path):
+        """The examples of a command and of all below it, by what calls the command."""
+        code, out, _ = liana(*path, "--help")
+        told = make_pages.Help(out)
+        self.assertEqual((code, len(told.examples)), (0, 1), path)
+        self.assertTrue(out.endswith(f"Example: {told.examples[0]}\n"), path)
+        found = {" ".join(path): told.examples[0]}
+        for command in told.commands():
+            found |= self.examples(*path, command)
+        return found
+
+    def test_help_ends_with_an_example_and_each_works_that_needs_neither_a_system_nor_a_drive(self):
+        examples = self.examples()
+        self.assertGreater(len(examples), 40)
+        runs_long = {"", "check", "run", "console", "teleop", "calibrate", "latency", "force", "link"}
+        needs_system = {"mission", "status", "device", "estop", "clear"}
+        with tempfile.TemporaryDirectory() as folder:
+            environment = os.environ | {"PATH": f"{BIN}:{os.environ['PATH']}", "XDG_STATE_HOME": folder}
+            for command, example in examples.items():
+                if command.split(" ")[0] in runs_long | needs_system | {"drive"} or "liana run" in example:
+                    continue
+                done = subprocess.run(
+                    ["sh", "-c", example],
+                    cwd=folder,
+                    env=environment,
+                    capture_output=True,
+                    text=True,
+                    check=False,
+                    timeout=120,
+                )
+                self.assertEqual(done.returncode, 0, (example, done.stderr))
+
+    def test_the_page_of_the_command_line_has_the_groups_of_help(self):
+        """Each command has a heading of its own, under the heading of its group."""
+        told = make_pages.Help(liana("help")[1])
+        page, group = [], None
+        for line in (ROOT / "docs/reference/command-line.md").read_text("utf-8").splitlines():
+            if line.startswith("## "):
+                group = line.removeprefix("## ")
+            elif line.startswith("### liana "):
+                page.append((group, line.removeprefix("### liana ")))
+        wanted = [(group, name) for group, rows in told.lists.items() for name, _ in rows if name != "help"]
+        self.assertEqual(page, wanted)
 
     def test_an_empty_argument_is_never_taken_for_a_missing_one(self):
         for words in (
@@ -412,6 +437,51 @@ class Help(Messages, unittest.TestCase):
             known = ("run", "check", "mission", "console", "teleop", "link", "view", "commands", "log")
             self.assert_names(error, *(("export",) if words[:1] == ["robot"] else known))
             self.assertEqual(error.count("\n"), 1, error)
+
+    def test_a_misspelt_command_option_or_name_is_named_as_it_is_spelt(self):
+        for words, wrong, meant in [
+            (["statsu"], "statsu", "status"),
+            (["--lua-dir", "/tmp", "statsu"], "statsu", "status"),
+            (["help", "robott"], "robott", "robot"),
+            (["robot", "chek"], "chek", "check"),
+            (["pose", "--jsn"], "--jsn", "--json"),
+            (["pose", "--theta-deq=0"], "--theta-deq", "--theta-deg"),
+            (["pose", "--robot", "zhu202", f"--theta-deg={ZERO}"], "zhu202", "zhu2022"),
+            (["pose", "--robot=mirco", "--theta-deg=0"], "mirco", "micro"),
+            (["pose", "--json", "--scene", "panel_slid", f"--theta-deg={ZERO}"], "panel_slid", "panel_slit"),
+            (["robot", "export", "zhu2202"], "zhu2202", "zhu2022"),
+            (["run", "slit_crosing"], "slit_crosing", "slit_crossing"),
+            (["check", "slit_crossing", "--bus", "embeded"], "embeded", "embedded"),
+            (["run", "slit_crossing", "--physics", "wron"], "wron", "worn"),
+            (["run", "slit_crossing", "--time=fats"], "fats", "fast"),
+            (["run", "slit_crossing", "--operator", "hunan"], "hunan", "human"),
+            (["mission", "paus"], "paus", "pause"),
+            (["completion", "bsh"], "bsh", "bash"),
+            (["verify", "--from-deg=prepared", "--to-deg=zero", "--duration=5"], "prepared", "prepare"),
+            (["sweep", "--from-deg=prepar"], "prepar", "prepare"),
+        ]:
+            code, out, error = liana(*words)
+            self.assertEqual((code, error.count("\n")), (2, 1), (words, error))
+            self.assertRegex(error, rf"did you mean {meant}\?\n$", words)
+            self.assert_names(error, wrong)
+            if "--json" in words:
+                self.assertEqual(json.loads(out), json_of_refusal(2, error))
+
+    def test_nothing_is_suggested_where_no_name_is_near_or_another_thing_is_wrong(self):
+        with tempfile.TemporaryDirectory() as folder:
+            own = pathlib.Path(folder) / "zhu2023.lua"
+            own.write_text("return 1\n", "utf-8")
+            for words in (
+                ["nosuch"],
+                ["pose", "--frob"],
+                ["pose", "--robot", "nosuch", f"--theta-deg={ZERO}"],
+                ["pose", "--robot", own, f"--theta-deg={ZERO}"],
+                ["pose", "--robot", "zhu2022", "--theta-deg=1"],
+                ["latency", "--rate", "251"],
+                ["run", "slit_crossing", "--gravity", "1.01"],
+            ):
+                code, _, error = liana(*words)
+                self.assertEqual((code, error.count("did you mean")), (2, 0), error)
 
     def test_an_option_that_a_command_does_not_have_is_named_whatever_else_is_missing(self):
         for words, named in [

@@ -70,5 +70,20 @@ TEST(CommandLine, TheProgramSaysItsNameTheProblemAndWhereMoreStands) {
             "program: --seed: '-1': allowed: a whole number, 0 or more; see program --help\n");
 }
 
+TEST(CommandLine, WhatIsMisspeltIsNamedAsItIsSpelt) {
+  const std::vector<std::pair<std::vector<const char*>, std::vector<std::string>>> wrong = {
+      {{"run", "--apy", "a"}, {"--apy", "--api"}},
+      {{"run", "--api", "a", "--lokstep"}, {"--lokstep", "--lockstep"}},
+      {{"rnu", "--api", "a"}, {"run"}},
+      {{"--time", "rael", "run", "--api", "a"}, {"--time", "rael", "fast", "real"}}};
+  for (const auto& [words, facts] : wrong) {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(Program().parse(words), 2);
+    const std::string said = testing::internal::GetCapturedStderr();
+    for (const std::string& fact : facts) EXPECT_NE(said.find(fact), std::string::npos) << said;
+    EXPECT_NE(said.find("did you mean"), std::string::npos) << said;
+  }
+}
+
 }  // namespace
 }  // namespace liana::options

@@ -31,6 +31,11 @@ TEST(RefusalTable, NamesAreWordsAndNoTwoAreTheSame) {
   }
 }
 
+TEST(RefusalTable, ACodeThatDoesNotExistHasTheRowOfNone) {
+  for (const int code : {0, 100, 110, 200, 215, 65535})
+    EXPECT_STREQ(row_of(static_cast<Refusal>(code)).name, "") << code;
+}
+
 // Beside a body of the scene the drives keep their power: an arm that is switched off shifts, and its way back with it.
 // req:C12
 TEST(RefusalTable, OnlyAnArmThatWouldTouchItselfIsStopped) {
