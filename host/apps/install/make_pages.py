@@ -1,6 +1,6 @@
 """Manual pages and completion, made of what the programs say themselves.
 
-make_pages.py FOLDER PROGRAM...: writes FOLDER/share/man/man1/*.1, one page for each program and each of its commands,
+make_pages.py FOLDER PROGRAM...: writes FOLDER/share/man, one page for each program and each of its commands,
 and completion of `liana` for bash and zsh.
 """
 
@@ -67,11 +67,21 @@ def section(title, lines):
     return [f".SH {title}", *(roff(line) + "\n.br" for line in lines)] if lines else []
 
 
+def section_of(name):
+    """Commands of people are in section 1, programs behind them in 8: `liana mission` is not liana-mission."""
+    return 1 if name == "liana" else 8
+
+
 def page(words, text, version):
     """The page of one command: words are those that call it, text is its help."""
+    number = section_of(words[0])
     name, told = "-".join(words), Help(text)
     usage = " ".join(words) + "".join(re.findall(r" (?:\[|SUBCOMMAND).*$", told.usage)[:1])
-    lines = [f'.TH "{name.upper()}" 1 "" "{version}" "Liana"', ".SH NAME", rf"{roff(name)} \- {roff(told.about)}"]
+    lines = [
+        f'.TH "{name.upper()}" {number} "" "{version}" "Liana"',
+        ".SH NAME",
+        rf"{roff(name)} \- {roff(told.about)}",
+    ]
     lines += [".SH SYNOPSIS", roff(usage)]
     lines += entries(".SH ARGUMENTS", told.arguments)
     lines += entries(".SH OPTIONS", told.options)
@@ -81,7 +91,7 @@ def page(words, text, version):
             lines += entries(f".SS {roff(group)}", rows)
     lines += section("EXAMPLES", told.examples)
     if told.commands():
-        names = ", ".join(rf"\fB{roff(name + '-' + command)}\fR(1)" for command in told.commands())
+        names = ", ".join(rf"\fB{roff(name + '-' + command)}\fR({number})" for command in told.commands())
         lines += [".SH SEE ALSO", names]
     lines += section("NOTES", told.footer)
     return "\n".join(lines) + "\n"
@@ -90,7 +100,10 @@ def page(words, text, version):
 def write_pages(folder, program, words, version):
     """The pages of a command and of those below it."""
     text = say(program, *words[1:], "--help")
-    (folder / f"{'-'.join(words)}.1").write_text(page(words, text, version), encoding="utf-8")
+    number = section_of(words[0])
+    manual = folder / f"man{number}"
+    manual.mkdir(parents=True, exist_ok=True)
+    (manual / f"{'-'.join(words)}.{number}").write_text(page(words, text, version), encoding="utf-8")
     for command in Help(text).commands():
         write_pages(folder, program, [*words, command], version)
 
@@ -106,11 +119,9 @@ def write_completion(liana, shell, *files):
 def main(folder, *programs):
     share = pathlib.Path(folder) / "share"
     shutil.rmtree(share, ignore_errors=True)
-    manual = share / "man" / "man1"
-    manual.mkdir(parents=True)
     for program in programs:
         name = pathlib.Path(program).name
-        write_pages(manual, program, [name], say(program, "--version").strip())
+        write_pages(share / "man", program, [name], say(program, "--version").strip())
         if name == "liana":
             completions = share / "bash-completion" / "completions"  # bash loads a file by the name of the command
             write_completion(program, "bash", completions / "liana", completions / "liana-mission")

@@ -171,16 +171,19 @@ class Installed(Messages, unittest.TestCase):
         self.assertEqual(run(programs[0], "/no/such/socket", check=False).returncode, 1)
 
     def test_manual_pages_tell_every_command(self):
-        manual = self.prefix / "share" / "man" / "man1"
+        manual = self.prefix / "share" / "man"
         commands = re.findall(r"^  ([a-z]+) ", self.program("liana", "help").stdout, re.MULTILINE)
         self.assertGreater(len(commands), 20)
         wanted = [f"liana-{command}" for command in commands if command != "help"] + ["liana-log-export", *PROGRAMS]
         for name in wanted:
-            page = (manual / f"{name}.1").read_text("utf-8")
-            self.assertIn(f'.TH "{name.upper()}" 1', page)
+            number = 8 if name in PROGRAMS[1:] and name != "liana-mission" else 1
+            page = (manual / f"man{number}" / f"{name}.{number}").read_text("utf-8")
+            self.assertIn(f'.TH "{name.upper()}" {number}', page)
             self.assertIn(".SH SYNOPSIS", page)
-            self.assertEqual(".SH EXAMPLES" in page, name not in PROGRAMS[1:], name)
-        self.assertIn("\\-\\-theta\\-deg", (manual / "liana-pose.1").read_text("utf-8"))
+            self.assertEqual(".SH EXAMPLES" in page, number == 1, name)
+        self.assertIn("\\-\\-theta\\-deg", (manual / "man1" / "liana-pose.1").read_text("utf-8"))
+        command, program = (manual / f"man{number}" / f"liana-mission.{number}" for number in (1, 8))
+        self.assertNotEqual(command.read_text("utf-8"), program.read_text("utf-8"))
 
     def test_installed_completion_asks_the_program_in_the_path(self):
         completion = self.prefix / "share" / "bash-completion" / "completions" / "liana"
