@@ -15,20 +15,20 @@ import sys
 import source_tree  # noqa: F401
 import trial
 from liana.client import NotReached
-from run_scenario import kFailures
+from run_scenario import FAILURES
 from scenario_file import Failed, expect_that
 
-kDrives, kThetas = 15, 10
-kBootTicks, kEnabledTick = 130, 1000
-kTicks = (2000, 4500)  # from the first slot to the operator's last action
-kAction_ticks = (10, 300)  # from one action of the operator to the next
-kSettle_s = 75  # arm time; the longest budget, that of the pretension ramp, is 60 s
-kReplayEvery = 5
-kShort = 5  # sequences in ./dev hil
-kOnceBroke = (9017, 9065)  # sequences in which a rule was once said to be broken: by the judge, by the core
+DRIVES, THETAS = 15, 10
+BOOT_TICKS, ENABLED_TICK = 130, 1000
+TICKS = (2000, 4500)  # from the first slot to the operator's last action
+ACTION_TICKS = (10, 300)  # from one action of the operator to the next
+SETTLE_S = 75  # arm time; the longest budget, that of the pretension ramp, is 60 s
+REPLAY_EVERY = 5
+SHORT = 5  # sequences in ./dev hil
+ONCE_BROKE = (9017, 9065)  # sequences in which a rule was once said to be broken: by the judge, by the core
 
 # What a kind is told: field -> values to choose from; and whether it may end.
-kBenchKinds = {
+BENCH_KINDS = {
     "missing": ({}, True),
     "reboot": ({}, False),
     "silent": ({}, True),
@@ -48,28 +48,28 @@ kBenchKinds = {
 }
 # Action of the bus script: ids it takes (None: the whole bus); for "send" the stranger's id. Ids of one drive (+ node):
 # TPDO, RPDO, heartbeat.
-kSync, kMaster, kBabble = 0x080, 0x77F, 0x001
-kOfOneDrive = (0x180, 0x200, 0x700)
-kAnyFrame = (None, kSync, kMaster, *kOfOneDrive)
-kBusActions = {
-    "drop": kAnyFrame,
-    "duplicate": kAnyFrame,
-    "reorder": kAnyFrame,
-    "disturb": kAnyFrame,
-    "refuse": (None, kSync, kMaster, 0x200),
-    "send": (kBabble,),
+SYNC, MASTER, BABBLE = 0x080, 0x77F, 0x001
+OF_ONE_DRIVE = (0x180, 0x200, 0x700)
+ANY_FRAME = (None, SYNC, MASTER, *OF_ONE_DRIVE)
+BUS_ACTIONS = {
+    "drop": ANY_FRAME,
+    "duplicate": ANY_FRAME,
+    "reorder": ANY_FRAME,
+    "disturb": ANY_FRAME,
+    "refuse": (None, SYNC, MASTER, 0x200),
+    "send": (BABBLE,),
     "cut": (),
     "down": (),
     "swap": (),
     "pause": (),
 }
-kLoads_percent = (10, 60, 100)
-kShareOfBus = 0.4
-kForever, kLongestPause = 1000000, 300  # slots
-kSpans = (1, 2, 3, 4, 10, 30, 100, 500, None)
+LOADS_PERCENT = (10, 60, 100)
+SHARE_OF_BUS = 0.4
+FOREVER, LONGEST_PAUSE = 1000000, 300  # slots
+SPANS = (1, 2, 3, 4, 10, 30, 100, 500, None)
 
 # What the operator does, by state, with weights: mostly what a person would, sometimes what must be refused.
-kActions = {
+ACTIONS = {
     "BOOTING": {"enable": 1, "wait": 3},
     "DISABLED": {"enable": 12, "clear": 3, "move_jp": 1, "stop": 1, "acquire": 2, "wait": 1},
     "ENABLING": {"wait": 30, "disable": 1, "stop": 1, "enable": 1, "clear": 1},
@@ -96,10 +96,10 @@ class Sequence:
     def __init__(self, seed):
         self.seed, self.draw = seed, random.Random(seed)
         self.name, self.reduced = f"70_campaign/seed_{seed}", seed == 1
-        self.last_tick = self.draw.randint(*kTicks)
+        self.last_tick = self.draw.randint(*TICKS)
         self.bench_faults, self.bus_script = [], []
         for _ in range(self.draw.randint(1, 4)):
-            if self.draw.random() < kShareOfBus:
+            if self.draw.random() < SHARE_OF_BUS:
                 self.bus_script.append(self.bus_fault())
             else:
                 self.bench_faults.append(self.bench_fault())
@@ -107,51 +107,49 @@ class Sequence:
     def begin(self):
         """A slot: mostly with the arm enabled, sometimes while it boots or is enabled."""
         low, high = self.draw.choice(
-            ((0, kBootTicks), (kBootTicks, kEnabledTick)) + 8 * ((kEnabledTick, self.last_tick - 200),)
+            ((0, BOOT_TICKS), (BOOT_TICKS, ENABLED_TICK)) + 8 * ((ENABLED_TICK, self.last_tick - 200),)
         )
         return self.draw.randrange(low, high)
 
     def bench_fault(self):
-        kind = self.draw.choice(sorted(kBenchKinds))
-        values, may_end = kBenchKinds[kind]
+        kind = self.draw.choice(sorted(BENCH_KINDS))
+        values, may_end = BENCH_KINDS[kind]
         fault = {
             "kind": kind,
-            "drive": self.draw.choice(
-                [self.draw.randrange(kDrives)] * 4 + [sorted(self.draw.sample(range(kDrives), 2))]
-            ),
+            "drive": self.draw.choice([self.draw.randrange(DRIVES)] * 4 + [sorted(self.draw.sample(range(DRIVES), 2))]),
             "at_slot": self.begin(),
             **{name: self.draw.choice(of) for name, of in values.items()},
         }
-        span = self.draw.choice(kSpans)
+        span = self.draw.choice(SPANS)
         return {**fault, "for_slots": span} if may_end and span is not None else fault
 
     def bus_fault(self):
-        action = self.draw.choice(sorted(kBusActions))
+        action = self.draw.choice(sorted(BUS_ACTIONS))
         ids, node, begin, span = (
-            kBusActions[action],
-            self.draw.randrange(1, kDrives + 1),
+            BUS_ACTIONS[action],
+            self.draw.randrange(1, DRIVES + 1),
             self.begin(),
-            self.draw.choice(kSpans),
+            self.draw.choice(SPANS),
         )
         bus = 0 if node <= 8 else 1
-        rule = {"action": action, "from_slot": begin, "to_slot": begin + (span or kForever) - 1}
+        rule = {"action": action, "from_slot": begin, "to_slot": begin + (span or FOREVER) - 1}
         if action != "pause":
             rule["bus"] = bus
         if action == "pause":
-            rule["to_slot"] = begin + min(span or 1, kLongestPause) - 1
+            rule["to_slot"] = begin + min(span or 1, LONGEST_PAUSE) - 1
         if action == "swap":
             rule["with_bus"] = 1 - bus
         if action == "send":
-            rule.update(data="0102030405060708", load_percent=self.draw.choice(kLoads_percent))
+            rule.update(data="0102030405060708", load_percent=self.draw.choice(LOADS_PERCENT))
         base = self.draw.choice(ids or (None,))
-        return rule if base is None else {**rule, "id": f"0x{base + node if base in kOfOneDrive else base:03X}"}
+        return rule if base is None else {**rule, "id": f"0x{base + node if base in OF_ONE_DRIVE else base:03X}"}
 
     def fault_count(self):
         return len(self.bench_faults) + len(self.bus_script)
 
     def action(self, state):
         """(op, fields) of the operator's next request; None: he waits."""
-        able = kActions[state["state"]]
+        able = ACTIONS[state["state"]]
         name = self.draw.choices(list(able), list(able.values()))[0]
         if name in ("enable", "disable", "clear"):
             return "state_command", {"command": name}
@@ -163,12 +161,12 @@ class Sequence:
                 "goal": [value + self.draw.uniform(-0.02, 0.02) if i < 3 else value for i, value in enumerate(pose)]
             }
         if name == "hold_theta":
-            return name, {"held": self.draw.choice(([], [{"theta": self.draw.randint(1, kThetas), "target_deg": 0}]))}
+            return name, {"held": self.draw.choice(([], [{"theta": self.draw.randint(1, THETAS), "target_deg": 0}]))}
         return None if name == "wait" else (name, {})
 
     def goal_deg(self, state):
-        goal = list(state.get("setpoint_js_deg", [0.0] * kThetas))
-        for theta in self.draw.sample(range(kThetas), self.draw.randint(1, 3)):
+        goal = list(state.get("setpoint_js_deg", [0.0] * THETAS))
+        for theta in self.draw.sample(range(THETAS), self.draw.randint(1, 3)):
             goal[theta] = max(-19.0, min(19.0, goal[theta] + self.draw.uniform(-6, 6)))
         return goal
 
@@ -187,11 +185,11 @@ class SequenceRun:
         """Failed says how to repeat it, whatever went wrong."""
         try:
             self.go_once()
-        except kFailures as error:
+        except FAILURES as error:
             raise Failed(f"{error or type(error).__name__}; again: {again(self.sequence.seed)}") from error
 
     def go_once(self):
-        replay = self.sequence.seed % kReplayEvery == 0
+        replay = self.sequence.seed % REPLAY_EVERY == 0
         done = trial.Trial(self.sequence.bench_faults, self.sequence.bus_script, self.sequence.seed).go(
             self.operate, replay
         )
@@ -205,10 +203,10 @@ class SequenceRun:
             action = self.sequence.action(client.state)
             if action:
                 self.ask(client, *action)
-            end = client.state["tick"] + self.sequence.draw.randint(*kAction_ticks)
+            end = client.state["tick"] + self.sequence.draw.randint(*ACTION_TICKS)
             client.until(lambda state: state["tick"] >= end)
         try:
-            client.until(lambda state: state["state"] in ("DISABLED", "FAULT", "ENABLED"), kSettle_s)
+            client.until(lambda state: state["state"] in ("DISABLED", "FAULT", "ENABLED"), SETTLE_S)
         except NotReached as error:
             raise Failed(f"it hangs: {error}") from None
 
@@ -285,7 +283,7 @@ def campaign(seeds, say=lambda text: print(text, file=sys.stderr, flush=True)):
 
 
 def short_campaign():
-    return [Sequence(seed) for seed in (*range(1, kShort + 1), *kOnceBroke)]
+    return [Sequence(seed) for seed in (*range(1, SHORT + 1), *ONCE_BROKE)]
 
 
 def tell(seed):

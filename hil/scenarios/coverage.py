@@ -13,10 +13,10 @@ import sys
 import source_tree  # noqa: F401
 import scenario
 
-kShown = 2  # scenarios named for each number, the first in bring-up order
+SHOWN = 2  # scenarios named for each number, the first in bring-up order
 
 # What no scenario can bring about: the test that does, by the file that holds it.
-kTests = {
+TESTS = {
     1001: (
         "Controller.ATelecommandThatIsNotANumberIsFault1001AndNeverFollowed",
         "tests/firmware_like/controller_test.cpp",
@@ -57,7 +57,7 @@ def measured_ticks(path):
 
 
 def row(number, scenarios, measured):
-    test, names = kTests.get(number), ", ".join(f"`{name}`" for name in scenarios[:kShown])
+    test, names = TESTS.get(number), ", ".join(f"`{name}`" for name in scenarios[:SHOWN])
     by = names or f"test `{test[0]}`"
     ticks = measured.get(number, [])
     return f"| {number} | {by} |" + (f" {min(ticks)} to {max(ticks)} |" if ticks else "  |" if measured else "")

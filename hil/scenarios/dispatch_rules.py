@@ -1,8 +1,8 @@
 """There is no path around verification: whatever telecommand reached the core was passed by both ends and released
 before. Reads commands.txt (docs/reference/formats.md) beside the recording.
 """
-kEnds = {"execution", "simulation"}
-kSpeaks = kEnds | {"setpoint", "release", "refusal"}
+ENDS = {"execution", "simulation"}
+SPEAKS = ENDS | {"setpoint", "release", "refusal"}
 
 
 def lives(lines):
@@ -11,7 +11,7 @@ def lives(lines):
         if line.startswith("#"):
             continue
         tick, stage, sequence, number = line.split("\t")[:4]
-        if stage in kSpeaks and sequence:
+        if stage in SPEAKS and sequence:
             yield int(tick), stage, int(sequence), int(number or 0)
 
 
@@ -21,11 +21,11 @@ def released(lines):
     for tick, stage, sequence, number in lives(lines):
         if stage == "setpoint":
             passed[sequence] = set()
-        elif stage in kEnds and number == 0:
+        elif stage in ENDS and number == 0:
             passed.setdefault(sequence, set()).add(stage)
         elif stage == "release":
             let_out[sequence] = tick
-            missing = kEnds - passed.get(sequence, set())
+            missing = ENDS - passed.get(sequence, set())
             if missing:
                 complaints.append(f"tick {tick}: command {sequence} was released without {', '.join(sorted(missing))}")
     return let_out, complaints

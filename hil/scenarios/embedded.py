@@ -8,10 +8,10 @@ from liana.system import System
 from scenario_file import expect_that
 from stand import Stand
 
-kMoveDeg = 6.0
-kPathStop = 500  # ticks; twice what rest from full speed takes
-kTravelDeg = 1.0  # of any angle from the fault to the end, where a scenario says nothing else
-kJoint = arms.ARMS[arms.CABLE_ARM].joint
+MOVE_DEG = 6.0
+PATH_STOP = 500  # ticks; twice what rest from full speed takes
+TRAVEL_DEG = 1.0  # of any angle from the fault to the end, where a scenario says nothing else
+JOINT = arms.ARMS[arms.CABLE_ARM].joint
 
 
 class EmbeddedStand(Stand):
@@ -41,10 +41,10 @@ class EmbeddedStand(Stand):
         run.violations += recorded.complaints
 
 
-def start_move(client, joint=kJoint):
+def start_move(client, joint=JOINT):
     """A move of one angle (from 0; the ninth theta) that lasts some seconds; does not wait for it to begin."""
     goal_deg = list(client.state["setpoint_js_deg"])
-    goal_deg[joint] -= kMoveDeg
+    goal_deg[joint] -= MOVE_DEG
     client.call("move_jp", goal_deg=goal_deg)
 
 
@@ -85,10 +85,10 @@ def judge_run(run, system):
     run.judge_delay(first)
     end = run.enabled_again or run.end
     if not run.expect.get("late_commands"):  # those come whenever the wire does, with what was wanted before
-        run.violations += commands_that_move(traffic, robot, run.latched + kPathStop, end)
+        run.violations += commands_that_move(traffic, robot, run.latched + PATH_STOP, end)
     if run.expect["state"] == "FAULT":
         judge_stop(run, truth, traffic, end, robot)
-    travel_deg, allowed_deg = truth.travel_deg(first, end), run.expect.get("travel_deg", kTravelDeg)
+    travel_deg, allowed_deg = truth.travel_deg(first, end), run.expect.get("travel_deg", TRAVEL_DEG)
     run.notes.append(f"travel {travel_deg:.3f} deg")
     expect_that(travel_deg <= allowed_deg, f"the arm travelled {travel_deg:.2f} deg, allowed are {allowed_deg}")
 

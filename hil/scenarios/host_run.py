@@ -6,28 +6,28 @@ import signal
 
 import arms
 import predicates
-from embedded import kTravelDeg
+from embedded import TRAVEL_DEG
 from liana.client import brief
 from liana.system import System
 from run_scenario import LimitedRun
 from scenario_file import Failed, expect_that
 from source_tree import SOURCE
 
-kRoles = {
+ROLES = {
     "liana-archive": "client,archive",
     "liana-operator": "client,mission,operator",
 }  # whom lianad waits for at its start
 MISSIONS = SOURCE / "tests" / "system" / "missions"
 
-kMove_s = 0.5  # arm time: the move is well under way
-kRunOn = (
+MOVE_S = 0.5  # arm time: the move is well under way
+RUN_ON = (
     750  # slots that the bench goes on alone when the bus has ended: drives that give torque damp until the arm rests
 )
-kRunOn_s = 3.0
-kDeadline = 6  # slots until drives without targets have stopped: three periods, and the ramp
-kStill_deg = 1e-3
-kHold_s = 3.0  # arm time to come to rest on the path
-kMemoryMargin = 1 << 20
+RUN_ON_S = 3.0
+DEADLINE = 6  # slots until drives without targets have stopped: three periods, and the ramp
+STILL_DEG = 1e-3
+HOLD_S = 3.0  # arm time to come to rest on the path
+MEMORY_MARGIN = 1 << 20
 
 
 def fill_disk(system):
@@ -40,7 +40,7 @@ def starve(system, program):
     pid = system.children[program].pid
     pages = int(pathlib.Path(f"/proc/{pid}/statm").read_text().split()[0])
     size = pages * resource.getpagesize()
-    resource.prlimit(pid, resource.RLIMIT_AS, (size + kMemoryMargin, size + kMemoryMargin))
+    resource.prlimit(pid, resource.RLIMIT_AS, (size + MEMORY_MARGIN, size + MEMORY_MARGIN))
 
 
 class HostRun(LimitedRun):
@@ -48,8 +48,8 @@ class HostRun(LimitedRun):
 
     def act(self):
         host, outcome = self.scenario.host, self.expect["outcome"]
-        expected = kRoles.get(host["program"], "client")
-        with System(expect=expected, bench=("--run-on", kRunOn_s), **arms.tables(self.scenario.robot)) as system:
+        expected = ROLES.get(host["program"], "client")
+        with System(expect=expected, bench=("--run-on", RUN_ON_S), **arms.tables(self.scenario.robot)) as system:
             with self.limited(system):
                 if host["action"] == "full_disk":
                     fill_disk(system)
@@ -82,7 +82,7 @@ class HostRun(LimitedRun):
         else:
             client.enable()
             client.start_moving(joint=arm.joint)
-        client.go_on(kMove_s)
+        client.go_on(MOVE_S)
         expect_that(
             client.state["state"] == "ENABLED" and not client.state["faults"],
             f"the arm has to move: {brief(client.state)}",
@@ -109,10 +109,10 @@ class HostRun(LimitedRun):
         truth, summary = system.truth(), system.json("bench_summary.json")
         enabled = truth.column("enabled")
         last = max(slot for slot, count in enumerate(enabled) if count == len(summary["drives"]))
-        self.notes.append(f"without torque after {last - (len(enabled) - kRunOn)} ticks")
+        self.notes.append(f"without torque after {last - (len(enabled) - RUN_ON)} ticks")
         expect_that(
-            last <= len(enabled) - kRunOn + kDeadline,
-            f"drives still have torque {last - (len(enabled) - kRunOn)} ticks after the end",
+            last <= len(enabled) - RUN_ON + DEADLINE,
+            f"drives still have torque {last - (len(enabled) - RUN_ON)} ticks after the end",
         )
         expect_that(enabled[-1] == 0, f"{enabled[-1]:.0f} drives have torque at the end")
         for drive in summary["drives"]:
@@ -136,7 +136,7 @@ class HostRun(LimitedRun):
         """Who steered is gone: the arm comes to rest on its path, keeps its tension, and moves for a new owner only."""
         before = client.state["tick"]
         client.until(lambda state: not state.get("device_engaged") and state["at_rest"], 60)
-        client.go_on(kHold_s)
+        client.go_on(HOLD_S)
         expect_that(
             client.state["state"] == "ENABLED" and not client.state["faults"],
             f"a hold was expected: {brief(client.state)}",
@@ -144,7 +144,7 @@ class HostRun(LimitedRun):
         there = client.state["setpoint_js_deg"]
         client.go_on(1.0)
         crept = max(abs(now - then) for now, then in zip(client.state["setpoint_js_deg"], there))
-        expect_that(crept < kStill_deg, f"the arm moves by {crept:.5f} deg in a second though nobody steers")
+        expect_that(crept < STILL_DEG, f"the arm moves by {crept:.5f} deg in a second though nobody steers")
         expect_that(
             any(word in event["text"] for event in client.events for word in ("died", "is gone")),
             f"no event names the dead: {client.events}",
@@ -167,7 +167,7 @@ class HostRun(LimitedRun):
             program in codes or system.ended(program) != 0, f"{program} ended with 0 as if nothing had happened"
         )
 
-    def judge_travel(self, truth, first, allowed_deg=kTravelDeg):
+    def judge_travel(self, truth, first, allowed_deg=TRAVEL_DEG):
         travel = truth.travel_deg(first, None)
         self.notes.append(f"travel {travel:.3f} deg")
         expect_that(travel <= allowed_deg, f"the arm travelled {travel:.2f} deg, allowed are {allowed_deg}")

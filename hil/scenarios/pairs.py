@@ -10,13 +10,13 @@ from liana.client import NotReached, brief
 from run_scenario import expect_refused
 from scenario_file import Failed, expect_that
 
-kBeginTick = 2000  # the arm is enabled at about 900; by now the move is well under way
-kDelays = (0, 1, 2, 3, 5, 8, 13, 21, 34, 50)
-kForever = 1000000
-kRested_s = 1.0  # arm time for which the end state is watched
-kEnd_s = 60  # arm time; the slowest detection takes a third of it
-kSwingDeg = 2.0  # in the last half second: brakes hold the drums, but on its elastic cables the arm swings on
-kReduced = ({"silent", "fault"}, {"slack", "overload"}, {"bus_lost", "operator_stop"})
+BEGIN_TICK = 2000  # the arm is enabled at about 900; by now the move is well under way
+DELAYS = (0, 1, 2, 3, 5, 8, 13, 21, 34, 50)
+FOREVER = 1000000
+RESTED_S = 1.0  # arm time for which the end state is watched
+END_S = 60  # arm time; the slowest detection takes a third of it
+SWING_DEG = 2.0  # in the last half second: brakes hold the drums, but on its elastic cables the arm swings on
+REDUCED = ({"silent", "fault"}, {"slack", "overload"}, {"bus_lost", "operator_stop"})
 
 # Fault of the bench or the bus; number and index it latches alone, and from how many ticks after its begin until how
 # many. `or_else`: another number and index that may be sooner, where two detectors see it nearly at once.
@@ -30,10 +30,10 @@ def bench(drive, kind, **values):
 
 
 def drop(bus, **rule):
-    return {"bus": bus, **rule, "to_slot": kForever, "action": "drop"}
+    return {"bus": bus, **rule, "to_slot": FOREVER, "action": "drop"}
 
 
-kMembers = (
+MEMBERS = (
     Member("silent", bench(3, "silent"), None, 3002, 3, 2, 2),
     Member("missing", bench(5, "missing"), None, 3002, 5, 2, 2),
     Member("reboot", bench(8, "reboot"), None, 3007, 8, 0, 0),
@@ -58,10 +58,10 @@ class Pair:
     def __init__(self, first, second, delay):
         self.members, self.delay = (first, second), delay
         self.name = f"60_pairs/{first.name}+{second.name}"
-        self.reduced = {first.name, second.name} in kReduced
+        self.reduced = {first.name, second.name} in REDUCED
 
     def begins(self):
-        return kBeginTick, kBeginTick + self.delay
+        return BEGIN_TICK, BEGIN_TICK + self.delay
 
     def fault_count(self):
         return len(self.bench_faults()) + len(self.bus_script())
@@ -102,9 +102,9 @@ class Pair:
 def all_pairs():
     """Each once; delays, and which of the two begins, go round."""
     pairs = []
-    for i, (one, other) in enumerate(itertools.combinations(kMembers, 2)):
+    for i, (one, other) in enumerate(itertools.combinations(MEMBERS, 2)):
         first, second = (one, other) if i % 2 == 0 else (other, one)
-        pairs.append(Pair(first, second, kDelays[i % len(kDelays)]))
+        pairs.append(Pair(first, second, DELAYS[i % len(DELAYS)]))
     return pairs
 
 
@@ -145,10 +145,10 @@ class PairRun:
     def wait_for_the_end(self, client):
         stop = self.pair.stop_tick()
         if stop is not None:
-            client.until(lambda state: state["tick"] >= stop, kEnd_s)
+            client.until(lambda state: state["tick"] >= stop, END_S)
             client.call("stop", reason="one of a pair")
         try:
-            client.until(ended, kEnd_s)
+            client.until(ended, END_S)
         except NotReached as error:
             raise Failed(f"it does not come to an end: {error}") from None
 
@@ -156,7 +156,7 @@ class PairRun:
     def stay(client):
         """Nothing clears itself, and nothing moves or enables without a clear."""
         state = client.state["state"]
-        client.go_on(kRested_s)
+        client.go_on(RESTED_S)
         expect_that(
             client.state["state"] == state or client.state["state"] == "FAULT",
             f"{state} did not stay: {brief(client.state)}",
@@ -168,7 +168,7 @@ class PairRun:
         if latched:
             first = latched[0]
             self.notes.append(
-                f"{self.pair.delay} ticks apart, first {first[0]} of {first[1]} after {first[2] - kBeginTick} ticks"
+                f"{self.pair.delay} ticks apart, first {first[0]} of {first[1]} after {first[2] - BEGIN_TICK} ticks"
             )
             expect_that(
                 first[:2] in self.pair.expected_first(), f"first is {first[:2]}, expected {self.pair.expected_first()}"
@@ -177,8 +177,8 @@ class PairRun:
         missing = [course["kind"] for course in done.courses if course["begun_slot"] is None]
         expect_that(not missing, f"never began: {', '.join(missing)}")
         end = len(done.truth.rows)
-        swing, travel = done.truth.travel_deg(end - 125, end), done.truth.travel_deg(kBeginTick, end)
+        swing, travel = done.truth.travel_deg(end - 125, end), done.truth.travel_deg(BEGIN_TICK, end)
         allowed = max(member.travel_deg for member in self.pair.members)
         self.notes.append(f"travel {travel:.2f} deg, at the end {swing:.3f}")
         expect_that(travel <= allowed, f"the arm travelled {travel:.2f} deg, allowed are {allowed}")
-        expect_that(swing <= kSwingDeg, f"the arm swings by {swing:.2f} deg at the end, allowed are {kSwingDeg}")
+        expect_that(swing <= SWING_DEG, f"the arm swings by {swing:.2f} deg at the end, allowed are {SWING_DEG}")

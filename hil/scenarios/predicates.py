@@ -5,13 +5,13 @@ import collections
 import math
 import re
 
-kEnableOperation = 0x0F
-kTargetOf = range(0x201, 0x280)
-kReportOf = range(0x181, 0x200)
-kFirstSensor = 0x20  # nodes from here on are no drives
-kLine = re.compile(r"\((\d+\.\d+)\) \S+ ([0-9A-F]{3})#([0-9A-F]*)")
-kRoundingCounts = 2  # of both ends
-kLetGo_m, kJumps = 0.008, 6
+ENABLE_OPERATION = 0x0F
+TARGET_OF = range(0x201, 0x280)
+REPORT_OF = range(0x181, 0x200)
+FIRST_SENSOR = 0x20  # nodes from here on are no drives
+LINE = re.compile(r"\((\d+\.\d+)\) \S+ ([0-9A-F]{3})#([0-9A-F]*)")
+ROUNDING_COUNTS = 2  # of both ends
+LET_GO_M, JUMPS = 0.008, 6
 
 Command = collections.namedtuple("Command", "slot controlword target")
 Report = collections.namedtuple("Report", "slot position")
@@ -27,13 +27,13 @@ class Traffic:
     def __init__(self, log_texts, period_s):
         self.commands, self.reports = collections.defaultdict(list), collections.defaultdict(list)
         for text in log_texts:
-            for time, identifier, data in kLine.findall(text):
+            for time, identifier, data in LINE.findall(text):
                 self.take(int(float(time) / period_s + 1e-6), int(identifier, 16), data)
 
     def take(self, slot, identifier, data):
-        if identifier in kTargetOf and len(data) >= 12:
+        if identifier in TARGET_OF and len(data) >= 12:
             self.take_command(identifier - 0x200, slot, data)
-        elif identifier in kReportOf and identifier - 0x180 < kFirstSensor and len(data) >= 12:
+        elif identifier in REPORT_OF and identifier - 0x180 < FIRST_SENSOR and len(data) >= 12:
             self.reports[identifier - 0x180].append(Report(slot, little_endian(data, 2, 4, True)))
 
     def take_command(self, node, slot, data):
@@ -41,7 +41,7 @@ class Traffic:
 
 
 def is_enabling(command):
-    return command.controlword & 0x8F == kEnableOperation
+    return command.controlword & 0x8F == ENABLE_OPERATION
 
 
 def counts_per_turn(robot):
@@ -55,14 +55,14 @@ def step_limit_counts(robot, period_s):
         turns_per_s = max(joint["rate_deg_s"] for joint in robot["joints"]) / 360.0
     else:
         turns_per_s = robot["limits"]["cable_speed_m_s"] / (2 * math.pi * robot["drives"]["drum_radius_m"])
-    return turns_per_s * period_s * counts_per_turn(robot) + kRoundingCounts
+    return turns_per_s * period_s * counts_per_turn(robot) + ROUNDING_COUNTS
 
 
 def let_go_counts(robot):
     """How far a target may jump when a cable is missed and its segment is let go, or taken back: 8 mm of cable."""
     if robot.get("kind") == "serial":
         return 0.0
-    return kLetGo_m / (2 * math.pi * robot["drives"]["drum_radius_m"]) * counts_per_turn(robot) + kRoundingCounts
+    return LET_GO_M / (2 * math.pi * robot["drives"]["drum_radius_m"]) * counts_per_turn(robot) + ROUNDING_COUNTS
 
 
 class Jumps:
@@ -75,7 +75,7 @@ class Jumps:
         if step_counts <= self.limit_counts * periods:
             return False
         self.jumps[drive] += 1
-        return step_counts > self.jump_counts or self.jumps[drive] > kJumps
+        return step_counts > self.jump_counts or self.jumps[drive] > JUMPS
 
 
 def target_steps(traffic, limit_counts, jump_counts=0.0):

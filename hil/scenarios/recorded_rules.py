@@ -15,33 +15,33 @@ import torque_rules
 
 REACTIONS_PAGE = pathlib.Path(__file__).resolve().parent / "reactions.json"
 
-kReactions = ("none", "hold", "stop", "stop at once", "off at once")  # a later one wins
-kNone, kHold, kStop, kAtOnce, kOff = range(5)
-kCategories = (0, 1, 2, 2, 3)  # stop category that the state shows for each
-kFollowers = {
+REACTIONS = ("none", "hold", "stop", "stop at once", "off at once")  # a later one wins
+NONE, HOLD, STOP, AT_ONCE, OFF = range(5)
+CATEGORIES = (0, 1, 2, 2, 3)  # stop category that the state shows for each
+FOLLOWERS = {
     "DISABLED": ("ENABLING", "FAULT"),
     "ENABLING": ("ENABLED", "STOPPING"),
     "ENABLED": ("STOPPING",),
     "STOPPING": ("DISABLED", "FAULT"),
     "FAULT": ("DISABLED",),
 }
-kLatchedLast = (1001, 6001)  # found after the reaction of their tick was decided: they act from the next one on
-kQuickStop, kDisableVoltage, kFaultReset = 0x02, 0x00, 0x80
-kClearTicks = 260  # from a clear to its verdict
-kPersistTicks = 1250  # a hold that stays so long is a stop
-kQuickStopTicks = 120  # a quick stop that takes longer is ended
-kPathStopTicks = 500  # twice what rest from full speed takes
-kStill_rad_s = 1e-6
-kTellTicks = 10  # two command intervals: the next state tells
-kSettleTicks = 5  # from the state on: drives have heard the last command, their brakes are closed
+LATCHED_LAST = (1001, 6001)  # found after the reaction of their tick was decided: they act from the next one on
+QUICK_STOP, DISABLE_VOLTAGE, FAULT_RESET = 0x02, 0x00, 0x80
+CLEAR_TICKS = 260  # from a clear to its verdict
+PERSIST_TICKS = 1250  # a hold that stays so long is a stop
+QUICK_STOP_TICKS = 120  # a quick stop that takes longer is ended
+PATH_STOP_TICKS = 500  # twice what rest from full speed takes
+STILL_RAD_S = 1e-6
+TELL_TICKS = 10  # two command intervals: the next state tells
+SETTLE_TICKS = 5  # from the state on: drives have heard the last command, their brakes are closed
 
 # Detection that is promised: wrong for more than so many ticks is a fault.
-kSilentTicks, kHeartbeat_s, kLostTicks = 2, 0.3, 2
-kSlackTicks, kAlarmTicks, kOverloadTicks = 25, 25, 3
-kFollowing_m, kFollowingTicks = 1e-3, 6
-kFollowing_deg = 0.5  # of a serial arm's joint: 0.1 deg, and its way at full rate while drive and bus lag
-kTorqueFollowing_deg = 2.5  # of one whose drive follows torques: 2 deg, and that way
-kJump_deg, kOutside_deg, kOutsideTicks = 0.2, 1.01, 2
+SILENT_TICKS, HEARTBEAT_S, LOST_TICKS = 2, 0.3, 2
+SLACK_TICKS, ALARM_TICKS, OVERLOAD_TICKS = 25, 25, 3
+FOLLOWING_M, FOLLOWING_TICKS = 1e-3, 6
+FOLLOWING_DEG = 0.5  # of a serial arm's joint: 0.1 deg, and its way at full rate while drive and bus lag
+TORQUE_FOLLOWING_DEG = 2.5  # of one whose drive follows torques: 2 deg, and that way
+JUMP_DEG, OUTSIDE_DEG, OUTSIDE_TICKS = 0.2, 1.01, 2
 
 
 class Limits(typing.NamedTuple):
@@ -63,7 +63,7 @@ def limits_of(robot, period_s):
     serial = robot.get("kind") == "serial"
     return Limits(
         step_counts=predicates.step_limit_counts(robot, period_s),
-        heartbeat_ticks=round(kHeartbeat_s / period_s),
+        heartbeat_ticks=round(HEARTBEAT_S / period_s),
         let_go_counts=predicates.let_go_counts(robot),
         **(joint_limits(robot) if serial else cable_limits(robot)),
     )
@@ -72,7 +72,7 @@ def limits_of(robot, period_s):
 def cable_limits(robot):
     drives, tension = robot["drives"], robot["tension"]
     return {
-        "following_counts": kFollowing_m * predicates.counts_per_turn(robot) / (2 * math.pi * drives["drum_radius_m"]),
+        "following_counts": FOLLOWING_M * predicates.counts_per_turn(robot) / (2 * math.pi * drives["drum_radius_m"]),
         "newtons_per_permille": drives["rated_torque_Nm"] / 1000 / drives["drum_radius_m"],
         "slack_N": tension["floor_anywhere_N"],
         "alarm_N": tension["alarm_N"],
@@ -82,21 +82,21 @@ def cable_limits(robot):
 
 def joint_limits(robot):
     drives, counts_per_deg = robot["drives"], predicates.counts_per_turn(robot) / 360.0
-    following_deg = kTorqueFollowing_deg if torque_rules.gives_torque(robot) else kFollowing_deg
+    following_deg = TORQUE_FOLLOWING_DEG if torque_rules.gives_torque(robot) else FOLLOWING_DEG
     ranges = []
     for joint, zero, direction in zip(robot["joints"], drives["zero_counts"], drives["direction"]):
-        ends = joint["low_deg"] - kOutside_deg, joint["high_deg"] + kOutside_deg
+        ends = joint["low_deg"] - OUTSIDE_DEG, joint["high_deg"] + OUTSIDE_DEG
         ranges.append(tuple(sorted(zero + direction * end * counts_per_deg for end in ends)))
     return {
         "following_counts": following_deg * counts_per_deg,
-        "jump_counts": kJump_deg * counts_per_deg,
+        "jump_counts": JUMP_DEG * counts_per_deg,
         "ranges_counts": tuple(ranges),
     }
 
 
 def reactions_by_hand():
-    """Fault number -> index into kReactions."""
-    return {number: kReactions.index(row["reaction"]) for number, row in page_of_reactions().items()}
+    """Fault number -> index into REACTIONS."""
+    return {number: REACTIONS.index(row["reaction"]) for number, row in page_of_reactions().items()}
 
 
 def retreats_by_hand():
@@ -110,7 +110,7 @@ def page_of_reactions():
 
 
 def is_enabling(word):
-    return word & 0x8F == predicates.kEnableOperation
+    return word & 0x8F == predicates.ENABLE_OPERATION
 
 
 def is_enabled(statusword):
@@ -181,7 +181,7 @@ def commands_out_of_time(ticks):
 
 def acting(tick):
     """The latched faults that decide how this tick reacts."""
-    return [fault for fault in tick.faults if fault.tick < tick.tick or fault.number not in kLatchedLast]
+    return [fault for fault in tick.faults if fault.tick < tick.tick or fault.number not in LATCHED_LAST]
 
 
 def commands_while_latched(ticks, retreats=frozenset()):
@@ -198,7 +198,7 @@ def commands_while_latched(ticks, retreats=frozenset()):
             complaints.append(
                 f"tick {now.tick}: telecommand {now.active_sequence} is in force while {held[0].number} is latched"
             )
-        if held and now.tick > held[0].tick + kPathStopTicks and max(map(abs, now.theta_rate)) > kStill_rad_s:
+        if held and now.tick > held[0].tick + PATH_STOP_TICKS and max(map(abs, now.theta_rate)) > STILL_RAD_S:
             complaints.append(
                 f"tick {now.tick}: the commanded arm still moves, {held[0].number} was latched in tick {held[0].tick}"
             )
@@ -215,7 +215,7 @@ def states_not_documented(ticks, reactions):
     complaints = [
         f"tick {now.tick}: {now.state} follows {before.state}"
         for before, now in neighbours(ticks)
-        if now.state != before.state and now.state not in kFollowers[before.state]
+        if now.state != before.state and now.state not in FOLLOWERS[before.state]
     ]
     unknown = {fault.number for now in ticks for fault in now.faults} - reactions.keys()
     return complaints + [f"fault {number} is not in reactions.json" for number in sorted(unknown)]
@@ -241,9 +241,9 @@ def faults_gone_unasked(ticks):
         if now.request == "clear":
             asked = now.tick
         gone = names(before) - names(now)
-        if gone and now.tick > asked + kClearTicks:
+        if gone and now.tick > asked + CLEAR_TICKS:
             complaints.append(f"tick {now.tick}: faults {sorted(gone)} are gone without a clear")
-        if before.state == "FAULT" != now.state and (now.faults or now.tick > asked + kClearTicks):
+        if before.state == "FAULT" != now.state and (now.faults or now.tick > asked + CLEAR_TICKS):
             complaints.append(f"tick {now.tick}: FAULT is left without a clear")
     return complaints
 
@@ -255,19 +255,19 @@ def had_torque(tick):
 
 def weakest_reaction_broken(before, now, highest, was, persisted):
     """Why this tick does less than the highest latched reaction asks for; None when it does enough."""
-    if now.state in ("DISABLED", "ENABLING") or (now.state == "ENABLED" and highest > kHold):
+    if now.state in ("DISABLED", "ENABLING") or (now.state == "ENABLED" and highest > HOLD):
         return f"the state is {now.state}"
-    if now.stop_category < kCategories[highest]:
+    if now.stop_category < CATEGORIES[highest]:
         return f"the stop category is {now.stop_category}"
-    if highest == kOff and any(word not in (kDisableVoltage, kFaultReset) for word in now.controlword):
+    if highest == OFF and any(word not in (DISABLE_VOLTAGE, FAULT_RESET) for word in now.controlword):
         return "a drive is not told to disable voltage"
-    if highest >= kAtOnce and any(map(is_enabling, now.controlword)):
+    if highest >= AT_ONCE and any(map(is_enabling, now.controlword)):
         return "a drive is told to enable operation"
-    if highest == kAtOnce > was and had_torque(before):
-        if any(is_enabled(status) and word != kQuickStop for status, word in zip(now.statusword, now.controlword)):
+    if highest == AT_ONCE > was and had_torque(before):
+        if any(is_enabled(status) and word != QUICK_STOP for status, word in zip(now.statusword, now.controlword)):
             return "a drive with torque is not told to quick stop"
     if (
-        highest == kHold
+        highest == HOLD
         and before.state == "ENABLED" != now.state
         and now.request not in ("stop", "disable")
         and not persisted
@@ -280,15 +280,15 @@ def weak_reactions(ticks, reactions):
     """The highest reaction of all latched faults is what happens, in the tick in which they are latched
     (docs/explanation/fault-detection.md).
     """
-    complaints, was = [], kNone
+    complaints, was = [], NONE
     for before, now in neighbours(ticks):
         held = acting(now)
-        highest = max((reactions.get(fault.number, kOff) for fault in held), default=kNone)
-        persisted = bool(held) and now.tick >= held[0].tick + kPersistTicks - kSettleTicks
+        highest = max((reactions.get(fault.number, OFF) for fault in held), default=NONE)
+        persisted = bool(held) and now.tick >= held[0].tick + PERSIST_TICKS - SETTLE_TICKS
         why = weakest_reaction_broken(before, now, highest, was, persisted) if held else None
         if why:
             complaints.append(
-                f"tick {now.tick}: {kReactions[highest]} is asked for by {[tuple(fault[:2]) for fault in held]}, but"
+                f"tick {now.tick}: {REACTIONS[highest]} is asked for by {[tuple(fault[:2]) for fault in held]}, but"
                 f" {why}"
             )
         was = highest
@@ -313,7 +313,7 @@ class Watch:
         self.ticks += 1
         found = [(4001, bus) for bus in range(32) if now.lost_buses >> bus & 1]
         found += ((3009, drive) for drive in range(32) if now.twice >> drive & 1)
-        if powered and now.lost_ticks > kLostTicks:
+        if powered and now.lost_ticks > LOST_TICKS:
             found.append((2001, -1))
         for drive, status in enumerate(now.statusword):
             found += ((number, drive) for number in self.of_link(now, drive))
@@ -326,7 +326,7 @@ class Watch:
         return found
 
     def of_link(self, now, drive):
-        silent, missing = now.age[drive] > kSilentTicks, now.heartbeat_age[drive] > self.limits.heartbeat_ticks
+        silent, missing = now.age[drive] > SILENT_TICKS, now.heartbeat_age[drive] > self.limits.heartbeat_ticks
         if not silent and not missing and now.operational[drive]:
             self.seen.add(drive)
         elif self.always or drive in self.seen or self.ticks >= self.limits.heartbeat_ticks - 1:  # booted before
@@ -340,21 +340,21 @@ class Watch:
     def of_joint(self, before, now, drive, powered):
         position, both_new = now.position[drive], now.age[drive] == 0 == before.age[drive]
         lag = abs(before.target[drive] - position)
-        if self.lasting((3006, drive), powered and lag > self.limits.following_counts, kFollowingTicks):
+        if self.lasting((3006, drive), powered and lag > self.limits.following_counts, FOLLOWING_TICKS):
             yield 3006
         if both_new and abs(position - before.position[drive]) > self.limits.jump_counts:
             yield 2003
         for least, most in self.limits.ranges_counts[drive : drive + 1]:
-            if self.lasting((2002, drive), powered and not least <= position <= most, kOutsideTicks):
+            if self.lasting((2002, drive), powered and not least <= position <= most, OUTSIDE_TICKS):
                 yield 2002
 
     def of_cable(self, now, drive, powered):
         limits, tension_N = self.limits, now.torque[drive] * self.limits.newtons_per_permille
-        if self.lasting((5001, drive), powered and tension_N < limits.slack_N, kSlackTicks):
+        if self.lasting((5001, drive), powered and tension_N < limits.slack_N, SLACK_TICKS):
             yield 5001
-        if self.lasting((5003, drive), powered and tension_N > limits.alarm_N, kAlarmTicks):
+        if self.lasting((5003, drive), powered and tension_N > limits.alarm_N, ALARM_TICKS):
             yield 5003
-        if self.lasting((5002, drive), powered and tension_N > limits.overload_N, kOverloadTicks):
+        if self.lasting((5002, drive), powered and tension_N > limits.overload_N, OVERLOAD_TICKS):
             yield 5002
 
 
@@ -375,7 +375,7 @@ def faults_not_latched(ticks, limits):
 
 
 # Numbers whose cause is plain in the reports, so that the watch here finds exactly what the core may latch.
-kPlain = (2001, 3001, 3002, 3003, 3004, 3007, 3009, 4001, 5001, 5002, 5003)
+PLAIN = (2001, 3001, 3002, 3003, 3004, 3007, 3009, 4001, 5001, 5002, 5003)
 
 
 def false_alarms(ticks, limits, first_cause):
@@ -388,7 +388,7 @@ def false_alarms(ticks, limits, first_cause):
         for number, index in sorted(new):
             if now.tick < first_cause:
                 complaints.append(f"tick {now.tick}: {number} of {index} is latched, and nothing has happened yet")
-            elif number in kPlain and (number, index) not in due:
+            elif number in PLAIN and (number, index) not in due:
                 complaints.append(f"tick {now.tick}: {number} of {index} is latched, and no report shows why")
     return complaints
 
@@ -399,9 +399,9 @@ def quick_stops_cut_short(ticks, reactions):
     """
     told_since, complaints = {}, []
     for now in ticks:
-        off = any(reactions.get(fault.number, kOff) == kOff for fault in acting(now)) or now.dropped
+        off = any(reactions.get(fault.number, OFF) == OFF for fault in acting(now)) or now.dropped
         for drive, (word, status) in enumerate(zip(now.controlword, now.statusword)):
-            if word == kQuickStop and has_torque(status):
+            if word == QUICK_STOP and has_torque(status):
                 told_since.setdefault(drive, now.tick)
                 continue
             since = told_since.pop(drive, None)
@@ -410,7 +410,7 @@ def quick_stops_cut_short(ticks, reactions):
                 and has_torque(status)
                 and now.age[drive] == 0
                 and not off
-                and now.tick < since + kQuickStopTicks
+                and now.tick < since + QUICK_STOP_TICKS
             ):
                 complaints.append(
                     f"tick {now.tick}: drive {drive} is told 0x{word:02X} while its quick stop is under way"
@@ -426,7 +426,7 @@ def stops_not_confirmed(ticks):
             continue
         unplaced = 0
         for drive, status in enumerate(now.statusword):
-            shown = now.age[drive] <= kSilentTicks and not has_torque(status)
+            shown = now.age[drive] <= SILENT_TICKS and not has_torque(status)
             unplaced += not shown and (3008, drive) not in names(now)
             if not shown and (3008, drive) not in names(now) and unplaced > now.dropped:
                 complaints.append(
@@ -442,7 +442,7 @@ def faults_not_told(ticks, told):
     """
     told = {fault for fault in told if fault[2] >= ticks[0].tick}
     recorded = {(fault.number, fault.index, fault.tick) for now in ticks for fault in now.faults}
-    due = {fault for fault in recorded if fault[2] < ticks[-1].tick - kTellTicks}
+    due = {fault for fault in recorded if fault[2] < ticks[-1].tick - TELL_TICKS}
     return [f"fault {fault} was told to the client, but is not recorded" for fault in sorted(told - recorded)] + [
         f"fault {fault} is recorded, but the client was never told" for fault in sorted(due - told)
     ]
@@ -454,7 +454,7 @@ def standing_ranges(ticks):
     for now in ticks:
         standing = now.state in ("DISABLED", "FAULT")
         if standing and first is None:
-            first = now.tick + kSettleTicks
+            first = now.tick + SETTLE_TICKS
         if not standing and first is not None:
             yield first, now.tick
             first = None

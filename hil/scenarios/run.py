@@ -19,10 +19,10 @@ from can import machine, real_drives
 from run_scenario import outcome
 from scenario_file import BadScenario
 
-kWhere = "embedded bus, lockstep"
-kLatencyRuns = {"250": 3, "500": 1}  # `./dev numbers latency` measures each three times
-kReducedRuns = {"250": 1, "500": 1}
-kParts = ("all", "embedded", "can")
+WHERE = "embedded bus, lockstep"
+LATENCY_RUNS = {"250": 3, "500": 1}  # `./dev numbers latency` measures each three times
+REDUCED_RUNS = {"250": 1, "500": 1}
+PARTS = ("all", "embedded", "can")
 
 
 def arguments():
@@ -38,7 +38,7 @@ def arguments():
     )
     parser.add_argument(
         "--part",
-        choices=kParts,
+        choices=PARTS,
         default="all",
         help="only what runs on the embedded bus, or only what needs a machine with CAN",
     )
@@ -79,7 +79,7 @@ def chosen(options):
 
 def run_one(one):
     run = one.run()
-    return {"name": one.name, "where": kWhere, **outcome(run)}, [
+    return {"name": one.name, "where": WHERE, **outcome(run)}, [
         {"scenario": one.name, "rule": rule} for rule in run.violations
     ]
 
@@ -114,7 +114,7 @@ def run_all(wanted, options):
     rows, violations = run_embedded([one for one in wanted if one not in on_can])
     if not on_can:
         return rows, violations, []
-    can_rows, latency = machine.run_all(on_can, report, kReducedRuns if options.reduced else kLatencyRuns)
+    can_rows, latency = machine.run_all(on_can, report, REDUCED_RUNS if options.reduced else LATENCY_RUNS)
     return rows + can_rows, violations, latency
 
 

@@ -7,9 +7,9 @@ import time
 from liana.client import LianaError, NotReached, brief
 from scenario_file import Failed, expect_that
 
-kRefusing_s = 2.0
+REFUSING_S = 2.0
 # What makes a scenario fail: its own verdict, what the client complains about, and what it cannot read or start.
-kFailures = (Failed, LianaError, OSError, ValueError, KeyError, subprocess.SubprocessError)
+FAILURES = (Failed, LianaError, OSError, ValueError, KeyError, subprocess.SubprocessError)
 
 
 def outcome(run):
@@ -17,7 +17,7 @@ def outcome(run):
     start, why = time.monotonic(), ""
     try:
         run.go()
-    except kFailures as error:
+    except FAILURES as error:
         why = f"{type(error).__name__}: {error}"
     seconds = round(time.monotonic() - start, 2)
     return {"outcome": "failed" if why else "passed", "seconds": seconds, "why": why, "notes": run.notes}
@@ -180,7 +180,7 @@ class Run(LimitedRun):
 
     def judge_refusal(self, client):
         """An arm that is not homed stays so and says why: to who wants to enable it, and to who only looks."""
-        client.go_on(kRefusing_s)
+        client.go_on(REFUSING_S)
         expect_that(not client.state["is_homed"], "the arm counts as homed")
         answer = client.ask("state_command", command="enable")
         expect_that(answer["op"] == "error", f"the arm was enabled: {answer}")
@@ -188,7 +188,7 @@ class Run(LimitedRun):
             expect_that(
                 all(words in text for words in self.expect["refused"]), f"{self.expect['refused']} is not in: {text}"
             )
-        client.go_on(kRefusing_s)
+        client.go_on(REFUSING_S)
         expect_that(client.state["state"] == "DISABLED", f"DISABLED was expected, but: {brief(client.state)}")
 
     def clear(self, client):

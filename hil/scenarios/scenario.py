@@ -3,10 +3,10 @@ from arms import ARMS, CABLE_ARM
 from embedded import EmbeddedStand
 from host_run import HostRun
 from run_scenario import Run
-from scenario_file import BadScenario, check_during, check_fields, kTimeLimit_s, read
+from scenario_file import BadScenario, check_during, check_fields, TIME_LIMIT_S, read
 from source_tree import SCENARIOS
 
-kFields = {
+FIELDS = {
     "about": str,
     "during": str,
     "faults": list,
@@ -20,8 +20,8 @@ kFields = {
     "stop_after_s": (int, float),
     "time_limit_s": (int, float),
 }
-kStart = {"pose": str, "in_pose": str, "cross_wired": list}
-kExpected = {
+START = {"pose": str, "in_pose": str, "cross_wired": list}
+EXPECTED = {
     "fault": (int, type(None)),
     "index": int,
     "detail": int,
@@ -36,25 +36,25 @@ kExpected = {
     "also": list,
     "refused": list,
 }
-kHost = {"action": str, "program": str, "bytes": int}
-kHostExpected = {"outcome": str, "says": list}
+HOST = {"action": str, "program": str, "bytes": int}
+HOST_EXPECTED = {"outcome": str, "says": list}
 
 
 class Scenario:
     def __init__(self, path):
         self.name = f"{path.parent.name}/{path.stem}"
         content = read(path)
-        check_fields(self.name, content, kFields, ("about", "during", "expect"))
+        check_fields(self.name, content, FIELDS, ("about", "during", "expect"))
         expect = content["expect"]
-        self.host, self.time_limit_s = content.get("host"), content.get("time_limit_s", kTimeLimit_s)
+        self.host, self.time_limit_s = content.get("host"), content.get("time_limit_s", TIME_LIMIT_S)
         if self.host is None:
-            check_fields(f"{self.name}: expect", expect, kExpected, ("fault", "state"))
+            check_fields(f"{self.name}: expect", expect, EXPECTED, ("fault", "state"))
             self.check_fault(expect, content["during"])
         else:
-            check_fields(f"{self.name}: host", self.host, kHost, ("action", "program"))
-            check_fields(f"{self.name}: expect", expect, kHostExpected, ("outcome",))
+            check_fields(f"{self.name}: host", self.host, HOST, ("action", "program"))
+            check_fields(f"{self.name}: expect", expect, HOST_EXPECTED, ("outcome",))
         self.start = content.get("start", {})
-        check_fields(f"{self.name}: start", self.start, kStart, ())
+        check_fields(f"{self.name}: start", self.start, START, ())
         self.robot, self.stop_after_s = content.get("robot", CABLE_ARM), content.get("stop_after_s")
         if self.robot not in ARMS:
             raise BadScenario(f"{self.name}: robot is {self.robot}; allowed are {', '.join(ARMS)}")

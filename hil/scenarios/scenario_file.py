@@ -52,11 +52,11 @@ def read(path):
     return content
 
 
-kDuring = ("boot", "rest", "move")
-kTimeLimit_s = 300  # wall clock
-kStates = ("BOOTING", "DISABLED", "ENABLING", "ENABLED", "STOPPING", "FAULT")
+DURING = ("boot", "rest", "move")
+TIME_LIMIT_S = 300  # wall clock
+STATES = ("BOOTING", "DISABLED", "ENABLING", "ENABLED", "STOPPING", "FAULT")
 # Numbers that mean something in a scenario of any kind: least and most.
-kRanges = {
+RANGES = {
     "within_ticks": (0, 1e6),
     "stopped_within_ticks": (0, 1e6),
     "travel_deg": (0.0, 360.0),
@@ -71,11 +71,11 @@ kRanges = {
 
 def check_values(name, found):
     for key, value in found.items():
-        if key in ("state", "after_clear") and value not in kStates:
-            raise BadScenario(f"{name}: {key} is {value}; allowed are {', '.join(kStates)}")
-        if key not in kRanges or value is None:
+        if key in ("state", "after_clear") and value not in STATES:
+            raise BadScenario(f"{name}: {key} is {value}; allowed are {', '.join(STATES)}")
+        if key not in RANGES or value is None:
             continue
-        least, most = kRanges[key]
+        least, most = RANGES[key]
         for number in value if isinstance(value, list) else [value]:
             if not isinstance(number, (int, float)) or not least <= number <= most:
                 raise BadScenario(f"{name}: {key} is {json.dumps(number)}; allowed are {least:g} to {most:g}")
@@ -94,8 +94,8 @@ def check_fields(name, found, allowed, required, readme="hil/scenarios/README.md
 
 
 def check_during(name, during):
-    if during not in kDuring:
-        raise BadScenario(f"{name}: during is {during}; allowed are {', '.join(kDuring)}")
+    if during not in DURING:
+        raise BadScenario(f"{name}: during is {during}; allowed are {', '.join(DURING)}")
 
 
 def expect_that(condition, message):

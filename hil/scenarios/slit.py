@@ -26,10 +26,10 @@ from slit_truth import Aftermath
 
 FOLDER = source_tree.SCENARIOS / "slit"
 TARGETS = json.loads((FOLDER / "targets.json").read_text())
-kRobot = FOLDER / "zhu2022_in_slit.lua"
-kGoesOn_s = 15.0  # arm time after the fault, for one that nothing has stopped
-kLedBack_s = 60.0  # and more, for one that is led back
-kForever = 1000000
+ROBOT = FOLDER / "zhu2022_in_slit.lua"
+GOES_ON_S = 15.0  # arm time after the fault, for one that nothing has stopped
+LED_BACK_S = 60.0  # and more, for one that is led back
+FOREVER = 1000000
 
 # Where it begins: pose and mission; `fault_slot`: well within what the moment is named for.
 Moment = collections.namedtuple("Moment", "pose mission fault_slot")
@@ -72,9 +72,9 @@ FAULTS = {
     "camera_jump": bench("camera_jump", length_m=0.03),
     "camera_mirrored": bench("camera_mirrored"),
 }
-kFigures = ("contact_N", "clearance_mm", "link_mm", "least_tension_N", "rest_s")
+FIGURES = ("contact_N", "clearance_mm", "link_mm", "least_tension_N", "rest_s")
 # What ./dev test runs, within three minutes of a processor.
-kReduced = {
+REDUCED = {
     ("step4", "cable_slip"),
     ("step4", "silent"),
     ("step4", "lianad_stands_still"),
@@ -85,9 +85,9 @@ kReduced = {
     ("step6", "camera_jump"),
     ("retract", "fault"),
 }
-kReducedBreaks = {("step4", 13), ("step6", 14), ("step6", 10), ("step4", 0), ("retract", 12)}
-kSecond_slots = 500  # after the first: the arm is on its way back
-kPause_slots = 250  # a second; lianad_stands_still
+REDUCED_BREAKS = {("step4", 13), ("step6", 14), ("step6", 10), ("step4", 0), ("retract", 12)}
+SECOND_SLOTS = 500  # after the first: the arm is on its way back
+PAUSE_SLOTS = 250  # a second; lianad_stands_still
 
 
 class Slit:
@@ -100,7 +100,7 @@ class Slit:
     ):
         self.name, self.kind, self.moment, self.reduced = f"80_slit/{name}", kind, MOMENTS[moment], reduced
         self.physics, self.seed, self.offset = physics, seed, offset
-        self.second = {**FAULTS[second], "when": {"after_first_slots": kSecond_slots}} if second in FAULTS else None
+        self.second = {**FAULTS[second], "when": {"after_first_slots": SECOND_SLOTS}} if second in FAULTS else None
         self.fault_slot, self.during, self.time_limit_s = self.moment.fault_slot, "move", 900
         self.fault = dict(FAULTS[kind]) if kind in FAULTS else None
         if drive is not None:
@@ -118,7 +118,7 @@ class Slit:
     def bus_script(self):
         if not self.fault or "action" not in self.fault:
             return []
-        last = self.fault_slot + kPause_slots if self.fault["action"] == "pause" else kForever
+        last = self.fault_slot + PAUSE_SLOTS if self.fault["action"] == "pause" else FOREVER
         return [{**self.fault, "from_slot": self.fault_slot, "to_slot": last}]
 
     def fault_count(self):
@@ -140,7 +140,7 @@ class SlitRun(LimitedRun):
         told = ["--physics", one.physics]
         with System(
             expect="client,mission,operator,archive",
-            robot=str(kRobot),
+            robot=str(ROBOT),
             faults=one.bench_faults(),
             bus_script=one.bus_script(),
             seed=one.seed,
@@ -162,10 +162,10 @@ class SlitRun(LimitedRun):
         with contextlib.suppress(ConnectionClosed):
             client.until(lambda state: state["tick"] > self.scenario.fault_slot, 200)
             with contextlib.suppress(NotReached):
-                client.until(lambda state: client.is_ending, kGoesOn_s)
+                client.until(lambda state: client.is_ending, GOES_ON_S)
             if client.state["faults"] or not client.state["owner"] or self.scenario.moment.mission == "back.lua":
                 with contextlib.suppress(NotReached):
-                    client.until(lambda state: client.is_ending, kLedBack_s)
+                    client.until(lambda state: client.is_ending, LED_BACK_S)
             system.end_lianad(client)
 
     def judge(self, system, client):
@@ -194,10 +194,10 @@ def all_slit():
         for kind in FAULTS:
             if kind == "cable_break" or (kind.startswith("camera") and moment in ("step5", "retract")):
                 continue  # nobody looks through the camera there
-            found.append(Slit(f"{moment}_{kind}", kind, moment, reduced=(moment, kind) in kReduced))
+            found.append(Slit(f"{moment}_{kind}", kind, moment, reduced=(moment, kind) in REDUCED))
         for drive in range(15):
             name = f"{moment}_cable_break_{drive}"
-            found.append(Slit(name, "cable_break", moment, (moment, drive) in kReducedBreaks, drive=drive))
+            found.append(Slit(name, "cable_break", moment, (moment, drive) in REDUCED_BREAKS, drive=drive))
     for physics in ("worn", "ideal"):
         found.append(Slit(f"step4_{physics}", "nothing", "step4", physics == "worn", physics))
         found.append(Slit(f"step6_{physics}_cable_break", "cable_break", "step6", physics=physics))
@@ -245,7 +245,7 @@ def main():
     parser.add_argument("--json", help="write all rows here")
     options = parser.parse_args()
     wanted = [one for kind in options.kind or FAULTS for one in draw(kind, options.count, options.seed)]
-    rows = print_rows(wanted, kFigures, ("contact N", "clearance mm", "link mm", "tension N", "rest s"))
+    rows = print_rows(wanted, FIGURES, ("contact N", "clearance mm", "link mm", "tension N", "rest s"))
     if options.json:
         with open(options.json, "w", encoding="utf-8") as file:
             json.dump(rows, file, indent=1)

@@ -14,14 +14,14 @@ from liana.client import ConnectionClosed, NotReached
 from liana.system import System
 from run_scenario import LimitedRun
 from scenario_file import expect_that
-from slit import FOLDER, MOMENTS, TARGETS, kRobot, print_rows
+from slit import FOLDER, MOMENTS, TARGETS, ROBOT, print_rows
 from slit_truth import Aftermath, beside_way_m
 
 VICTIMS = ("liana-operator", "liana-mission", "client", "liana-archive", "liana-bench", "liana-bus", "lianad", "stall")
-kStalls = (1, 2, 3, 10, 125, 1000)  # slots
-kUnled_s = 20.0  # arm time that whoever is left gets
-kReduced = 10
-kSeedOfReduced = 1
+STALLS = (1, 2, 3, 10, 125, 1000)  # slots
+UNLED_S = 20.0  # arm time that whoever is left gets
+REDUCED = 10
+SEED_OF_REDUCED = 1
 
 Strike = collections.namedtuple("Strike", "victim moment slot stall seed")
 
@@ -32,12 +32,12 @@ def draw(count, seed):
     for i in range(count):
         moment = choice.choice(sorted(set(MOMENTS) - {"mouth"}))
         slot = MOMENTS[moment].fault_slot + choice.randrange(-200, 400)
-        yield Strike(VICTIMS[i % len(VICTIMS)], moment, slot, choice.choice(kStalls), choice.randrange(1, 10**6))
+        yield Strike(VICTIMS[i % len(VICTIMS)], moment, slot, choice.choice(STALLS), choice.randrange(1, 10**6))
 
 
 def all_kills():
     """Looks like a list of scenarios to the program that runs them."""
-    return [Kill(i, one, True) for i, one in enumerate(draw(kReduced, kSeedOfReduced))]
+    return [Kill(i, one, True) for i, one in enumerate(draw(REDUCED, SEED_OF_REDUCED))]
 
 
 class Kill:
@@ -73,7 +73,7 @@ class KillRun(LimitedRun):
         one = self.scenario.strike
         with System(
             expect="client,mission,operator,archive",
-            robot=str(kRobot),
+            robot=str(ROBOT),
             bus_script=self.script(),
             seed=one.seed,
             bench=["--start-pose", MOMENTS[one.moment].pose, "--fixture", "--rest-within", 10],
@@ -106,7 +106,7 @@ class KillRun(LimitedRun):
         """Whoever is left goes on for a while, and is ended."""
         with contextlib.suppress(ConnectionClosed, ConnectionError):
             with contextlib.suppress(NotReached):
-                client.until(lambda state: self.heard(state) and client.is_ending, kUnled_s)
+                client.until(lambda state: self.heard(state) and client.is_ending, UNLED_S)
             system.end_lianad(client)
         for name in ("lianad", "liana-bus", "liana-bench"):
             system.ended(name)
@@ -133,7 +133,7 @@ class KillRun(LimitedRun):
         self.violations += predicates.numbers_that_are_none(truth.rows)
 
 
-kFigures = ("contact_N", "clearance_mm", "link_mm", "tube_mm", "rest_s")
+FIGURES = ("contact_N", "clearance_mm", "link_mm", "tube_mm", "rest_s")
 
 
 def main():
@@ -142,7 +142,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1, help="what is drawn from (1)")
     options = parser.parse_args()
     wanted = [Kill(i, one, False) for i, one in enumerate(draw(options.count, options.seed))]
-    rows = print_rows(wanted, kFigures, ("contact N", "clearance mm", "link mm", "beside its way mm", "rest s"))
+    rows = print_rows(wanted, FIGURES, ("contact N", "clearance mm", "link mm", "beside its way mm", "rest s"))
     failed = sum(bool(row["why"]) for row in rows)
     print(f"{failed} of {len(wanted)} failed")
     return 1 if failed else 0

@@ -1,9 +1,9 @@
 """What the truth says of an arm inside the slit: how far its links got, what touched, and when it was at rest."""
 import math
 
-kWithin_s = 5.0
-kEvery = 5  # slots from one look at the links to the next
-kRest_deg_s = 0.1
+WITHIN_S = 5.0
+EVERY = 5  # slots from one look at the links to the next
+REST_DEG_S = 0.1
 
 
 def turned(rotation, axis, angle):
@@ -28,12 +28,12 @@ def joint_centres_m(robot, theta_deg):
 
 
 def link_travel_m(truth, robot, begin, period_s):
-    """Largest distance of any joint centre from where it was in the slot `begin`, within kWithin_s."""
+    """Largest distance of any joint centre from where it was in the slot `begin`, within WITHIN_S."""
     start = joint_centres_m(robot, truth.theta_deg(begin))
-    end = min(len(truth.rows), begin + round(kWithin_s / period_s))
+    end = min(len(truth.rows), begin + round(WITHIN_S / period_s))
     return max(
         math.dist(a, b)
-        for row in range(begin, end, kEvery)
+        for row in range(begin, end, EVERY)
         for a, b in zip(joint_centres_m(robot, truth.theta_deg(row)), start)
     )
 
@@ -55,7 +55,7 @@ class Aftermath:
         self.most_tension_N = max(truth.column("tension_motor_max_N")[begin:])
         self.tip_speed_m_s = max(truth.column("tip_speed_m_s")[begin:])
         self.link_mm = 1e3 * link_travel_m(truth, robot, begin, period_s)
-        moving = [i for i, rate in enumerate(truth.column("fastest_deg_s")[begin:]) if rate > kRest_deg_s]
+        moving = [i for i, rate in enumerate(truth.column("fastest_deg_s")[begin:]) if rate > REST_DEG_S]
         self.rest_s = (moving[-1] + 1) * period_s if moving else 0.0
         self.depth_m = truth.column("slit_depth_m")[begin]
 

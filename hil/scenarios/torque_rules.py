@@ -5,12 +5,12 @@ import collections
 
 import predicates
 
-kRamp_s = 0.1  # from rated torque to none
-kRounding_permille = 2  # of both ends
-kRated_permille = 1000
-kMaxRateShare = 1.2  # of a joint's rate: what leads it back to its target may be quicker than what is planned
-kStill = 0.01  # of a joint's rate
-kGearSwing_deg = 0.2  # of a joint behind a closed brake: its gear is a spring
+RAMP_S = 0.1  # from rated torque to none
+ROUNDING_PERMILLE = 2  # of both ends
+RATED_PERMILLE = 1000
+MAX_RATE_SHARE = 1.2  # of a joint's rate: what leads it back to its target may be quicker than what is planned
+STILL = 0.01  # of a joint's rate
+GEAR_SWING_DEG = 0.2  # of a joint behind a closed brake: its gear is a spring
 
 TorqueCommand = collections.namedtuple("TorqueCommand", "slot controlword torque rate")
 
@@ -26,7 +26,7 @@ class TorqueTraffic(predicates.Traffic):
 
 
 def swing_counts(robot):
-    return kGearSwing_deg / 360.0 * predicates.counts_per_turn(robot)
+    return GEAR_SWING_DEG / 360.0 * predicates.counts_per_turn(robot)
 
 
 def fastest_counts_s(robot, node):
@@ -39,14 +39,14 @@ def told(traffic, robot, period_s):
     """
     complaints = []
     for node, commands in sorted(traffic.commands.items()):
-        most_counts_s = kMaxRateShare * fastest_counts_s(robot, node) + predicates.kRoundingCounts
+        most_counts_s = MAX_RATE_SHARE * fastest_counts_s(robot, node) + predicates.ROUNDING_COUNTS
         for before, now in zip(commands, commands[1:]):
             if not (predicates.is_enabling(before) and predicates.is_enabling(now)):
                 continue
             periods = max(1, now.slot - before.slot)
-            most_step = kRated_permille * period_s / kRamp_s * periods + kRounding_permille
+            most_step = RATED_PERMILLE * period_s / RAMP_S * periods + ROUNDING_PERMILLE
             where = f"node {node}, slot {now.slot}"
-            if abs(now.torque) > kRated_permille:
+            if abs(now.torque) > RATED_PERMILLE:
                 complaints.append(f"{where}: told {now.torque} permille of its rated torque")
             if abs(now.torque - before.torque) > most_step:
                 complaints.append(f"{where}: the torque changes by {now.torque - before.torque} permille")
@@ -60,6 +60,6 @@ def rates_while_latched(traffic, robot, first_slot, end_slot):
     complaints = []
     for node, found in predicates.enabling_commands(traffic, first_slot, end_slot):
         fastest = max(abs(command.rate) for command in found)
-        if fastest > kStill * fastest_counts_s(robot, node):
+        if fastest > STILL * fastest_counts_s(robot, node):
             complaints.append(f"node {node}: told a rate of {fastest} counts/s while the fault is latched")
     return complaints

@@ -9,8 +9,8 @@ import wire_ages
 from liana.recordings import Recording
 from liana.system import System, run
 
-kNever = 10**9
-kSelfReports = (
+NEVER = 10**9
+SELF_REPORTS = (
     "noisy",
     "encoder_jump",
     "late",
@@ -26,7 +26,7 @@ def drives_of(fault, count):
 
 def self_reporting(faults, count):
     """Drives whose faults are in what they report."""
-    return {drive for fault in faults if fault["kind"] in kSelfReports for drive in drives_of(fault, count)}
+    return {drive for fault in faults if fault["kind"] in SELF_REPORTS for drive in drives_of(fault, count)}
 
 
 class Trial:
@@ -73,7 +73,7 @@ class Trial:
             summary.get("physics") != "worn",
             self.first_foreign_command(),
         )
-        arrivals = wire_ages.Arrivals([log.read_text() for log in system.bus_logs()], predicates.kLine, period_s)
+        arrivals = wire_ages.Arrivals([log.read_text() for log in system.bus_logs()], predicates.LINE, period_s)
         self.complaints += wire_ages.wrong_ages(ticks, arrivals, self.strangers()) if ticks else []
         self.complaints += dispatch_rules.unverified(ticks, system.commands.read_text().splitlines())
 
@@ -82,7 +82,7 @@ class Trial:
         if self.cause_tick is not None:
             return self.cause_tick
         begun = [course["begun_slot"] for course in self.courses if course["begun_slot"] is not None]
-        return min(begun + [rule["from_slot"] for rule in self.bus_script], default=kNever)
+        return min(begun + [rule["from_slot"] for rule in self.bus_script], default=NEVER)
 
     def first_foreign_command(self):
         """The slot in which a rule of the bus first sends a drive a target (RPDO1); None, where none does."""

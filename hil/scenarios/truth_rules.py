@@ -3,18 +3,18 @@ list of complaints, empty when the rule held.
 """
 
 # Faults of the bench that really change cables or drums: from their begin on the arm is not as it was planned with.
-kDamage = ("slack", "cable_slip", "cable_break", "encoder_jump", "motor_saturation")
-kSettledTicks = 50  # enabled and without a fault for so long: what an earlier stop stirred up has calmed down
-kAngleMargin_deg = 0.2  # elastic cables let an angle at its limit swing by so much
-kFreeMargin, kSlitMargin = 1.1, 1.05  # of the tip, over its limit: it swings about its commanded speed
-kRateMargin = 1.25  # of an angle, over its limit: it swings about its commanded rate
+DAMAGE = ("slack", "cable_slip", "cable_break", "encoder_jump", "motor_saturation")
+SETTLED_TICKS = 50  # enabled and without a fault for so long: what an earlier stop stirred up has calmed down
+ANGLE_MARGIN_DEG = 0.2  # elastic cables let an angle at its limit swing by so much
+FREE_MARGIN, SLIT_MARGIN = 1.1, 1.05  # of the tip, over its limit: it swings about its commanded speed
+RATE_MARGIN = 1.25  # of an angle, over its limit: it swings about its commanded rate
 
 
 # Readings for which the core lets a segment go: its cables are slack then, with nothing broken.
-kLooseningReadings = ("noisy",)
+LOOSENING_READINGS = ("noisy",)
 
 
-def sound_until(faults, courses, slots, kinds=kDamage):
+def sound_until(faults, courses, slots, kinds=DAMAGE):
     """The slot in which the first damage begins; `slots`, when there is none."""
     begun = [c["begun_slot"] for f, c in zip(faults, courses) if f["kind"] in kinds and c["begun_slot"] is not None]
     return min(begun, default=slots)
@@ -25,7 +25,7 @@ def under_command(ticks, end):
     since = 0
     for now in ticks:
         since = since + 1 if now.state == "ENABLED" and not now.faults else 0
-        if since > kSettledTicks and now.tick < end:
+        if since > SETTLED_TICKS and now.tick < end:
             yield now.tick
 
 
@@ -72,7 +72,7 @@ def angles(truth, limits, end):
     """No angle is out of its range."""
     for slot in range(min(end, len(truth.rows))):
         for i, (angle, most) in enumerate(zip(truth.theta_deg(slot), limits.theta_deg)):
-            if abs(angle) > most + kAngleMargin_deg:
+            if abs(angle) > most + ANGLE_MARGIN_DEG:
                 return [f"slot {slot}: theta {i + 1} is {angle:.2f} deg, allowed are {most:g}"]
     return []
 
@@ -84,10 +84,10 @@ def speeds(truth, limits, slots):
         if slot >= len(truth.rows):
             break
         row = truth.rows[slot]
-        allowed_m_s = kSlitMargin * limits.tip_slit_m_s if row[depth] > 0 else kFreeMargin * limits.tip_m_s
+        allowed_m_s = SLIT_MARGIN * limits.tip_slit_m_s if row[depth] > 0 else FREE_MARGIN * limits.tip_m_s
         if row[speed] > allowed_m_s:
             return [f"slot {slot}: the tip moves at {row[speed]:.4f} m/s, allowed are {allowed_m_s:.4f}"]
-    fastest = kRateMargin * limits.rate_deg_s
+    fastest = RATE_MARGIN * limits.rate_deg_s
     return first_over(truth, "fastest_deg_s", slots, lambda rate: rate > fastest, "an angle turns at {:.2f} deg/s")
 
 
@@ -100,7 +100,7 @@ def all_complaints(truth, ticks, robot, faults, courses, nominal=True, last=None
     until = len(truth.rows) if last is None else min(last, len(truth.rows))
     limits, end = Limits(robot), sound_until(faults, courses, until)
     slots = list(under_command(ticks, end))
-    taut_end = sound_until(faults, courses, end, kLooseningReadings)
+    taut_end = sound_until(faults, courses, end, LOOSENING_READINGS)
     return (
         contact(truth, end)
         + tensions(truth, limits, [slot for slot in slots if slot < taut_end], nominal)

@@ -1,11 +1,11 @@
 """How old each drive's report was in every tick, from the CAN logs alone; whether the core was told so."""
 import collections
 
-kReportBytes = 8  # as TPDO 1 is mapped; others are not taken
-kOfReports = 0x180
-kUnheard = 1000000
-kMaxAge = 60000  # what the core counts up to
-kLate = 2  # ticks that a report may take from the wire to the core
+REPORT_BYTES = 8  # as TPDO 1 is mapped; others are not taken
+OF_REPORTS = 0x180
+UNHEARD = 1000000
+MAX_AGE = 60000  # what the core counts up to
+LATE = 2  # ticks that a report may take from the wire to the core
 
 
 class Arrivals:
@@ -17,7 +17,7 @@ class Arrivals:
             for time, identifier, data in line.findall(text):
                 found, node = divmod(int(identifier, 16), 0x80)
                 slot = int(float(time) / period_s + 1e-6)
-                if found * 0x80 == kOfReports and len(data) == 2 * kReportBytes:
+                if found * 0x80 == OF_REPORTS and len(data) == 2 * REPORT_BYTES:
                     self.reports[node].append(slot)
 
 
@@ -25,7 +25,7 @@ def ages(slots, first, count):
     """In each of `count` ticks from `first` on: ticks since the last of `slots` came, least and most. A tick mostly
     hears one tick later; what came in the tick itself it may have heard already, or not.
     """
-    least, most, last, at = [], [], -kUnheard, 0
+    least, most, last, at = [], [], -UNHEARD, 0
     for tick in range(first, first + count):
         while at < len(slots) and slots[at] < tick:
             last, at = slots[at], at + 1
@@ -46,7 +46,7 @@ def wrong_ages(ticks, arrivals, left_out=()):
         for now in ticks:
             youngest, oldest = (found[now.tick - ticks[0].tick] for found in (least, most))
             # What waited while the core stood still it takes for new when it goes on; 2001 is latched then.
-            if not min(youngest - now.lost_ticks, kMaxAge) <= now.age[drive] <= oldest + kLate:
+            if not min(youngest - now.lost_ticks, MAX_AGE) <= now.age[drive] <= oldest + LATE:
                 complaints.append(
                     f"tick {now.tick}: the core takes drive {drive}'s report to be {now.age[drive]} ticks old; the wire"
                     f" shows {youngest} to {oldest}"

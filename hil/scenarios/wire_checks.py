@@ -5,13 +5,13 @@ import collections
 import shutil
 import subprocess
 
-kResets, kStart = (129, 130), 1  # NMT commands: reset node, reset communication; start
-kBootUp, kOperational = 0, 5  # states in the heartbeat
-kIdentity = 0x1018
+RESETS, START = (129, 130), 1  # NMT commands: reset node, reset communication; start
+BOOT_UP, OPERATIONAL = 0, 5  # states in the heartbeat
+IDENTITY = 0x1018
 
 # One decoded frame: line of the log, CAN identifier, NMT command and its node, state in a heartbeat, object of an SDO.
 Frame = collections.namedtuple("Frame", "line identifier command node state object")
-kFields = (
+FIELDS = (
     "frame.number",
     "can.id",
     "canopen.nmt_ctrl.cd",
@@ -51,7 +51,7 @@ def number(text):
 
 
 def decoded(log):
-    words = [word for field in kFields for word in ("-e", field)]
+    words = [word for field in FIELDS for word in ("-e", field)]
     return [Frame(*map(number, line.split(","))) for line in tshark(log, "-T", "fields", "-E", "separator=,", *words)]
 
 
@@ -59,13 +59,13 @@ def of_node(frames, node):
     """What concerns one node, in the order of the wire: (step, line)."""
     for frame in frames:
         if frame.command is not None and frame.node in (0, node):
-            if frame.command in kResets:
+            if frame.command in RESETS:
                 yield "reset", frame
-            elif frame.command == kStart:
+            elif frame.command == START:
                 yield "start", frame
         elif frame.identifier == 0x700 + node:
-            if frame.state in (kBootUp, kOperational):
-                yield "boot-up" if frame.state == kBootUp else "operational", frame
+            if frame.state in (BOOT_UP, OPERATIONAL):
+                yield "boot-up" if frame.state == BOOT_UP else "operational", frame
         elif frame.identifier in (0x580 + node, 0x600 + node):
             yield "SDO", frame
         elif frame.identifier in (0x180 + node, 0x200 + node):
@@ -92,7 +92,7 @@ def boot_order(frames, node):
             " and operational"
         ]
     objects = [frame.object for step, frame in steps if step == "SDO"]
-    if kIdentity not in objects:
+    if IDENTITY not in objects:
         return [f"node {node}: the identity (0x1018) was never read"]
-    written_first = [f"0x{found:04X}" for found in objects[: objects.index(kIdentity)] if found not in (0x1000, None)]
+    written_first = [f"0x{found:04X}" for found in objects[: objects.index(IDENTITY)] if found not in (0x1000, None)]
     return [f"node {node}: {written_first[0]} comes before the identity was read"] if written_first else []

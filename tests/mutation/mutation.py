@@ -26,12 +26,12 @@ import campaign  # noqa: E402
 import pairs  # noqa: E402
 import scenario  # noqa: E402
 from liana import client as clients  # noqa: E402
-from run_scenario import kFailures  # noqa: E402
+from run_scenario import FAILURES  # noqa: E402
 from scenario_file import Failed  # noqa: E402
 
-kIn = " in "  # between a test and its program
-kTestPrograms = {"core_tests": "tests/firmware_like", "liana_hil_tests": "tests/hil"}  # and where its tests are
-kPatience_s = 60  # wall clock after which a program counts as hung; a mutant may hang
+IN = " in "  # between a test and its program
+TEST_PROGRAMS = {"core_tests": "tests/firmware_like", "liana_hil_tests": "tests/hil"}  # and where its tests are
+PATIENCE_S = 60  # wall clock after which a program counts as hung; a mutant may hang
 
 # A bug: `edits` in `file`; `planted`: another bug that only the mutated line keeps from the drives; `caught_by`:
 # scenarios, or tests as "SUITE.NAME in PROGRAM", of which one must fail.
@@ -83,7 +83,7 @@ def check(wanted, by_name):
         for edit in one.planted + one.edits:
             texts[edit.file] = changed(texts.get(edit.file) or (ROOT / edit.file).read_text(), edit)
         for name in one.caught_by:
-            if kIn in name:
+            if IN in name:
                 check_test(one, name)
             elif name not in by_name:
                 raise BadMutation(f"{one.name}: caught_by: there is no scenario {name}")
@@ -91,19 +91,19 @@ def check(wanted, by_name):
 
 def check_test(one, name):
     """The test is in a file of its program's folder."""
-    test, program = name.split(kIn)
-    if program not in kTestPrograms:
-        raise BadMutation(f"{one.name}: caught_by: {program} is not known; allowed are {', '.join(kTestPrograms)}")
+    test, program = name.split(IN)
+    if program not in TEST_PROGRAMS:
+        raise BadMutation(f"{one.name}: caught_by: {program} is not known; allowed are {', '.join(TEST_PROGRAMS)}")
     words = f"({test.replace('.', ', ')})"
-    if not any(words in path.read_text() for path in (ROOT / kTestPrograms[program]).glob("*_test.cpp")):
-        raise BadMutation(f"{one.name}: caught_by: there is no test {test} in {kTestPrograms[program]}")
+    if not any(words in path.read_text() for path in (ROOT / TEST_PROGRAMS[program]).glob("*_test.cpp")):
+        raise BadMutation(f"{one.name}: caught_by: there is no test {test} in {TEST_PROGRAMS[program]}")
 
 
 class UnitTest:
     """A test of a program that is built from the changed tree; looks like a scenario to what runs it."""
 
     def __init__(self, name, directory):
-        self.test, self.program = name.split(kIn)
+        self.test, self.program = name.split(IN)
         self.path = directory / self.program
 
     def run(self):
@@ -115,7 +115,7 @@ class UnitTest:
             capture_output=True,
             text=True,
             check=False,
-            timeout=10 * kPatience_s,
+            timeout=10 * PATIENCE_S,
         )
         if done.returncode != 0 or "1 test ran" not in done.stdout.replace(
             "1 test from 1 test suite ran", "1 test ran"
@@ -128,7 +128,7 @@ class UnitTest:
 def programs_for(wanted):
     """What is built to see whether these mutations are noticed."""
     names = {name for one in wanted for name in one.caught_by}
-    return sorted({name.split(kIn)[1] if kIn in name else "lianad" for name in names})
+    return sorted({name.split(IN)[1] if IN in name else "lianad" for name in names})
 
 
 class Workshop:
@@ -161,7 +161,7 @@ class Workshop:
                 "Ninja",
                 "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
                 "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2",
-                f"-DLIANA_TESTS={'ON' if any(program in kTestPrograms for program in programs) else 'OFF'}",
+                f"-DLIANA_TESTS={'ON' if any(program in TEST_PROGRAMS for program in programs) else 'OFF'}",
             ],
             check=True,
             stdout=subprocess.DEVNULL,
@@ -200,7 +200,7 @@ def why_it_fails(scenario_object):
     with contextlib.redirect_stderr(io.StringIO()):  # the last words of programs that were ended
         try:
             scenario_object.run().go()
-        except kFailures as error:
+        except FAILURES as error:
             return str(error) or type(error).__name__
     return ""
 
@@ -218,11 +218,11 @@ def controls(wanted, workshop, by_name, pool):
 def run(wanted, binaries, directory):
     """name -> (scenario that noticed, its complaint); (None, "") for a survivor."""
     os.environ["LIANA_BIN"] = str(directory / "bin")
-    clients.PATIENCE_S = kPatience_s
+    clients.PATIENCE_S = PATIENCE_S
     by_name = scenarios()
     check(wanted, by_name)
     workshop, outcomes = Workshop(directory, binaries, programs_for(wanted)), {}
-    by_name.update((name, UnitTest(name, workshop.bin)) for one in wanted for name in one.caught_by if kIn in name)
+    by_name.update((name, UnitTest(name, workshop.bin)) for one in wanted for name in one.caught_by if IN in name)
     with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
         controls(wanted, workshop, by_name, pool)
         for one in wanted:

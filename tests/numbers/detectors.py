@@ -22,7 +22,7 @@ HEAD = [
     "ticks: median, worst",
     "travel deg: median, worst",
 ]
-kSegments, kCablesEach = 5, 3
+SEGMENTS, CABLES_EACH = 5, 3
 
 
 def spread(found, key, digits):
@@ -39,8 +39,8 @@ def row(kind, physics, trials):
     )
     right = sum(trial["index"] == trial["cable"] for trial in found)
     sizes = []
-    for segment in range(kSegments):
-        own = [trial["size"] for trial in found if trial["cable"] // kCablesEach == segment]
+    for segment in range(SEGMENTS):
+        own = [trial["size"] for trial in found if trial["cable"] // CABLES_EACH == segment]
         sizes.append(f"{max(own):.0f} {trials[0]['unit']}" if own and trials[0]["unit"] else "-")
     return [
         kind,

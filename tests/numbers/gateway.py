@@ -20,12 +20,12 @@ from page import table
 
 sys.path[:0] = [str(ROOT / "tests/system")]
 
-from console_client import HEADER, Console, kAnsweredTogether  # noqa: E402
+from console_client import HEADER, Console, ANSWERED_TOGETHER  # noqa: E402
 
-kSeconds = 20.0
-kPaused_s = 8.0
-kFresh_s = 0.1  # of arm time, which in paced time is wall clock
-kMaxCore_percent, kMaxResident_MB, kMaxStale = 2.0, 16.0, 4
+SECONDS = 20.0
+PAUSED_S = 8.0
+FRESH_S = 0.1  # of arm time, which in paced time is wall clock
+MAX_CORE_PERCENT, MAX_RESIDENT_MB, MAX_STALE = 2.0, 16.0, 4
 
 
 class Watched(Console):
@@ -34,7 +34,7 @@ class Watched(Console):
     def _take_record(self, payload):
         self.header = HEADER.unpack_from(payload)
         self.sequences.append(self.header[0])
-        if len(self.sequences) % kAnsweredTogether == 0:
+        if len(self.sequences) % ANSWERED_TOGETHER == 0:
             self.answer_record()
 
 
@@ -89,15 +89,15 @@ def stale_after_pause(console, newest):
     that was not.
     """
     console.until(lambda me: len(me.sequences) > 10)
-    time.sleep(kPaused_s)
+    time.sleep(PAUSED_S)
     stale, ages = 0, []
     for _ in range(20):
         while console.take() != "record":
             pass
         age = newest() - console.header[3]
         ages.append(age)
-        stale += age > kFresh_s
-    return stale, max(ages), next(age for age in ages if age <= kFresh_s)
+        stale += age > FRESH_S
+    return stale, max(ages), next(age for age in ages if age <= FRESH_S)
 
 
 def stop_times_s(console, count=30):
@@ -115,7 +115,7 @@ def stop_times_s(console, count=30):
 class Flood:
     """Clients that send nonsense without end while the block runs, and some that read nothing."""
 
-    kFloods, kDeaf = 4, 4
+    FLOODS, DEAF = 4, 4
 
     def __init__(self, address):
         self.address, self.over = address, False
@@ -129,8 +129,8 @@ class Flood:
                         client.send(b'{"op":"nonsense"}')
 
     def __enter__(self):
-        self.deaf = [Watched(self.address, "deaf") for _ in range(self.kDeaf)]
-        self.threads = [threading.Thread(target=self.send) for _ in range(self.kFloods)]
+        self.deaf = [Watched(self.address, "deaf") for _ in range(self.DEAF)]
+        self.threads = [threading.Thread(target=self.send) for _ in range(self.FLOODS)]
         for thread in self.threads:
             thread.start()
 
@@ -163,12 +163,12 @@ def figures(address, process, count):
     keep_moving(pilot, 2.0)
     before_s, records = processor_s(process), sum(len(client.sequences) for client in clients)
     begin = time.monotonic()
-    keep_moving(pilot, kSeconds)
+    keep_moving(pilot, SECONDS)
     seconds = time.monotonic() - begin
     percent = 100.0 * (processor_s(process) - before_s) / seconds
     hz = (sum(len(client.sequences) for client in clients) - records) / seconds / len(clients)
     paused = Watched(address, "paused")
-    moving = threading.Thread(target=keep_moving, args=(pilot, kPaused_s + 4.0))
+    moving = threading.Thread(target=keep_moving, args=(pilot, PAUSED_S + 4.0))
     moving.start()
     stale, oldest_s, fresh_s = stale_after_pause(paused, lambda: max(client.header[3] for client in clients))
     moving.join()
@@ -195,19 +195,19 @@ def figures(address, process, count):
 
 def told(values):
     rows = [
-        ["processor, % of a core", f"{values['core_percent']:.2f}", kMaxCore_percent],
-        ["resident memory at most, MB", f"{values['resident_MB']:.1f}", kMaxResident_MB],
+        ["processor, % of a core", f"{values['core_percent']:.2f}", MAX_CORE_PERCENT],
+        ["resident memory at most, MB", f"{values['resident_MB']:.1f}", MAX_RESIDENT_MB],
         ["records a client and second", f"{values['hz']:.1f}", "50"],
-        [f"stale records after {kPaused_s:g} s without reading", values["stale"], kMaxStale],
+        [f"stale records after {PAUSED_S:g} s without reading", values["stale"], MAX_STALE],
         ["the oldest of them, s", f"{values['oldest_s']:.2f}", ""],
-        ["age of the first that was fresh, s", f"{values['first_fresh_s']:.3f}", kFresh_s],
+        ["age of the first that was fresh, s", f"{values['first_fresh_s']:.3f}", FRESH_S],
         *[
             [f"stop to its confirmation, {name}: median, worst, ms", " / ".join(f"{time:.1f}" for time in times), ""]
             for name, times in values["stop_ms"].items()
         ],
     ]
     text = (
-        f"`liana console --simulate` with {values['clients']} clients of all records, the arm moving, {kSeconds:g} s"
+        f"`liana console --simulate` with {values['clients']} clients of all records, the arm moving, {SECONDS:g} s"
         " ([console-protocol.md](../reference/console-protocol.md)).\n\n"
     )
     return text + table(["", "measured", "target"], rows)

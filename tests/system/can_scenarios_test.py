@@ -38,7 +38,7 @@ class Files(unittest.TestCase):
                 self.assertIn(word, str(caught.exception))
 
     def test_what_uses_the_bench_is_not_said_to_run_on_real_drives(self):
-        served = [one for one in can_scenario.all_scenarios() if real_drives.kKind in one.on]
+        served = [one for one in can_scenario.all_scenarios() if real_drives.KIND in one.on]
         self.assertGreaterEqual(len(served), 5)
         for one in served:
             words = " ".join(one.do + one.mend)

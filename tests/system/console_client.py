@@ -15,7 +15,7 @@ import urllib.parse
 PATIENCE_S = 60.0  # wall clock after which something counts as hung
 TEXT, BINARY, CLOSE, PING, PONG = 1, 2, 8, 9, 10
 HEADER = struct.Struct("<IIdd")
-kAnsweredTogether = 2  # records
+ANSWERED_TOGETHER = 2  # records
 
 
 class Refused(Exception):
@@ -198,7 +198,7 @@ class Console(WebSocket):
         assert len(payload) == self.welcome["layout"]["bytes"], len(payload)
         self.header = HEADER.unpack_from(payload)
         self.sequences.append(self.header[0])
-        if self.answers_records and len(self.sequences) % kAnsweredTogether == 0:
+        if self.answers_records and len(self.sequences) % ANSWERED_TOGETHER == 0:
             self.answer_record()
         self.state = {"tick": int(self.header[2]), "time_s": self.header[3]}
         for field in self.welcome["layout"]["fields"]:

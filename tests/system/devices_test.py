@@ -17,8 +17,8 @@ from support import SOURCE, SystemTest
 from liana.devices import Device
 from liana.system import System, program, run
 
-kHere = [1.0, 0.0, 0.0, 0.0]  # a hand's attitude
-kMotion, kPress = 0, 1  # events of spacenavd
+HERE = [1.0, 0.0, 0.0, 0.0]  # a hand's attitude
+MOTION, PRESS = 0, 1  # events of spacenavd
 
 
 class Spacenavd:
@@ -36,7 +36,7 @@ class Spacenavd:
         self.client, _ = self.listener.accept()
 
     def push(self, *deflection):
-        self.client.send(struct.pack("8i", kMotion, *deflection, 0))
+        self.client.send(struct.pack("8i", MOTION, *deflection, 0))
 
     def keep_pushing(self, *deflection):
         """As a hand does: a hundred times a second, never twice the same; ends with what is returned."""
@@ -52,7 +52,7 @@ class Spacenavd:
         return lambda: (over.set(), hand.join())
 
     def press(self, button):
-        self.client.send(struct.pack("8i", kPress, button, *[0] * 6))
+        self.client.send(struct.pack("8i", PRESS, button, *[0] * 6))
 
     def close(self):
         for each in (self.client, self.listener):
@@ -99,7 +99,7 @@ class DevicesTest(SystemTest):
         while self.client.state["time_s"] < end_s:
             now_us = round(1e6 * self.client.state["time_s"])
             device.receive(now_us)
-            device.send(now_us, [0.0, 0.0, speed_m_s * now_us * 1e-6 % 0.5, *kHere], deadman)
+            device.send(now_us, [0.0, 0.0, speed_m_s * now_us * 1e-6 % 0.5, *HERE], deadman)
             self.client.step()
         return self.client.state
 
@@ -146,10 +146,10 @@ class Drivers(DevicesTest):
         self.client.call("use_device", device="omega")
         now_us = lambda: round(1e6 * self.client.state["time_s"])
         lies = {
-            "hand jumped": lambda us: (us, [0.03, 0.0, 0.0, *kHere], True),
-            "clock set": lambda us: (us + 300_000, [0.0, 0.0, 0.0, *kHere], True),
-            "samples refused": lambda us: (us, [math.nan, 0.0, 0.0, *kHere], True),
-            "input stale": lambda us: (us, [0.0, 0.0, 0.0, *kHere], True, True, True),
+            "hand jumped": lambda us: (us, [0.03, 0.0, 0.0, *HERE], True),
+            "clock set": lambda us: (us + 300_000, [0.0, 0.0, 0.0, *HERE], True),
+            "samples refused": lambda us: (us, [math.nan, 0.0, 0.0, *HERE], True),
+            "input stale": lambda us: (us, [0.0, 0.0, 0.0, *HERE], True, True, True),
         }
         for reason, lie in lies.items():
             with self.subTest(reason):
@@ -157,7 +157,7 @@ class Drivers(DevicesTest):
                     end_s = self.client.state["time_s"] + 0.5
                     while self.client.state["time_s"] < end_s:
                         device.receive(now_us())
-                        device.send(now_us(), [0.0, 0.0, 0.0, *kHere], deadman)
+                        device.send(now_us(), [0.0, 0.0, 0.0, *HERE], deadman)
                         self.client.step()
                 self.assertTrue(self.client.state["device_engaged"])
                 begin_s = self.client.state["time_s"]
@@ -277,7 +277,7 @@ class Attacks(DevicesTest):
         device.socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 1 << 20)  # room for as many at once
         now_us = round(1e6 * self.client.state["time_s"])
         for i in range(300):
-            device.send(now_us + i, [0.0, 0.0, 0.0, *kHere], True)
+            device.send(now_us + i, [0.0, 0.0, 0.0, *HERE], True)
         self.client.until(lambda state: not state["device_engaged"], 1)
         device.receive(now_us)
         self.assert_names(device.problem, "256 packets")

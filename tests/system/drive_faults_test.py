@@ -5,12 +5,12 @@ from support import SystemTest
 from liana.client import brief
 from liana.system import System
 
-kFaultSlot = 2500  # the move that start_moving begins is under way then; checked in each test
-kDrive, kNode = 3, 4
+FAULT_SLOT = 2500  # the move that start_moving begins is under way then; checked in each test
+DRIVE, NODE = 3, 4
 
 
-def fault(kind, at_slot=kFaultSlot):
-    return [{"drive": kDrive, "kind": kind, "at_slot": at_slot}]
+def fault(kind, at_slot=FAULT_SLOT):
+    return [{"drive": DRIVE, "kind": kind, "at_slot": at_slot}]
 
 
 def says(state, *parts):
@@ -27,7 +27,7 @@ class DrivesThatDoNotBoot(SystemTest):
             self.assertTrue(
                 any(all(word in event["text"] for word in words) for event in state["events"]), brief(state)
             )
-            self.assertEqual([(fault["number"], fault["index"]) for fault in state["faults"]], [(number, kDrive)])
+            self.assertEqual([(fault["number"], fault["index"]) for fault in state["faults"]], [(number, DRIVE)])
             for word in words:
                 self.assertIn(word, state["faults"][0]["text"])
             for command in ("enable", "home"):
@@ -60,11 +60,11 @@ class DrivesThatFailInMotion(SystemTest):
         client = system.client()
         client.enable()
         client.start_moving()
-        self.assertLess(client.state["tick"], kFaultSlot - 5, "the move must be under way before the fault")
+        self.assertLess(client.state["tick"], FAULT_SLOT - 5, "the move must be under way before the fault")
         client.until(lambda state: state["faults"])
         self.assertLess(
             client.state["tick"],
-            kFaultSlot + 250,
+            FAULT_SLOT + 250,
             "slack is debounced for 25 ticks, and the cable needs some to come loose",
         )
         return system, client
@@ -72,8 +72,8 @@ class DrivesThatFailInMotion(SystemTest):
     def ended(self, system, client, stop_deg=1.0):
         self.assertEqual(system.shut_down(client), {"lianad": 0, "liana-bus": 0, "liana-bench": 0})
         truth = system.truth()
-        self.assertGreater(truth.travel_deg(kFaultSlot - 50, kFaultSlot), 0.03, "the fault has to meet a moving arm")
-        self.assert_stopped(truth, kFaultSlot, stop_deg)
+        self.assertGreater(truth.travel_deg(FAULT_SLOT - 50, FAULT_SLOT), 0.03, "the fault has to meet a moving arm")
+        self.assert_stopped(truth, FAULT_SLOT, stop_deg)
 
     def in_fault(self, client):
         client.until(lambda state: state["state"] == "FAULT")
@@ -84,24 +84,24 @@ class DrivesThatFailInMotion(SystemTest):
 
     def test_a_silent_drive_is_fault_3002_and_stays_latched_while_it_is_silent(self):
         system, client = self.moving_into("silent")
-        self.assert_fault(client.state, 3002, kDrive)
+        self.assert_fault(client.state, 3002, DRIVE)
         self.in_fault(client)
         client.call("state_command", command="clear")
         client.until(lambda state: says(state, "not cleared", "checked: "))
         client.go_on(1.0)
         self.assertEqual(client.state["state"], "FAULT")
-        self.assert_fault(client.state, 3002, kDrive)
+        self.assert_fault(client.state, 3002, DRIVE)
         self.ended(system, client)
 
     def test_a_drive_that_loses_power_is_fault_3002(self):
         system, client = self.moving_into("missing")
-        self.assert_fault(client.state, 3002, kDrive)
+        self.assert_fault(client.state, 3002, DRIVE)
         self.in_fault(client)
         self.ended(system, client)
 
     def test_a_drive_in_fault_is_3003_with_its_emergency_code_and_clear_makes_it_usable_again(self):
         system, client = self.moving_into("fault")
-        self.assert_fault(client.state, 3003, kDrive)
+        self.assert_fault(client.state, 3003, DRIVE)
         self.assertEqual(client.state["faults"][0]["detail"], 0x2310)
         self.in_fault(client)
         client.go_on(1.0)
@@ -114,34 +114,34 @@ class DrivesThatFailInMotion(SystemTest):
         client.call("state_command", command="disable")
         client.until(lambda state: state["state"] == "DISABLED")
         self.ended(system, client)
-        self.assertEqual(system.emergencies()[kNode][:2], [0x2310, 0])
+        self.assertEqual(system.emergencies()[NODE][:2], [0x2310, 0])
 
     def test_an_emergency_of_a_drive_that_goes_on_is_an_event_and_no_fault(self):
-        emergency = [{"drive": kDrive, "kind": "emcy", "code": 0x4210, "at_slot": kFaultSlot}]
+        emergency = [{"drive": DRIVE, "kind": "emcy", "code": 0x4210, "at_slot": FAULT_SLOT}]
         with System(faults=emergency) as system:
             client = system.client()
             client.enable()
             client.start_moving()
-            client.until(lambda state: says(state, f"drive {kDrive} sent emergency 0x4210: "))
+            client.until(lambda state: says(state, f"drive {DRIVE} sent emergency 0x4210: "))
             self.assertEqual(client.state["faults"], [])
             client.until(lambda state: not state["is_busy"])
             self.assert_holds(client.state)
 
     def test_safe_torque_off_is_3004_and_a_drive_without_power_is_not_enabled_again(self):
         system, client = self.moving_into("sto")
-        self.assert_fault(client.state, 3004, kDrive)
+        self.assert_fault(client.state, 3004, DRIVE)
         self.in_fault(client)
         client.call("state_command", command="clear")
         client.until(lambda state: state["state"] == "DISABLED")
         client.call("state_command", command="enable")
         client.until(lambda state: state["state"] == "FAULT")
-        self.assert_fault(client.state, 3005, kDrive)
+        self.assert_fault(client.state, 3005, DRIVE)
         self.ended(system, client)
-        self.assertEqual(system.emergencies(), {kNode: [0xFF01]})
+        self.assertEqual(system.emergencies(), {NODE: [0xFF01]})
 
     def test_a_cable_that_comes_loose_contradicts_its_segment_first_a_hold_and_when_it_stays_slack_a_stop(self):
         system, client = self.moving_into("slack")
-        self.assert_fault(client.state, 5004, kDrive)
+        self.assert_fault(client.state, 5004, DRIVE)
         self.assertEqual(client.state["stop_category"], "hold")
         self.assertEqual(client.state["state"], "ENABLED")
         client.until(lambda state: state["stop_category"] == "stop")
@@ -154,26 +154,26 @@ class DrivesThatFailInMotion(SystemTest):
         self.assertEqual(truth.column("enabled")[-1], 0)
         # 20 mm of cable at 25 mm from the axes of 8 joints let the segment give way by 5.7 deg; a swing about that
         # place reaches twice as far.
-        self.assertLess(truth.travel_deg(kFaultSlot, None), 12.0)
+        self.assertLess(truth.travel_deg(FAULT_SLOT, None), 12.0)
 
 
 class DrivesWithoutTargets(SystemTest):
     def test_a_drive_without_targets_for_three_periods_stops_by_itself_with_emergency_8250(self):
-        lost = [{"bus": 0, "id": hex(0x200 + kNode), "from_slot": kFaultSlot, "to_slot": 1000000, "action": "drop"}]
+        lost = [{"bus": 0, "id": hex(0x200 + NODE), "from_slot": FAULT_SLOT, "to_slot": 1000000, "action": "drop"}]
         with System(bus_script=lost) as system:
             client = system.client()
             client.enable()
             client.start_moving()
             state = client.until(lambda state: state["state"] == "FAULT")
-            self.assert_fault(state, 3004, kDrive)
+            self.assert_fault(state, 3004, DRIVE)
             client.go_on(1.0)
             system.shut_down(client)
-            self.assertEqual(system.emergencies(), {kNode: [0x8250]})
-            self.assert_stopped(system.truth(), kFaultSlot)
-            self.assertEqual(system.json("bench_summary.json")["drives"][kDrive]["quick_stops"], 1)
+            self.assertEqual(system.emergencies(), {NODE: [0x8250]})
+            self.assert_stopped(system.truth(), FAULT_SLOT)
+            self.assertEqual(system.json("bench_summary.json")["drives"][DRIVE]["quick_stops"], 1)
 
     def test_drives_that_do_not_hear_the_master_stop_by_themselves_with_emergency_8130(self):
-        lost = [{"bus": 1, "id": "0x77F", "from_slot": kFaultSlot, "to_slot": 1000000, "action": "drop"}]
+        lost = [{"bus": 1, "id": "0x77F", "from_slot": FAULT_SLOT, "to_slot": 1000000, "action": "drop"}]
         with System(bus_script=lost) as system:
             client = system.client()
             client.enable()
@@ -186,7 +186,7 @@ class DrivesWithoutTargets(SystemTest):
                 {node: codes[0] for node, codes in system.emergencies().items()},
                 {node: 0x8130 for node in range(9, 16)},
             )
-            self.assert_stopped(system.truth(), kFaultSlot, stop_deg=2.0)
+            self.assert_stopped(system.truth(), FAULT_SLOT, stop_deg=2.0)
 
 
 if __name__ == "__main__":

@@ -6,8 +6,8 @@ from support import SOURCE, SystemTest
 from liana.client import brief
 from liana.system import System, table
 
-kJoint, kMoveDeg = 3, 2.0
-kArm = {"robot": "micro", "scene": "none"}
+JOINT, MOVE_DEG = 3, 2.0
+ARM = {"robot": "micro", "scene": "none"}
 
 
 def shipped():
@@ -26,11 +26,11 @@ class DriveTypes(SystemTest):
         for drive in range(len(types)):
             with self.subTest(types[drive]):
                 faults = [{"drive": drive, "kind": "fault", "when": when}]
-                with System(bus=self.bus_of(drives), faults=faults, **kArm) as system:
+                with System(bus=self.bus_of(drives), faults=faults, **ARM) as system:
                     client = system.client()
                     client.enable()
                     goal_deg = list(client.state["setpoint_js_deg"])
-                    goal_deg[kJoint] -= kMoveDeg
+                    goal_deg[JOINT] -= MOVE_DEG
                     client.call("move_jp", goal_deg=goal_deg)
                     client.until(lambda state: state["state"] == "FAULT")
                     self.assert_fault(client.state, 3003, drive)
@@ -42,7 +42,7 @@ class DriveTypes(SystemTest):
 
     def test_a_drive_with_another_dictionary_is_refused_with_all_reasons_at_once(self):
         # It says that it is what the type expects, but it lacks 6072 and cannot be told 6066.
-        with System(bus=self.bus_of("{ type = 'cia402_csp', bench = 'maxon_epos4', nodes = { 2 } }"), **kArm) as system:
+        with System(bus=self.bus_of("{ type = 'cia402_csp', bench = 'maxon_epos4', nodes = { 2 } }"), **ARM) as system:
             client = system.client()
             client.call("acquire")
             client.until(lambda state: state["state"] == "FAULT")

@@ -375,7 +375,7 @@ class WhoIsLetIn(GatewayAloneTest):
 class WhoMisbehaves(GatewayTest):
     """What one client does is its own affair: others go on, and memory stays bounded."""
 
-    kMaxMore_kB = 4096  # of resident memory
+    MAX_MORE_K_B = 4096  # of resident memory
 
     def setUp(self):
         super().setUp()
@@ -385,7 +385,7 @@ class WhoMisbehaves(GatewayTest):
     def assert_others_go_on(self):
         seen = len(self.other.sequences)
         self.other.until(lambda me: len(me.sequences) > seen + 50)
-        self.assertLess(self.gateway.resident_kB(), self.resident_kB + self.kMaxMore_kB)
+        self.assertLess(self.gateway.resident_kB(), self.resident_kB + self.MAX_MORE_K_B)
 
     def in_background(self, work):
         """Does it beside the test, until the connection ends."""

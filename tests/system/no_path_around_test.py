@@ -13,17 +13,17 @@ from liana.devices import Device
 from liana.system import System
 
 # Not archive: the recorder that the run is judged by has its only place.
-kRoles = ("mission", "operator", "camera", "client", "observer", "tool")
-kTip = [3.9, 0.1, 0.1, 1.0, 0.0, 0.0, 0.0]
-kHand = [0.1, 0, 0, 1, 0, 0, 0]
-kSmall_deg = 4.0
-kFaultSlot = 1500
-kPatience_s = 120
+ROLES = ("mission", "operator", "camera", "client", "observer", "tool")
+TIP = [3.9, 0.1, 0.1, 1.0, 0.0, 0.0, 0.0]
+HAND = [0.1, 0, 0, 1, 0, 0, 0]
+SMALL_DEG = 4.0
+FAULT_SLOT = 1500
+PATIENCE_S = 120
 
 
 def joints(state):
     goal_deg = list(state["setpoint_js_deg"])
-    goal_deg[8] -= kSmall_deg
+    goal_deg[8] -= SMALL_DEG
     return goal_deg
 
 
@@ -40,7 +40,7 @@ REQUESTS = {
         "goal": state["setpoint_cp"][:2] + [state["setpoint_cp"][2] + 0.05] + state["setpoint_cp"][3:]
     },
     "servo_cp": lambda state: {"goal": state["setpoint_cp"]},
-    "servo_target": lambda state: {"target": "rod", "offset": kTip},
+    "servo_target": lambda state: {"target": "rod", "offset": TIP},
     "push": lambda state: {"force_N": 10},
     "follow": lambda state: {},
     "payload": lambda state: {"mass_kg": 10, "inertia_kgm2": [1, 1, 1, 0, 0, 0]},
@@ -61,11 +61,11 @@ REQUESTS = {
     "archive_alarm": lambda state: {"text": "the disk is full", "count": 1},
     "devices": lambda state: {},
     "tool_report": lambda state: {"number": 1, "phase": "done", "time_s": state["time_s"]},
-    "camera": lambda state: {"capture_time_s": state["time_s"], "slit": kTip, "rod": kTip},
+    "camera": lambda state: {"capture_time_s": state["time_s"], "slit": TIP, "rod": TIP},
 }
 # What is left out where it would only end the connection it comes from, or the whole system.
-kLast = "shutdown"
-kOwn = set(REQUESTS) - {kLast, "done"}
+LAST = "shutdown"
+OWN = set(REQUESTS) - {LAST, "done"}
 
 
 def lua(value):
@@ -97,7 +97,7 @@ def enabled(client):
 
 def moving(client):
     enabled(client)
-    client.start_moving(change_deg=kSmall_deg if client.state["setpoint_js_deg"][8] > 0 else -kSmall_deg)
+    client.start_moving(change_deg=SMALL_DEG if client.state["setpoint_js_deg"][8] > 0 else -SMALL_DEG)
 
 
 def braking(client):
@@ -117,7 +117,7 @@ class Crowded(System):
     """With a client of every role, there before the bench is: it would be the one camera and the one tool."""
 
     def start_bench(self):
-        self.others = {role: self.client(role, role, lockstep=False, subscribe=()) for role in kRoles}
+        self.others = {role: self.client(role, role, lockstep=False, subscribe=()) for role in ROLES}
         self.hand = Device(f"{self.api}.devices", "omega")
         super().start_bench()
 
@@ -131,11 +131,11 @@ class EveryRequest(SystemTest):
         self.client = self.system.client()
 
     def faults(self):
-        slot = kFaultSlot if "fault" in self._testMethodName else None
+        slot = FAULT_SLOT if "fault" in self._testMethodName else None
         return [{"kind": "fault", "drive": 4, "at_slot": slot}] if slot else []
 
     def judge(self):
-        self.client.request(kLast)
+        self.client.request(LAST)
         with self.assertRaises(ConnectionClosed):
             while True:
                 self.client.step()
@@ -150,7 +150,7 @@ class EveryRequest(SystemTest):
         """The device's deadman is held all the time, and its hand moves on."""
         hand, now_us = self.system.hand, round(1e6 * self.client.state["time_s"])
         hand.receive(now_us)
-        hand.send(now_us, [now_us * 1e-8, *kHand[1:]], deadman=True)
+        hand.send(now_us, [now_us * 1e-8, *HAND[1:]], deadman=True)
 
     def everyone_asks(self, op, reach):
         """The owner, and then every other kind of client, each with the arm in the state again."""
@@ -168,7 +168,7 @@ class EveryRequest(SystemTest):
 
     def test_while_the_drives_boot(self):
         self.client.step()
-        for op in sorted(kOwn):
+        for op in sorted(OWN):
             for each in (self.client, *self.others.values()):
                 each.request(op, **REQUESTS[op](self.client.state))
         self.client.step()
@@ -179,7 +179,7 @@ class EveryRequest(SystemTest):
     def test_in_every_state_of_a_sound_arm(self):
         self.client.until(lambda state: state["state"] == "DISABLED" and state["is_homed"])
         for reach in STATES.values():
-            for op in sorted(kOwn):
+            for op in sorted(OWN):
                 self.everyone_asks(op, reach)
         judged = self.judge()
         self.assertGreater(len({tick.sequence for tick in judged.recording.ticks}), 100)
@@ -199,7 +199,7 @@ class EveryRequest(SystemTest):
 
     def until_the_mission_has_ended(self):
         """By the wall clock: the arm's time runs ahead while a loaded machine still starts the mission's process."""
-        end_s = time.monotonic() + kPatience_s
+        end_s = time.monotonic() + PATIENCE_S
         while self.system.children["liana-mission"].poll() is None:
             self.assertLess(time.monotonic(), end_s, "the mission has not ended")
             self.client.step()
@@ -223,7 +223,7 @@ return liana.mission "{function}" {{
     def test_after_a_fault(self):
         self.client.enable()
         self.client.until(lambda state: state["state"] == "FAULT")
-        for op in sorted(kOwn):
+        for op in sorted(OWN):
             self.everyone_asks(op, lambda client: None)
         self.judge()
 

@@ -5,7 +5,7 @@ import unittest
 from support import SystemTest
 from liana.system import System
 
-kMoves_deg = ({8: -3.0, 2: 2.0}, {4: 2.5, 9: -2.0, 1: 1.0})  # from where the arm stands, by theta from 0
+MOVES_DEG = ({8: -3.0, 2: 2.0}, {4: 2.5, 9: -2.0, 1: 1.0})  # from where the arm stands, by theta from 0
 
 
 def apart_deg(a, b):
@@ -32,7 +32,7 @@ class PredictedView(SystemTest):
         return states
 
     def test_the_arm_is_told_to_the_bit_what_was_shown_and_measured_within_two_tenths_of_a_degree_of_it(self):
-        for change_deg in kMoves_deg:
+        for change_deg in MOVES_DEG:
             states = self.moved(change_deg)
             self.assertGreater(len(states), 100)
             errors_deg = []

@@ -17,8 +17,8 @@ import truth_rules
 import wire_ages
 from liana.recordings import Fault, Tick, offsets
 
-kEnabled, kSwitchOnDisabled, kInFault = 0x1237, 0x0250, 0x0218
-kLimits = rules.Limits(
+ENABLED, SWITCH_ON_DISABLED, IN_FAULT = 0x1237, 0x0250, 0x0218
+LIMITS = rules.Limits(
     step_counts=36,
     following_counts=700,
     newtons_per_permille=0.6,
@@ -27,15 +27,15 @@ kLimits = rules.Limits(
     alarm_N=400.0,
     overload_N=600.0,
 )
-kReactions = {
-    3002: rules.kAtOnce,
-    3003: rules.kAtOnce,
-    3004: rules.kAtOnce,
-    5001: rules.kHold,
-    5002: rules.kOff,
-    6001: rules.kAtOnce,
+REACTIONS = {
+    3002: rules.AT_ONCE,
+    3003: rules.AT_ONCE,
+    3004: rules.AT_ONCE,
+    5001: rules.HOLD,
+    5002: rules.OFF,
+    6001: rules.AT_ONCE,
 }
-kGood = Tick(
+GOOD = Tick(
     tick=0,
     lost_ticks=0,
     lost_buses=0,
@@ -44,7 +44,7 @@ kGood = Tick(
     sequence=7,
     first_tick=0,
     expiry_tick=10**6,
-    statusword=(kEnabled, kEnabled),
+    statusword=(ENABLED, ENABLED),
     torque=(70, 70),
     position=(1000, 2000),
     age=(0, 0),
@@ -63,7 +63,7 @@ kGood = Tick(
 
 
 def ticks(count, **fields):
-    return [kGood._replace(tick=i, **fields) for i in range(count)]
+    return [GOOD._replace(tick=i, **fields) for i in range(count)]
 
 
 def changed(at, count=10, **fields):
@@ -75,12 +75,12 @@ def fault(number, index=1, tick=5):
     return Fault(number, index, 0, tick)
 
 
-kStopped = {
+STOPPED = {
     "faults": (fault(3003),),
     "state": "STOPPING",
     "stop_category": 2,
     "controlword": (0x02, 0x00),
-    "statusword": (kEnabled, kInFault),
+    "statusword": (ENABLED, IN_FAULT),
 }
 
 
@@ -92,19 +92,19 @@ class Rules(unittest.TestCase):
 
     def test_a_missing_tick_is_found_and_lost_deadlines_are_none(self):
         self.assertEqual(rules.missing_ticks(ticks(4)), [])
-        self.broken(rules.missing_ticks(ticks(2) + [kGood._replace(tick=3)]), "tick 3")
-        self.assertEqual(rules.missing_ticks(ticks(2) + [kGood._replace(tick=3, lost_ticks=1)]), [])
+        self.broken(rules.missing_ticks(ticks(2) + [GOOD._replace(tick=3)]), "tick 3")
+        self.assertEqual(rules.missing_ticks(ticks(2) + [GOOD._replace(tick=3, lost_ticks=1)]), [])
 
     def test_a_target_that_steps_too_far_is_found_where_the_drive_has_torque(self):
-        self.assertEqual(rules.target_steps(changed(5, target=(1036, 2000)), kLimits), [])
-        self.broken(rules.target_steps(changed(5, target=(1000, 1963)), kLimits), "tick 5", "drive 1")
-        self.assertEqual(rules.target_steps(changed(5, target=(9000, 2000), controlword=(0, 0)), kLimits), [])
+        self.assertEqual(rules.target_steps(changed(5, target=(1036, 2000)), LIMITS), [])
+        self.broken(rules.target_steps(changed(5, target=(1000, 1963)), LIMITS), "tick 5", "drive 1")
+        self.assertEqual(rules.target_steps(changed(5, target=(9000, 2000), controlword=(0, 0)), LIMITS), [])
 
     def test_a_target_that_lets_go_may_jump_so_far_and_not_again_and_again(self):
-        limits = kLimits._replace(let_go_counts=5000)
+        limits = LIMITS._replace(let_go_counts=5000)
         self.assertEqual(rules.target_steps(changed(5, target=(6000, 2000)), limits), [])
         self.broken(rules.target_steps(changed(5, target=(6001, 2000)), limits), "tick 5", "drive 0")
-        to_and_fro = [kGood._replace(tick=i, target=(1000 + 3000 * (i % 2), 2000)) for i in range(10)]
+        to_and_fro = [GOOD._replace(tick=i, target=(1000 + 3000 * (i % 2), 2000)) for i in range(10)]
         self.broken(rules.target_steps(to_and_fro, limits), "tick 7", "drive 0")
 
     def test_a_telecommand_before_its_time_after_its_expiry_or_never_released_is_found(self):
@@ -123,31 +123,31 @@ class Rules(unittest.TestCase):
             "the gate is last",
         )
         long = changed(5, 600, faults=held, theta_rate=(0.0, 0.01))
-        self.broken(rules.commands_while_latched(long), f"tick {5 + rules.kPathStopTicks + 1}", "still moves")
+        self.broken(rules.commands_while_latched(long), f"tick {5 + rules.PATH_STOP_TICKS + 1}", "still moves")
 
     def test_a_state_or_a_fault_that_is_not_documented_is_found(self):
-        self.assertEqual(rules.states_not_documented(changed(5, **kStopped), kReactions), [])
-        self.broken(rules.states_not_documented(changed(5, state="FAULT"), kReactions), "FAULT follows ENABLED")
-        self.broken(rules.states_not_documented(changed(5, faults=(fault(1234),)), kReactions), "1234")
+        self.assertEqual(rules.states_not_documented(changed(5, **STOPPED), REACTIONS), [])
+        self.broken(rules.states_not_documented(changed(5, state="FAULT"), REACTIONS), "FAULT follows ENABLED")
+        self.broken(rules.states_not_documented(changed(5, faults=(fault(1234),)), REACTIONS), "1234")
 
     def test_enabling_that_nobody_asked_for_is_found(self):
-        off = [kGood._replace(tick=i, state="DISABLED", controlword=(0, 0)) for i in range(5)]
-        begins = kGood._replace(tick=5, state="ENABLING", controlword=(6, 6), request="enable")
+        off = [GOOD._replace(tick=i, state="DISABLED", controlword=(0, 0)) for i in range(5)]
+        begins = GOOD._replace(tick=5, state="ENABLING", controlword=(6, 6), request="enable")
         self.assertEqual(rules.enabling_unasked([*off, begins]), [])
         self.broken(rules.enabling_unasked([*off, begins._replace(request="none")]), "asked for is none")
         self.broken(rules.enabling_unasked([*off, begins._replace(faults=(fault(3002),))]), "1 faults")
         self.broken(rules.enabling_unasked([*off, off[0]._replace(tick=5, controlword=(0, 0x0F))]), "in DISABLED")
 
     def test_a_fault_that_goes_away_without_a_clear_is_found(self):
-        faulty = [kGood._replace(tick=i, state="FAULT", faults=(fault(3003),)) for i in range(5)]
-        cleared = kGood._replace(tick=5, state="DISABLED")
+        faulty = [GOOD._replace(tick=i, state="FAULT", faults=(fault(3003),)) for i in range(5)]
+        cleared = GOOD._replace(tick=5, state="DISABLED")
         self.broken(rules.faults_gone_unasked([*faulty, cleared]), "3003", "without a clear")
         faulty[3] = faulty[3]._replace(request="clear")
         self.assertEqual(rules.faults_gone_unasked([*faulty, cleared]), [])
         self.broken(rules.faults_gone_unasked([*faulty, cleared._replace(faults=(fault(3003),))]), "FAULT is left")
 
     def test_a_reaction_weaker_than_the_highest_latched_fault_asks_for_is_found(self):
-        self.assertEqual(rules.weak_reactions(changed(5, **kStopped), kReactions), [])
+        self.assertEqual(rules.weak_reactions(changed(5, **STOPPED), REACTIONS), [])
         for weaker, said in (
             ({"state": "ENABLED"}, "ENABLED"),
             ({"controlword": (0x0F, 0x00)}, "enable operation"),
@@ -155,35 +155,35 @@ class Rules(unittest.TestCase):
             ({"stop_category": 1}, "category"),
             ({"faults": (fault(5001), fault(5002)), "stop_category": 3}, "disable voltage"),
         ):
-            self.broken(rules.weak_reactions(changed(5, **{**kStopped, **weaker}), kReactions), said)
+            self.broken(rules.weak_reactions(changed(5, **{**STOPPED, **weaker}), REACTIONS), said)
         ramp = [tick._replace(state="ENABLING") for tick in ticks(5)] + [
-            kGood._replace(tick=5, **{**kStopped, "controlword": (0x07, 0x00)})
+            GOOD._replace(tick=5, **{**STOPPED, "controlword": (0x07, 0x00)})
         ]
-        self.broken(rules.weak_reactions(ramp, kReactions), "quick stop")
-        self.assertEqual(rules.weak_reactions(changed(5, faults=(fault(5001),), stop_category=1), kReactions), [])
+        self.broken(rules.weak_reactions(ramp, REACTIONS), "quick stop")
+        self.assertEqual(rules.weak_reactions(changed(5, faults=(fault(5001),), stop_category=1), REACTIONS), [])
         self.broken(
-            rules.weak_reactions(changed(5, **{**kStopped, "faults": (fault(5001),)}), kReactions),
+            rules.weak_reactions(changed(5, **{**STOPPED, "faults": (fault(5001),)}), REACTIONS),
             "keeps the drives",
         )
 
     def test_a_quick_stop_that_is_cut_short_is_found(self):
-        stopping = [*ticks(5), *(kGood._replace(tick=i, **kStopped) for i in range(5, 9))]
-        cut = kGood._replace(tick=9, **{**kStopped, "controlword": (0x00, 0x00)})
-        self.broken(rules.quick_stops_cut_short([*stopping, cut], kReactions), "drive 0", "0x00")
+        stopping = [*ticks(5), *(GOOD._replace(tick=i, **STOPPED) for i in range(5, 9))]
+        cut = GOOD._replace(tick=9, **{**STOPPED, "controlword": (0x00, 0x00)})
+        self.broken(rules.quick_stops_cut_short([*stopping, cut], REACTIONS), "drive 0", "0x00")
         self.assertEqual(
             rules.quick_stops_cut_short(
-                [*stopping, cut._replace(statusword=(kSwitchOnDisabled, kInFault))], kReactions
+                [*stopping, cut._replace(statusword=(SWITCH_ON_DISABLED, IN_FAULT))], REACTIONS
             ),
             [],
         )
-        self.assertEqual(rules.quick_stops_cut_short([*stopping, cut._replace(faults=(fault(5002),))], kReactions), [])
+        self.assertEqual(rules.quick_stops_cut_short([*stopping, cut._replace(faults=(fault(5002),))], REACTIONS), [])
 
     def test_a_stop_that_no_drive_confirmed_is_found(self):
-        stopping = kGood._replace(tick=4, **kStopped)
-        ended = kGood._replace(tick=5, **{**kStopped, "state": "FAULT", "statusword": (kSwitchOnDisabled, kInFault)})
+        stopping = GOOD._replace(tick=4, **STOPPED)
+        ended = GOOD._replace(tick=5, **{**STOPPED, "state": "FAULT", "statusword": (SWITCH_ON_DISABLED, IN_FAULT)})
         self.assertEqual(rules.stops_not_confirmed([stopping, ended]), [])
         self.broken(rules.stops_not_confirmed([stopping, ended._replace(age=(3, 0))]), "drive 0", "3008")
-        self.broken(rules.stops_not_confirmed([stopping, ended._replace(statusword=(kEnabled, kInFault))]), "drive 0")
+        self.broken(rules.stops_not_confirmed([stopping, ended._replace(statusword=(ENABLED, IN_FAULT))]), "drive 0")
         self.assertEqual(
             rules.stops_not_confirmed([stopping, ended._replace(age=(3, 0), faults=(fault(3003), fault(3008, 0)))]), []
         )
@@ -193,23 +193,23 @@ class Rules(unittest.TestCase):
             (3002, {"age": (0, 3)}),
             (3001, {"heartbeat_age": (0, 76)}),
             (3007, {"operational": (1, 0)}),
-            (3003, {"statusword": (kEnabled, kInFault)}),
-            (3004, {"statusword": (kEnabled, kSwitchOnDisabled)}),
+            (3003, {"statusword": (ENABLED, IN_FAULT)}),
+            (3004, {"statusword": (ENABLED, SWITCH_ON_DISABLED)}),
             (5001, {"torque": (70, 1)}),
             (5002, {"torque": (70, 1001)}),
             (5003, {"torque": (70, 700)}),
             (3006, {"position": (1000, 2701)}),
         ):
-            found = rules.faults_not_latched(changed(5, 60, **wrong), kLimits)
+            found = rules.faults_not_latched(changed(5, 60, **wrong), LIMITS)
             self.broken(found, f"({number}, 1)")
             every = tuple(fault(known) for known in (3001, 3002, 3003, 3004, 3006, 3007, 5001, 5002, 5003))
-            self.assertEqual(rules.faults_not_latched(changed(5, 60, **wrong, faults=every), kLimits), [])
-        self.broken(rules.faults_not_latched(changed(5, lost_buses=2), kLimits), "(4001, 1)")
-        self.broken(rules.faults_not_latched(changed(5, twice=2), kLimits), "(3009, 1)")
-        self.broken(rules.faults_not_latched(changed(5, lost_ticks=3), kLimits), "(2001, -1)")
+            self.assertEqual(rules.faults_not_latched(changed(5, 60, **wrong, faults=every), LIMITS), [])
+        self.broken(rules.faults_not_latched(changed(5, lost_buses=2), LIMITS), "(4001, 1)")
+        self.broken(rules.faults_not_latched(changed(5, twice=2), LIMITS), "(3009, 1)")
+        self.broken(rules.faults_not_latched(changed(5, lost_ticks=3), LIMITS), "(2001, -1)")
 
     def test_a_serial_arms_encoder_that_jumps_and_a_joint_out_of_its_range_have_to_be_latched(self):
-        limits = kLimits._replace(jump_counts=500, ranges_counts=((0, 5000), (0, 5000)), following_counts=10**6)
+        limits = LIMITS._replace(jump_counts=500, ranges_counts=((0, 5000), (0, 5000)), following_counts=10**6)
         jumped = changed(5, position=(1000, 2501))
         self.broken(rules.faults_not_latched(jumped, limits), "(2003, 1)")
         self.assertEqual(rules.faults_not_latched(changed(5, position=(1000, 2500)), limits), [])
@@ -228,7 +228,7 @@ class Rules(unittest.TestCase):
 
     def test_a_drive_that_was_never_there_is_no_fault(self):
         self.assertEqual(
-            rules.faults_not_latched(ticks(10, age=(0, 3), heartbeat_age=(0, 99), operational=(1, 0)), kLimits), []
+            rules.faults_not_latched(ticks(10, age=(0, 3), heartbeat_age=(0, 99), operational=(1, 0)), LIMITS), []
         )
 
     def test_a_fault_that_was_told_but_not_recorded_or_the_other_way_round_is_found(self):
@@ -248,8 +248,8 @@ class Rules(unittest.TestCase):
 
     def test_reactions_are_those_of_the_page_written_by_hand_and_each_has_its_reason(self):
         found = rules.reactions_by_hand()
-        self.assertEqual((found[5001], found[3002], found[5002]), (rules.kHold, rules.kAtOnce, rules.kOff))
-        numbers = {int(number) for number in re.findall(r"^\| (\d{4}) \|", kFaultsPage.read_text(), re.MULTILINE)}
+        self.assertEqual((found[5001], found[3002], found[5002]), (rules.HOLD, rules.AT_ONCE, rules.OFF))
+        numbers = {int(number) for number in re.findall(r"^\| (\d{4}) \|", FAULTS_PAGE.read_text(), re.MULTILINE)}
         self.assertEqual(numbers - found.keys(), set(), "each fault needs a row written by hand")
         for number, row in rules.page_of_reactions().items():
             self.assertGreater(len(row["why"]), 20, number)
@@ -266,33 +266,33 @@ class Rules(unittest.TestCase):
     def test_an_arm_on_its_way_back_has_as_long_to_stop_as_any_other(self):
         both = (fault(5001), fault(3002)._replace(tick=300))
         moving = [
-            kGood._replace(tick=tick, faults=both if tick >= 300 else both[:1], theta_rate=(0.1, 0.0))
+            GOOD._replace(tick=tick, faults=both if tick >= 300 else both[:1], theta_rate=(0.1, 0.0))
             for tick in range(200, 310)
         ]
         self.assertEqual(rules.commands_while_latched(moving, {5001}), [])
-        late = [tick._replace(tick=tick.tick + rules.kPathStopTicks) for tick in moving]
+        late = [tick._replace(tick=tick.tick + rules.PATH_STOP_TICKS) for tick in moving]
         late = [tick._replace(faults=both if tick.tick >= 300 else both[:1]) for tick in late]
-        self.broken(rules.commands_while_latched(late, {5001}), f"tick {301 + rules.kPathStopTicks}", "3002")
+        self.broken(rules.commands_while_latched(late, {5001}), f"tick {301 + rules.PATH_STOP_TICKS}", "3002")
 
     def test_a_full_list_of_faults_hides_nothing(self):
-        weak = changed(5, **{**kStopped, "stop_category": 0, "dropped": 3})
-        self.broken(rules.weak_reactions(weak, kReactions), "the stop category is 0")
+        weak = changed(5, **{**STOPPED, "stop_category": 0, "dropped": 3})
+        self.broken(rules.weak_reactions(weak, REACTIONS), "the stop category is 0")
         silent = changed(5, age=(3, 3), faults=(fault(3002, 0),))
-        self.broken(rules.faults_not_latched(silent, kLimits), "(3002, 1)")
-        self.assertEqual(rules.faults_not_latched([tick._replace(dropped=1) for tick in silent], kLimits), [])
-        cleared = [tick._replace(dropped=1) for tick in silent] + [kGood._replace(tick=len(silent) + 1)]
-        self.assertEqual(rules.faults_not_latched(cleared, kLimits), [], "an operator's clear emptied the full list")
-        stopping = kGood._replace(tick=4, **kStopped)
-        ended = kGood._replace(tick=5, **{**kStopped, "state": "FAULT", "age": (3, 3), "dropped": 1})
+        self.broken(rules.faults_not_latched(silent, LIMITS), "(3002, 1)")
+        self.assertEqual(rules.faults_not_latched([tick._replace(dropped=1) for tick in silent], LIMITS), [])
+        cleared = [tick._replace(dropped=1) for tick in silent] + [GOOD._replace(tick=len(silent) + 1)]
+        self.assertEqual(rules.faults_not_latched(cleared, LIMITS), [], "an operator's clear emptied the full list")
+        stopping = GOOD._replace(tick=4, **STOPPED)
+        ended = GOOD._replace(tick=5, **{**STOPPED, "state": "FAULT", "age": (3, 3), "dropped": 1})
         self.broken(rules.stops_not_confirmed([stopping, ended]), "drive 1", "3008")
         self.assertEqual(rules.stops_not_confirmed([stopping, ended._replace(dropped=2)]), [])
 
     def test_a_false_alarm_is_found(self):
         alarm = changed(5, faults=(fault(3002),))
-        self.broken(rules.false_alarms(alarm, kLimits, 0), "no report shows why")
-        self.assertEqual(rules.false_alarms(changed(5, faults=(fault(3002),), age=(0, 3)), kLimits, 0), [])
-        self.broken(rules.false_alarms(changed(5, faults=(fault(5006),)), kLimits, 8), "nothing has happened yet")
-        self.assertEqual(rules.false_alarms(changed(5, faults=(fault(5006),)), kLimits, 5), [])
+        self.broken(rules.false_alarms(alarm, LIMITS, 0), "no report shows why")
+        self.assertEqual(rules.false_alarms(changed(5, faults=(fault(3002),), age=(0, 3)), LIMITS, 0), [])
+        self.broken(rules.false_alarms(changed(5, faults=(fault(5006),)), LIMITS, 8), "nothing has happened yet")
+        self.assertEqual(rules.false_alarms(changed(5, faults=(fault(5006),)), LIMITS, 5), [])
 
 
 class Wire(unittest.TestCase):
@@ -306,7 +306,7 @@ class Wire(unittest.TestCase):
             "".join(f"({slot * 0.004 + 0.001:.6f}) can0 18{node}#3712E803000046FF\n" for slot in range(10))
             for node in (1, 2)
         ]
-        arrivals = wire_ages.Arrivals(logs, predicates.kLine, 0.004)
+        arrivals = wire_ages.Arrivals(logs, predicates.LINE, 0.004)
         self.assertEqual(wire_ages.wrong_ages(ticks(10), arrivals), [])
         believed = wire_ages.wrong_ages(ticks(20), arrivals)
         self.assertIn("tick 11", believed[0])
@@ -314,7 +314,7 @@ class Wire(unittest.TestCase):
         self.assertIn("drive 1", lost[0])
         self.assertEqual(wire_ages.wrong_ages(changed(5, age=(0, 3)), arrivals, {1}), [])
         short = [logs[0], logs[1].replace("46FF", "46")]
-        self.assertIn("drive 1", wire_ages.wrong_ages(ticks(10), wire_ages.Arrivals(short, predicates.kLine, 0.004))[0])
+        self.assertIn("drive 1", wire_ages.wrong_ages(ticks(10), wire_ages.Arrivals(short, predicates.LINE, 0.004))[0])
 
 
 class FakeTruth:
@@ -381,8 +381,8 @@ class TruthRules(unittest.TestCase):
         self.assertEqual(self.complaints(recorded=stopped, fastest_deg_s=9.0, tension_motor_min_N=3.0), [])
 
 
-kFaultsPage = support.SOURCE / "docs" / "reference" / "faults.md"
-kTips = [  # angles and tip of the bench's truth
+FAULTS_PAGE = support.SOURCE / "docs" / "reference" / "faults.md"
+TIPS = [  # angles and tip of the bench's truth
     (
         [
             -8.517465857,
@@ -420,7 +420,7 @@ class SlitTruth(unittest.TestCase):
     def test_links_are_where_the_golden_arm_has_its_tip(self):
         robot = {"segments": [{"modules": 8, "module_length_m": 0.1}] * 5}
         self.assertEqual([round(x, 12) for x in slit_truth.joint_centres_m(robot, [0.0] * 10)[-1]], [4.0, 0.0, 0.0])
-        for theta_deg, tip_m in kTips:
+        for theta_deg, tip_m in TIPS:
             for got, wanted in zip(slit_truth.joint_centres_m(robot, theta_deg)[-1], tip_m):
                 self.assertAlmostEqual(got, wanted, 6)
 
@@ -436,16 +436,16 @@ class Recordings(unittest.TestCase):
 class Pairs(unittest.TestCase):
     def test_every_pair_of_the_members_is_there_once_and_delays_reach_50_ticks(self):
         found = pairs.all_pairs()
-        count = len(pairs.kMembers)
+        count = len(pairs.MEMBERS)
         self.assertGreaterEqual(count, 12)
         self.assertEqual(
             len({frozenset(member.name for member in pair.members) for pair in found}), count * (count - 1) // 2
         )
-        self.assertEqual({pair.delay for pair in found}, set(pairs.kDelays))
-        self.assertEqual(sum(pair.reduced for pair in found), len(pairs.kReduced))
+        self.assertEqual({pair.delay for pair in found}, set(pairs.DELAYS))
+        self.assertEqual(sum(pair.reduced for pair in found), len(pairs.REDUCED))
 
     def test_the_one_that_is_found_sooner_is_expected_first_and_in_one_tick_the_lower_index(self):
-        member = {member.name: member for member in pairs.kMembers}
+        member = {member.name: member for member in pairs.MEMBERS}
         self.assertEqual(pairs.Pair(member["silent"], member["fault"], 3).expected_first(), [(3002, 3)])
         self.assertEqual(pairs.Pair(member["silent"], member["fault"], 1).expected_first(), [(3003, 10)])
         self.assertEqual(pairs.Pair(member["missing"], member["silent"], 0).expected_first(), [(3002, 3)])
@@ -463,10 +463,10 @@ class Campaign(unittest.TestCase):
         self.assertEqual(found, [faults(seed) for seed in range(1, 201)])
         self.assertEqual({len(one) for one in found}, {1, 2, 3, 4})
         self.assertEqual(
-            {fault["kind"] for one in found for fault in one if "kind" in fault}, set(campaign.kBenchKinds)
+            {fault["kind"] for one in found for fault in one if "kind" in fault}, set(campaign.BENCH_KINDS)
         )
         self.assertEqual(
-            {fault["action"] for one in found for fault in one if "action" in fault}, set(campaign.kBusActions)
+            {fault["action"] for one in found for fault in one if "action" in fault}, set(campaign.BUS_ACTIONS)
         )
         self.assertGreater(len({str(one) for one in found}), 190)
 
@@ -480,9 +480,9 @@ class Campaign(unittest.TestCase):
 
 
 class Dispatch(Messages, unittest.TestCase):
-    """Telecommand 7 of kGood, and what commands.txt has to say of it."""
+    """Telecommand 7 of GOOD, and what commands.txt has to say of it."""
 
-    def complaints(self, *stages, ticks=(kGood._replace(tick=20),)):
+    def complaints(self, *stages, ticks=(GOOD._replace(tick=20),)):
         lines = ["# heading"] + [
             "\t".join([str(tick), stage, "7", number, "", "", "", ""]) for tick, stage, number in stages
         ]
@@ -494,7 +494,7 @@ class Dispatch(Messages, unittest.TestCase):
         self.assertEqual(self.complaints(*life, ticks=[]), [])
 
     def test_a_command_that_nobody_released_is_named_once(self):
-        good = kGood._replace(tick=20)
+        good = GOOD._replace(tick=20)
         found = self.complaints((10, "setpoint", "2"), ticks=[good, good._replace(tick=21)])
         self.assertEqual(len(found), 1)
         self.assert_names(found[0], "tick 20", "command 7", "never released")

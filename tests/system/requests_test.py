@@ -7,7 +7,7 @@ from support import SystemTest
 from liana.client import LianaError
 from liana.system import System
 
-kUpright = [1.0, 0.0, 0.0, 0.0]
+UPRIGHT = [1.0, 0.0, 0.0, 0.0]
 
 
 class Requests(SystemTest):
@@ -40,7 +40,7 @@ class Requests(SystemTest):
 
     def test_a_tip_target_out_of_reach_is_refused_with_the_reach(self):
         for op in ("move_cp", "servo_cp"):
-            self.assert_refused(self.client.ask(op, goal=[3.5, 3.5, 0.0] + kUpright), "out_of_range", "reaches 4")
+            self.assert_refused(self.client.ask(op, goal=[3.5, 3.5, 0.0] + UPRIGHT), "out_of_range", "reaches 4")
 
     def test_huge_numbers_are_refused_with_the_allowed_range(self):
         for op in ("move_cp", "servo_cp"):
@@ -271,7 +271,7 @@ class TargetsTheArmCannotFollow(SystemTest):
             client = system.client()
             client.enable()
             first = client.state["tick"]
-            for goal in ([-3.9, 0.1, 0.2] + kUpright, [0.0, 0.0, 0.0] + kUpright, [3.99, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]):
+            for goal in ([-3.9, 0.1, 0.2] + UPRIGHT, [0.0, 0.0, 0.0] + UPRIGHT, [3.99, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]):
                 answer = stream_to(client, goal)
                 self.assertIn(answer.get("code"), (None, "fault"), answer)
                 client.go_on(1.0)

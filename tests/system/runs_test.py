@@ -13,7 +13,7 @@ from liana.recordings import Truth
 
 ATTACKS = SOURCE / "tests" / "lua" / "attacks"
 PATIENCE_S = 300
-kHeldUp_s = 4.0  # a run of seconds would be over by then; lianad waits 10 s for who is in lockstep
+HELD_UP_S = 4.0  # a run of seconds would be over by then; lianad waits 10 s for who is in lockstep
 
 
 def has_can():
@@ -154,7 +154,7 @@ class RunsThatRepeat(Runs):
                 if "prepare" in line:
                     break
             os.kill(process.pid, signal.SIGSTOP)
-            time.sleep(kHeldUp_s)
+            time.sleep(HELD_UP_S)
             os.kill(process.pid, signal.SIGCONT)
         _, error = process.communicate(timeout=PATIENCE_S)
         self.assertEqual(process.returncode, 0, error)

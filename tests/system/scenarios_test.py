@@ -24,7 +24,7 @@ from liana.system import ProgramRefused, System
 from run_scenario import LimitedRun
 from scenario_file import BadScenario, Failed
 
-kPeriod_s = 0.004
+PERIOD_S = 0.004
 
 
 def imported_by(path):
@@ -41,17 +41,17 @@ def imported_by(path):
 def traffic(commands=(), reports=()):
     """Node 4's (slot, controlword, target) and (slot, position) as liana-bus writes them."""
     lines = [
-        f"({slot * kPeriod_s + 0.002:.6f}) can0 204#{struct.pack('<Hi', word, target).hex().upper()}"
+        f"({slot * PERIOD_S + 0.002:.6f}) can0 204#{struct.pack('<Hi', word, target).hex().upper()}"
         for slot, word, target in commands
     ]
     lines += [
-        f"({slot * kPeriod_s + 0.001:.6f}) can0 184#{struct.pack('<Hih', 0x1237, place, 60).hex().upper()}"
+        f"({slot * PERIOD_S + 0.001:.6f}) can0 184#{struct.pack('<Hih', 0x1237, place, 60).hex().upper()}"
         for slot, place in reports
     ]
-    return predicates.Traffic(["\n".join(lines)], kPeriod_s)
+    return predicates.Traffic(["\n".join(lines)], PERIOD_S)
 
 
-kTorqueArm = {
+TORQUE_ARM = {
     "kind": "serial",
     "drives": {"mode": "torque", "counts_per_turn": 360000},
     "joints": [{"rate_deg_s": 4.0}] * 7,
@@ -63,17 +63,17 @@ def torque_traffic(commands):
     return torque_rules.TorqueTraffic(
         [
             "\n".join(
-                f"({slot * kPeriod_s + 0.002:.6f}) can0 204#{struct.pack('<Hhi', *words).hex().upper()}"
+                f"({slot * PERIOD_S + 0.002:.6f}) can0 204#{struct.pack('<Hhi', *words).hex().upper()}"
                 for slot, *words in commands
             )
         ],
-        kPeriod_s,
+        PERIOD_S,
     )
 
 
 class TorqueRules(unittest.TestCase):
     def told(self, *commands):
-        return torque_rules.told(torque_traffic([(10, 0x0F, 0, 0), *commands]), kTorqueArm, kPeriod_s)
+        return torque_rules.told(torque_traffic([(10, 0x0F, 0, 0), *commands]), TORQUE_ARM, PERIOD_S)
 
     def test_a_torque_may_change_as_quickly_as_its_ramp_and_no_quicker(self):
         self.assertEqual(self.told((11, 0x0F, 40, 0), (13, 0x0F, -40, 0)), [])
@@ -92,9 +92,9 @@ class TorqueRules(unittest.TestCase):
     def test_a_drive_that_is_told_to_turn_while_the_arm_holds_in_fault_is_found(self):
         still = torque_traffic([(20, 0x0F, 100, 30), (21, 0x0F, 100, -30)])
         turning = torque_traffic([(20, 0x0F, 100, 30), (21, 0x0F, 100, -50)])
-        self.assertEqual(torque_rules.rates_while_latched(still, kTorqueArm, 20, 30), [])
-        self.assertEqual(len(torque_rules.rates_while_latched(turning, kTorqueArm, 20, 30)), 1)
-        self.assertEqual(torque_rules.rates_while_latched(turning, kTorqueArm, 22, 30), [])
+        self.assertEqual(torque_rules.rates_while_latched(still, TORQUE_ARM, 20, 30), [])
+        self.assertEqual(len(torque_rules.rates_while_latched(turning, TORQUE_ARM, 20, 30)), 1)
+        self.assertEqual(torque_rules.rates_while_latched(turning, TORQUE_ARM, 22, 30), [])
 
 
 class Rules(unittest.TestCase):
@@ -115,7 +115,7 @@ class Rules(unittest.TestCase):
             "drives": {"drum_radius_m": 0.015, "counts_per_turn": 65536, "gear": 1},
             "limits": {"cable_speed_m_s": 0.010},
         }
-        self.assertAlmostEqual(predicates.step_limit_counts(robot, kPeriod_s), 29.8, 1)
+        self.assertAlmostEqual(predicates.step_limit_counts(robot, PERIOD_S), 29.8, 1)
 
     def test_enabling_while_the_fault_is_latched_is_found_and_after_the_operators_enable_it_is_not(self):
         commands = [(10, 0x0F, 0), (11, 0x00, 0), (20, 0x0F, 0), (30, 0x0F, 0)]
@@ -318,9 +318,9 @@ class Files(Messages, unittest.TestCase):
         self.assertGreater(len(numbers), 15)
         for number in numbers:
             self.assertTrue(
-                shown[number] or number in coverage.kTests, f"fault {number}: no scenario expects it; add one"
+                shown[number] or number in coverage.TESTS, f"fault {number}: no scenario expects it; add one"
             )
-        for name, file in coverage.kTests.values():
+        for name, file in coverage.TESTS.values():
             self.assertIn(f"{name.replace('.', ', ')})", (SOURCE / file).read_text())
         self.assertIn(
             coverage.table(numbers, {}),

@@ -17,9 +17,9 @@ from support import SystemTest
 from liana.client import wait_until
 from liana.system import System, program
 
-kControl = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
-kRepeat_s = 0.03  # of a key that is held
-kUnread_s = 2.0  # twenty pictures: a terminal keeps 4 to 64 kB
+CONTROL = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
+REPEAT_S = 0.03  # of a key that is held
+UNREAD_S = 2.0  # twenty pictures: a terminal keeps 4 to 64 kB
 
 
 class Driver:
@@ -54,7 +54,7 @@ class Driver:
         """The newest whole picture, as text."""
         self.look()
         pictures = self.seen.split("\x1b[H")
-        return kControl.sub("", pictures[-2]) if len(pictures) > 2 else ""
+        return CONTROL.sub("", pictures[-2]) if len(pictures) > 2 else ""
 
     def until(self, *words):
         wait_until(lambda: all(word in self.picture() for word in words), f"{words} in {self.picture()!r}")
@@ -68,7 +68,7 @@ class Driver:
 
         def pressed():
             self.press(key)
-            time.sleep(kRepeat_s)
+            time.sleep(REPEAT_S)
             return wanted()
 
         wait_until(pressed, f"what {key} does: {self.picture()!r}")
@@ -179,7 +179,7 @@ class Teleop(SystemTest):
             driver = Driver(self, "--api", system.api)
             wait_until(lambda: (keeper.step(), "nobody owns" in driver.picture())[1], "its picture")
             begin = time.monotonic()
-            while time.monotonic() < begin + kUnread_s:  # its picture does not fit into the terminal any more
+            while time.monotonic() < begin + UNREAD_S:  # its picture does not fit into the terminal any more
                 keeper.step()
             driver.press("\x13 ")  # Ctrl-S is no key, space is
             wait_until(lambda: keeper.step()["stop"], "the stop")

@@ -8,8 +8,8 @@ import subprocess
 from liana.system import program
 from scenario_file import expect_that
 
-kFields = {"poses": list, "cross_wired": list}
-kExpected = {"code": int, "says": list}
+FIELDS = {"poses": list, "cross_wired": list}
+EXPECTED = {"code": int, "says": list}
 
 
 class CalibrateRun:

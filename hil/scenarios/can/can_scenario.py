@@ -1,13 +1,13 @@
 """Scenarios on CAN interfaces: their files (README.md), and what runs each."""
 from can import calibrate_run, mission_run, real_kills
 from can.stand import CanStand
-from can.system import BenchOnCan, kInterfaces
+from can.system import BenchOnCan, INTERFACES
 from run_scenario import Run, outcome
-from scenario_file import BadScenario, check_during, check_fields, kTimeLimit_s, read
+from scenario_file import BadScenario, check_during, check_fields, TIME_LIMIT_S, read
 from source_tree import SCENARIOS
 
-kReadme = "hil/scenarios/can/README.md"
-kFields = {
+README = "hil/scenarios/can/README.md"
+FIELDS = {
     "about": str,
     "on": list,
     "during": str,
@@ -20,7 +20,7 @@ kFields = {
     "reduced": bool,
     "only_in_vm": bool,
 }
-kExpected = {
+EXPECTED = {
     "fault": (int, list, type(None)),
     "state": str,
     "within_ticks": int,
@@ -28,7 +28,7 @@ kExpected = {
     "travel_deg": (int, float),
     "overruns": int,
 }
-kKinds = (*kInterfaces, "drives")
+KINDS = (*INTERFACES, "drives")
 
 
 class CanScenario:
@@ -38,23 +38,23 @@ class CanScenario:
         self.calibrate, self.mission = content.get("calibrate"), content.get("mission")
         is_scenario = not self.calibrate and not self.mission
         check_fields(
-            self.name, content, kFields, ("about", "on", "expect", *(["during"] if is_scenario else [])), kReadme
+            self.name, content, FIELDS, ("about", "on", "expect", *(["during"] if is_scenario else [])), README
         )
         if self.mission:
-            check_fields(f"{self.name}: mission", self.mission, mission_run.kFields, ("name", "bus"), kReadme)
-            check_fields(f"{self.name}: expect", content["expect"], mission_run.kExpected, ("outcome",), kReadme)
+            check_fields(f"{self.name}: mission", self.mission, mission_run.FIELDS, ("name", "bus"), README)
+            check_fields(f"{self.name}: expect", content["expect"], mission_run.EXPECTED, ("outcome",), README)
         elif self.calibrate:
-            check_fields(f"{self.name}: calibrate", self.calibrate, calibrate_run.kFields, ("poses",), kReadme)
-            check_fields(f"{self.name}: expect", content["expect"], calibrate_run.kExpected, ("code",), kReadme)
+            check_fields(f"{self.name}: calibrate", self.calibrate, calibrate_run.FIELDS, ("poses",), README)
+            check_fields(f"{self.name}: expect", content["expect"], calibrate_run.EXPECTED, ("code",), README)
         else:
-            check_fields(f"{self.name}: expect", content["expect"], kExpected, ("fault", "state"), kReadme)
+            check_fields(f"{self.name}: expect", content["expect"], EXPECTED, ("fault", "state"), README)
             check_during(self.name, content["during"])
-        if not content["on"] or not set(content["on"]) <= set(kKinds):
-            raise BadScenario(f"{self.name}: on is {content['on']}; allowed are {', '.join(kKinds)}")
+        if not content["on"] or not set(content["on"]) <= set(KINDS):
+            raise BadScenario(f"{self.name}: on is {content['on']}; allowed are {', '.join(KINDS)}")
         self.on, self.during, self.expect = content["on"], content.get("during"), content["expect"]
         self.do, self.mend = content.get("do", []), content.get("mend", [])
         self.restart, self.reduced = content.get("restart"), content.get("reduced", False)
-        self.time_limit_s = kTimeLimit_s
+        self.time_limit_s = TIME_LIMIT_S
         self.only_in_vm = content.get("only_in_vm", False)
         number = self.expect.get("fault")
         self.numbers = [] if number is None else number if isinstance(number, list) else [number]

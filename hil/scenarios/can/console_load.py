@@ -11,13 +11,13 @@ import time
 
 from liana.system import program, run
 
-kWatchers = 20
-kPatience_s = 2.0  # without a record
-kUpgrade = (
+WATCHERS = 20
+PATIENCE_S = 2.0  # without a record
+UPGRADE = (
     "GET /ws HTTP/1.1\r\nHost: {host}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
     "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Protocol: liana-console-1\r\n\r\n"
 )
-kText, kBinary = 0x81, 0x82
+TEXT, BINARY = 0x81, 0x82
 
 
 def frame(kind, payload):
@@ -25,15 +25,15 @@ def frame(kind, payload):
     return bytes([kind, 0x80 | len(payload), 0, 0, 0, 0]) + payload
 
 
-kHello = frame(kText, b'{"op":"hello","name":"watcher"}')
-kNonsense = frame(kText, b'{"op":"nonsense"}') * 20
+HELLO = frame(TEXT, b'{"op":"hello","name":"watcher"}')
+NONSENSE = frame(TEXT, b'{"op":"nonsense"}') * 20
 
 
 def connected(host):
     """A socket that has asked for the WebSocket and been answered."""
     name, port = host.split(":")
     client = socket.create_connection((name, int(port)))
-    client.sendall(kUpgrade.format(host=host).encode())
+    client.sendall(UPGRADE.format(host=host).encode())
     client.recv(65536)
     return client
 
@@ -43,7 +43,7 @@ class Watcher:
 
     def __init__(self, host):
         self.socket, self.buffer, self.records = connected(host), b"", 0
-        self.socket.sendall(kHello)
+        self.socket.sendall(HELLO)
 
     def read(self):
         self.buffer += self.socket.recv(65536)
@@ -57,23 +57,23 @@ class Watcher:
                 size, begin = struct.unpack_from("!Q", self.buffer, 2)[0], 10
             if len(self.buffer) < begin + size:
                 return
-            if kind == kBinary:
+            if kind == BINARY:
                 self.records += 1
-                self.socket.sendall(frame(kBinary, self.buffer[begin : begin + 4]))
+                self.socket.sendall(frame(BINARY, self.buffer[begin : begin + 4]))
             self.buffer = self.buffer[begin + size :]
 
 
 def send_nonsense(flood, host):
     """A little more of it; the connection that goes on with it, another one when that one was closed."""
     try:
-        flood.send(kNonsense, socket.MSG_DONTWAIT)
+        flood.send(NONSENSE, socket.MSG_DONTWAIT)
         return flood
     except BlockingIOError:
         return flood
     except OSError:
         flood.close()
         flood = connected(host)
-        flood.sendall(kHello)
+        flood.sendall(HELLO)
         return flood
 
 
@@ -82,7 +82,7 @@ def main():
     words = ["--api", api, "--listen", "127.0.0.1:0"]
     with subprocess.Popen([program("liana-gateway"), *words], stdout=subprocess.PIPE, text=True) as gateway:
         host = gateway.stdout.readline().split("/")[2]
-        watchers = {watcher.socket.fileno(): watcher for watcher in (Watcher(host) for _ in range(kWatchers))}
+        watchers = {watcher.socket.fileno(): watcher for watcher in (Watcher(host) for _ in range(WATCHERS))}
         deaf, flood = Watcher(host), connected(host)
         poll = select.poll()
         for number in watchers:
@@ -95,7 +95,7 @@ def main():
             records = min(watcher.records for watcher in watchers.values())
             if records > seen:
                 seen, since = records, time.monotonic()
-            if time.monotonic() - since > kPatience_s:
+            if time.monotonic() - since > PATIENCE_S:
                 sys.exit("the gateway does not serve its clients")
 
 

@@ -9,17 +9,17 @@ import time
 from liana.system import binaries, program, run
 from source_tree import SCENARIOS
 
-kSeconds = 3
+SECONDS = 3
 # What runs beside, at normal priority, each without end.
-kDisk = "while dd if=/dev/zero of=$LOAD_DIR/file bs=64k count=64 conv=fsync status=none; do rm -f $LOAD_DIR/file; done"
-kForks = "while /bin/true; do :; done"
-kClients = "while :; do $LOAD_BIN/liana status --json > /dev/null 2>&1; done"
-kFlood = [sys.executable, "-S", str(SCENARIOS / "can" / "flood.py")]
-kConsole = [sys.executable, "-S", "-c", "from can import console_load; console_load.main()"]
-kLoads = {
+DISK = "while dd if=/dev/zero of=$LOAD_DIR/file bs=64k count=64 conv=fsync status=none; do rm -f $LOAD_DIR/file; done"
+FORKS = "while /bin/true; do :; done"
+CLIENTS = "while :; do $LOAD_BIN/liana status --json > /dev/null 2>&1; done"
+FLOOD = [sys.executable, "-S", str(SCENARIOS / "can" / "flood.py")]
+CONSOLE = [sys.executable, "-S", "-c", "from can import console_load; console_load.main()"]
+LOADS = {
     "idle": [],
-    "loaded": [["bash", "-c", kDisk], ["bash", "-c", kForks], ["bash", "-c", kClients], kFlood],
-    "console": [kConsole],
+    "loaded": [["bash", "-c", DISK], ["bash", "-c", FORKS], ["bash", "-c", CLIENTS], FLOOD],
+    "console": [CONSOLE],
 }
 
 
@@ -44,16 +44,16 @@ def measure(rate, load):
         environment = {**os.environ, "LOAD_DIR": folder, "LOAD_BIN": str(binaries())}
         environment["PYTHONPATH"] = os.pathsep.join(sys.path)
         measuring = subprocess.Popen(
-            [program("liana"), "latency", "--arm", "light", "--rate", rate, "--seconds", str(kSeconds), "--json"],
+            [program("liana"), "latency", "--arm", "light", "--rate", rate, "--seconds", str(SECONDS), "--json"],
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
         )
-        if kLoads[load]:
+        if LOADS[load]:
             wait_until_enabled(measuring)
         beside = [
             subprocess.Popen(words, env=environment, stderr=subprocess.DEVNULL, start_new_session=True)
-            for words in kLoads[load]
+            for words in LOADS[load]
         ]
         before = activity()
         try:

@@ -2,11 +2,11 @@
 the worst of all.
 """
 
-kWorstWakeup_us = {"idle": 25, "loaded": 50, "console": 50}
-kMinMoving = 0.5  # share of the time; the tip turns round now and then
-kAgree_us = 10  # between any two runs, in every figure
-kTimes = ("wakeup_us", "tick_us")
-kFigures = ("median", "p99", "worst")
+WORST_WAKEUP_US = {"idle": 25, "loaded": 50, "console": 50}
+MIN_MOVING = 0.5  # share of the time; the tip turns round now and then
+AGREE_US = 10  # between any two runs, in every figure
+TIMES = ("wakeup_us", "tick_us")
+FIGURES = ("median", "p99", "worst")
 
 
 def judge_run(run):
@@ -15,11 +15,11 @@ def judge_run(run):
         return run["error"]
     half_us = 5e5 / run["rate_hz"]
     wrong = [] if run["enabled"] else [f"the arm was not enabled all the time; faults: {run.get('faults', [])}"]
-    if run["moving"] < kMinMoving:
-        wrong.append(f"the arm moved for {100 * run['moving']:.0f} % of the time, asked for are {100 * kMinMoving:.0f}")
+    if run["moving"] < MIN_MOVING:
+        wrong.append(f"the arm moved for {100 * run['moving']:.0f} % of the time, asked for are {100 * MIN_MOVING:.0f}")
     for value, allowed, words in (
         (run["overruns"], 0, "overruns"),
-        (run["wakeup_us"]["worst"], kWorstWakeup_us[run["load"]], "us worst wake-up"),
+        (run["wakeup_us"]["worst"], WORST_WAKEUP_US[run["load"]], "us worst wake-up"),
         (run["tick_us"]["worst"], half_us, "us longest tick"),
     ):
         if value > allowed:
@@ -28,7 +28,7 @@ def judge_run(run):
 
 
 def over_runs(runs, choose):
-    return {time: {figure: choose([run[time][figure] for run in runs]) for figure in kFigures} for time in kTimes}
+    return {time: {figure: choose([run[time][figure] for run in runs]) for figure in FIGURES} for time in TIMES}
 
 
 def cell(rate_hz, load, runs):
@@ -42,7 +42,7 @@ def cell(rate_hz, load, runs):
         spread = over_runs(measured, lambda values: max(values) - min(values))
         row |= over_runs(measured, max) | {
             "overruns": sum(run["overruns"] for run in measured),
-            "difference_us": max(value for time in kTimes for value in spread[time].values()),
+            "difference_us": max(value for time in TIMES for value in spread[time].values()),
         }
     return row
 
@@ -52,15 +52,15 @@ def judge(row):
     wrong = [
         f"run {number}: {run['verdict']}" for number, run in enumerate(row["runs"], 1) if run["verdict"] != "holds"
     ]
-    if row.get("difference_us", 0) > kAgree_us:
-        wrong.append(f"runs differ by {row['difference_us']} us, allowed are {kAgree_us}")
+    if row.get("difference_us", 0) > AGREE_US:
+        wrong.append(f"runs differ by {row['difference_us']} us, allowed are {AGREE_US}")
     return "; ".join(wrong)
 
 
 def notes(row):
     if "wakeup_us" not in row:
         return []
-    wakeup, tick = ("/".join(str(row[time][figure]) for figure in kFigures) for time in kTimes)
+    wakeup, tick = ("/".join(str(row[time][figure]) for figure in FIGURES) for time in TIMES)
     return [
         f"wake-up {wakeup} us, tick {tick} us (median/p99/worst of {len(row['runs'])} runs),"
         f" {row['overruns']} overruns, difference {row['difference_us']} us"

@@ -12,18 +12,18 @@ import sys
 import tempfile
 
 from can import can_scenario, latency_verdict
-from can.system import kInterfaces
+from can.system import INTERFACES
 from liana.system import binaries
 from source_tree import SCENARIOS, SOURCE
 
 HERE = SCENARIOS / "can"
 GUEST = SCENARIOS / "guest.py"
 RUN_IN_VM = SOURCE / "hil" / "vm" / "run_in_vm"
-kTimeout_s = 1500  # of wall time for one guest; half a minute to two minutes on a free machine
-kGuests = 2  # at a time; each takes one processor
-kMaxPerGuest = 10  # scenarios in one boot
+TIMEOUT_S = 1500  # of wall time for one guest; half a minute to two minutes on a free machine
+GUESTS = 2  # at a time; each takes one processor
+MAX_PER_GUEST = 10  # scenarios in one boot
 # Program -> the Debian package it comes from; the guest sees this machine's files.
-kPrograms = {
+PROGRAMS = {
     "tc": "iproute2",
     "cansend": "can-utils",
     "cangen": "can-utils",
@@ -32,7 +32,7 @@ kPrograms = {
     "choom": "util-linux",
     "unshare": "util-linux",
 }
-kLiana = (
+LIANA = (
     "liana",
     "lianad",
     "liana-bus",
@@ -42,13 +42,13 @@ kLiana = (
     "liana-archive",
     "liana-gateway",
 )
-kHere = ("vcan", "gateway")  # kinds of bus that a machine's own kernel makes in a network of its own
-kOwnNetwork = (
+OWN_KERNEL = ("vcan", "gateway")  # kinds of bus that a machine's own kernel makes in a network of its own
+OWN_NETWORK = (
     "unshare",
     "--net",
 )  # interfaces and gateway rules that nobody else on this machine sees, gone at the end
-kPython = "/usr/bin/python3"  # Debian's own, whose files are known
-kTools = (
+PYTHON = "/usr/bin/python3"  # Debian's own, whose files are known
+TOOLS = (
     "bash",
     "sh",
     "env",
@@ -69,9 +69,9 @@ kTools = (
 )
 # On a processor of 500 MIPS, verifying a move beside the controllers' interrupts takes longer than its command
 # interval; at 1000 it does not.
-kScenarioMachine = ("--controllers", "--instruction-ns", "1", "--memory", "1024")
-kBuses = {"vcan": "vcan", "gateway": "vcan and can-gw", "sja1000": "SJA1000", "serial": "slcan"}
-kLatency = [("250", "idle"), ("250", "loaded"), ("250", "console"), ("500", "idle"), ("500", "loaded")]
+SCENARIO_MACHINE = ("--controllers", "--instruction-ns", "1", "--memory", "1024")
+BUSES = {"vcan": "vcan", "gateway": "vcan and can-gw", "sja1000": "SJA1000", "serial": "slcan"}
+LATENCY = [("250", "idle"), ("250", "loaded"), ("250", "console"), ("500", "idle"), ("500", "loaded")]
 
 
 class NoMachine(Exception):
@@ -100,15 +100,15 @@ def all_items():
             f"{one.name}@{kind}",
             one.reduced and kind == one.on[0],
             one.fault_count(),
-            kind in kHere and not one.only_in_vm,
+            kind in OWN_KERNEL and not one.only_in_vm,
         )
         for one in can_scenario.all_scenarios()
         for kind in one.on
-        if kind in kInterfaces
+        if kind in INTERFACES
     ]
     return scenarios + [
         Item(f"latency/{rate}_{load}", f"{rate}:{load}", rate == "250" and load == "idle", 0, False)
-        for rate, load in kLatency
+        for rate, load in LATENCY
     ]
 
 
@@ -117,7 +117,7 @@ def check_packages():
     missing = sorted(
         {
             package
-            for program, package in {**kPrograms, kPython: "python3"}.items()
+            for program, package in {**PROGRAMS, PYTHON: "python3"}.items()
             if shutil.which(program, path=path) is None
         }
     )
@@ -133,7 +133,7 @@ def has_can():
         return False
     return (
         subprocess.run(
-            [*kOwnNetwork, "ip", "link", "add", "dev", "vcan0", "type", "vcan"], capture_output=True, check=False
+            [*OWN_NETWORK, "ip", "link", "add", "dev", "vcan0", "type", "vcan"], capture_output=True, check=False
         ).returncode
         == 0
     )
@@ -145,7 +145,7 @@ def where_of(item, native):
         return "VM: icount, embedded bus"
     if native and item.runs_here:
         return f"this machine's own CAN: {kind}; the clock of the wall, no icount"
-    return f"VM: {kBuses[kind]}"
+    return f"VM: {BUSES[kind]}"
 
 
 def guest_files():
@@ -157,7 +157,7 @@ def guest_files():
         " print(*{str(path) for each in list(sys.modules.values()) for path in (getattr(each, '__file__', 0),"
         " getattr(each, '__cached__', 0)) if path}, sep='\\n')"
     )
-    modules = subprocess.run([kPython, "-S", "-c", ask], capture_output=True, text=True, check=True).stdout.split()
+    modules = subprocess.run([PYTHON, "-S", "-c", ask], capture_output=True, text=True, check=True).stdout.split()
     encodings = [
         os.path.dirname(path) for path in modules if path.endswith("/encodings/__init__.py")
     ]  # each is read when it is first used
@@ -169,9 +169,9 @@ def guest_files():
         *encodings,
         *[path for path in modules if os.path.exists(path)],
     ]
-    programs = [str(binaries() / name) for name in kLiana]
+    programs = [str(binaries() / name) for name in LIANA]
     words = ["--sealed", *[word for path in files for word in ("--preload", str(path))]]
-    return words + [word for name in [kPython, *kTools, *kPrograms, *programs] for word in ("--preload-program", name)]
+    return words + [word for name in [PYTHON, *TOOLS, *PROGRAMS, *programs] for word in ("--preload-program", name)]
 
 
 def in_guest(what, native, machine=()):
@@ -180,10 +180,10 @@ def in_guest(what, native, machine=()):
     """
     with tempfile.TemporaryDirectory(prefix="liana-can-") as folder:
         if native:
-            call = [*kOwnNetwork, sys.executable, GUEST, f"{folder}/rows", *what]
+            call = [*OWN_NETWORK, sys.executable, GUEST, f"{folder}/rows", *what]
         else:
-            vm = [RUN_IN_VM, "--icount", *machine, *guest_files(), "--timeout", str(kTimeout_s), "--results", folder]
-            python = ["env", f"LIANA_BIN={binaries()}", kPython, "-S", GUEST]
+            vm = [RUN_IN_VM, "--icount", *machine, *guest_files(), "--timeout", str(TIMEOUT_S), "--results", folder]
+            python = ["env", f"LIANA_BIN={binaries()}", PYTHON, "-S", GUEST]
             call = [*vm, *python, "/run/liana-vm/results/rows", *what]
         done = subprocess.run(call, capture_output=True, text=True, check=False, cwd=HERE)
         path = pathlib.Path(folder) / "rows"
@@ -192,7 +192,7 @@ def in_guest(what, native, machine=()):
 
 
 def scenario_rows(items, native):
-    rows, said = in_guest([item.word for item in items], native, kScenarioMachine)
+    rows, said = in_guest([item.word for item in items], native, SCENARIO_MACHINE)
     found = {f"{row['name']}@{row['on']}": row for row in rows}
     for item in items:
         row = found.get(item.word, {"outcome": "failed", "seconds": 0.0, "why": f"the machine {said}", "notes": []})
@@ -234,7 +234,7 @@ def run_all(items, report, runs):
     native = has_can()
     here = [item for item in items if native and item.runs_here]
     in_vm = [item for item in items if not item.is_latency() and item not in here]
-    guests = chunks(in_vm, min(kMaxPerGuest, -(-len(in_vm) // kGuests) or 1))
+    guests = chunks(in_vm, min(MAX_PER_GUEST, -(-len(in_vm) // GUESTS) or 1))
     measured = [
         ([item for item in items if item.name.startswith(f"latency/{rate}_")], count) for rate, count in runs.items()
     ]
@@ -247,7 +247,7 @@ def run_all(items, report, runs):
             if timing is not None:
                 latency.append(timing)
 
-    with concurrent.futures.ThreadPoolExecutor(kGuests) as pool:
+    with concurrent.futures.ThreadPoolExecutor(GUESTS) as pool:
         jobs = [
             pool.submit(lambda group=group, count=count: list(latency_rows(group, count)))
             for group, count in measured

@@ -6,13 +6,13 @@ import subprocess
 import tempfile
 import time
 
-from can.system import kHardwarePriority, reset_interfaces
+from can.system import HARDWARE_PRIORITY, reset_interfaces
 from liana.system import program
 from scenario_file import expect_that
 
-kFields = {"name": str, "robot": str, "bus": str, "scene": str, "planted": str, "faults": list, "seed": int}
-kOptions = {"robot": "--robot", "scene": "--scene", "planted": "--fault", "seed": "--seed"}
-kExpected = {"outcome": str, "says": str, "failed": dict}
+FIELDS = {"name": str, "robot": str, "bus": str, "scene": str, "planted": str, "faults": list, "seed": int}
+OPTIONS = {"robot": "--robot", "scene": "--scene", "planted": "--fault", "seed": "--seed"}
+EXPECTED = {"outcome": str, "says": str, "failed": dict}
 
 
 def put_bench_first(process):
@@ -27,7 +27,7 @@ def put_bench_first(process):
                 words = (folder / "cmdline").read_bytes().split(b"\0")
                 if len(words) < 2 or b"--check" in words:  # none yet: it is just about to begin
                     continue
-                os.sched_setscheduler(int(folder.name), os.SCHED_FIFO, os.sched_param(kHardwarePriority))
+                os.sched_setscheduler(int(folder.name), os.SCHED_FIFO, os.sched_param(HARDWARE_PRIORITY))
                 return
             except OSError:  # it has just ended
                 continue
@@ -62,7 +62,7 @@ class MissionRun:
             faults = folder / "faults.json"
             faults.write_text(json.dumps(mission["faults"]), encoding="utf-8")
             words += ["--faults", faults]
-        for field, option in kOptions.items():
+        for field, option in OPTIONS.items():
             if field in mission:
                 words += [option, str(mission[field])]
         process = subprocess.Popen(

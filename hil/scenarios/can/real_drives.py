@@ -12,8 +12,8 @@ from liana.client import Client
 from liana.system import run, table
 from scenario_file import BadScenario
 
-kKind = "drives"
-kSkipped = "breaks, watches or needs what the bench stands in for; on real drives do it by hand"
+KIND = "drives"
+SKIPPED = "breaks, watches or needs what the bench stands in for; on real drives do it by hand"
 
 
 class Witness(Client):
@@ -69,10 +69,10 @@ class Item:
     """A scenario on CAN interfaces, as real drives see it."""
 
     def __init__(self, scenario):
-        self.scenario, self.name, self.reduced = scenario, f"{scenario.name}/{kKind}", scenario.reduced
+        self.scenario, self.name, self.reduced = scenario, f"{scenario.name}/{KIND}", scenario.reduced
 
     def runs(self):
-        return kKind in self.scenario.on
+        return KIND in self.scenario.on
 
     def fault_count(self):
         return self.scenario.fault_count() if self.runs() else 0
@@ -111,8 +111,8 @@ def run_all(items, buses, calibration, report):
     """Runs one after the other; calls report(row) as rows come. What real drives cannot serve is skipped, by name."""
     rows = []
     for item in items:
-        skipped = {"outcome": "skipped", "seconds": 0.0, "why": kSkipped, "notes": []}
-        row = can_scenario.row(item.scenario, kKind, DrivesStand(buses, calibration)) if item.runs() else skipped
+        skipped = {"outcome": "skipped", "seconds": 0.0, "why": SKIPPED, "notes": []}
+        row = can_scenario.row(item.scenario, KIND, DrivesStand(buses, calibration)) if item.runs() else skipped
         rows.append(
             {
                 "name": item.name,

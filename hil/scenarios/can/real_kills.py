@@ -14,17 +14,17 @@ from can.system import BenchOnCan
 from liana.client import ConnectionClosed, NotReached
 from run_scenario import LimitedRun
 from scenario_file import expect_that
-from slit import FOLDER, kRobot, MOMENTS, TARGETS
+from slit import FOLDER, ROBOT, MOMENTS, TARGETS
 from slit_truth import beside_way_m
 
 KIND = "vcan"
 VICTIMS = ("liana-operator", "liana-mission", "client", "liana-archive", "bus", "lianad", "stall")
-kStalls_s = (0.005, 0.02, 0.1, 1.0)
-kCount = 20
-kSeed = 1
-kReduced = 1
-kMoving_s = 30.0  # until the mission has begun to move the arm
-kUnled_s = 3.0  # that whoever is left gets; every stop is over in half of it
+STALLS_S = (0.005, 0.02, 0.1, 1.0)
+COUNT = 20
+SEED = 1
+REDUCED = 1
+MOVING_S = 30.0  # until the mission has begun to move the arm
+UNLED_S = 3.0  # that whoever is left gets; every stop is over in half of it
 
 Strike = collections.namedtuple("Strike", "victim moment after_s stall_s bus seed")
 
@@ -34,12 +34,12 @@ def draw(count, seed):
     choice = random.Random(f"real kills {seed}")
     for i in range(count):
         moment, after_s = choice.choice(("step4", "step6", "retract")), choice.uniform(0.2, 3.0)
-        stall_s, bus = choice.choice(kStalls_s), choice.randrange(2)
+        stall_s, bus = choice.choice(STALLS_S), choice.randrange(2)
         yield Strike(VICTIMS[i % len(VICTIMS)], moment, after_s, stall_s, bus, choice.randrange(1, 10**6))
 
 
 def all_real_kills():
-    return [RealKill(i, one) for i, one in enumerate(draw(kCount, kSeed))]
+    return [RealKill(i, one) for i, one in enumerate(draw(COUNT, SEED))]
 
 
 class RealKill:
@@ -49,7 +49,7 @@ class RealKill:
 
     def __init__(self, number, strike):
         self.name = f"can/40_slit_kills/{number}_{strike.victim}_{strike.moment}"
-        self.strike, self.reduced, self.time_limit_s = strike, number < kReduced, 300
+        self.strike, self.reduced, self.time_limit_s = strike, number < REDUCED, 300
         self.target = TARGETS["killed"]
 
     def fault_count(self):
@@ -69,17 +69,17 @@ class RealKillRun(LimitedRun):
     def act(self):
         moment = MOMENTS[self.scenario.strike.moment]
         words = ["--start-pose", moment.pose]
-        with BenchOnCan(KIND, robot=str(kRobot), seed=self.scenario.strike.seed, bench=words) as system:
+        with BenchOnCan(KIND, robot=str(ROBOT), seed=self.scenario.strike.seed, bench=words) as system:
             with self.limited(system):
                 system.start_archive()
                 client, bystander = system.client(), system.client(name="bystander")
                 system.start_operator(lockstep=False)
                 system.start_mission(FOLDER / moment.mission, lockstep=False)
-                client.until(lambda state: self.heard(state) and state["is_busy"] and not state["at_rest"], kMoving_s)
+                client.until(lambda state: self.heard(state) and state["is_busy"] and not state["at_rest"], MOVING_S)
                 self.watch(client, self.scenario.strike.after_s)
                 expect_that(not client.state["faults"], f"a fault before the strike: {client.state['faults']}")
                 self.strike(system, bystander)
-                self.watch(client, kUnled_s)
+                self.watch(client, UNLED_S)
                 self.end(system, client)
             self.judge(system)
 

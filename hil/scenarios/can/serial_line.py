@@ -16,18 +16,18 @@ import sys
 import termios
 import tty
 
-kSlcan = 17  # line discipline
-kNameOfInterface = 0x8910  # SIOCGIFNAME
-kQueue = "128"  # frames; the driver's own default is too short for the targets of a bus
+SLCAN = 17  # line discipline
+NAME_OF_INTERFACE = 0x8910  # SIOCGIFNAME
+QUEUE = "128"  # frames; the driver's own default is too short for the targets of a bus
 
 
 def interface(name):
     """A new interface of this name: the adapter's side of its line, and the driver's, which has to stay open."""
     adapter, driver = pty.openpty()
     tty.setraw(driver)
-    fcntl.ioctl(driver, termios.TIOCSETD, struct.pack("i", kSlcan))
-    found = fcntl.ioctl(driver, kNameOfInterface, bytes(16)).split(b"\0")[0].decode()
-    subprocess.run(["ip", "link", "set", found, "name", name, "txqueuelen", kQueue], check=True)
+    fcntl.ioctl(driver, termios.TIOCSETD, struct.pack("i", SLCAN))
+    found = fcntl.ioctl(driver, NAME_OF_INTERFACE, bytes(16)).split(b"\0")[0].decode()
+    subprocess.run(["ip", "link", "set", found, "name", name, "txqueuelen", QUEUE], check=True)
     subprocess.run(["ip", "link", "set", name, "up"], check=True)
     return adapter, driver
 

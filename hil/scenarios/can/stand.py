@@ -6,8 +6,8 @@ import subprocess
 from scenario_file import expect_that
 from stand import Stand
 
-kMoveDeg = 2.0
-kTravelDeg = 1.0  # of any true angle in the last run without torque
+MOVE_DEG = 2.0
+TRAVEL_DEG = 1.0  # of any true angle in the last run without torque
 
 
 class CanStand(Stand):
@@ -28,7 +28,7 @@ class CanStand(Stand):
 
     def start_move(self, client):
         # To and fro, where one scenario follows the other.
-        client.start_moving(math.copysign(kMoveDeg, client.state["setpoint_js_deg"][8]))
+        client.start_moving(math.copysign(MOVE_DEG, client.state["setpoint_js_deg"][8]))
 
     def shell(self, system, lines):
         """The scenario's own commands; each must succeed."""
@@ -74,5 +74,5 @@ class CanStand(Stand):
             f"the drives got torque {len(rises)} times ({rises}), the operator enabled {allowed} times",
         )
         expect_that(not enabled[-1], "drives still have torque at the end")
-        allowed_deg = run.expect.get("travel_deg", kTravelDeg)
+        allowed_deg = run.expect.get("travel_deg", TRAVEL_DEG)
         expect_that(travel_deg <= allowed_deg, f"the arm travelled {travel_deg:.2f} deg without torque")

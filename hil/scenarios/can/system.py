@@ -13,11 +13,11 @@ from scenario_file import expect_that
 from source_tree import SCENARIOS
 
 # The bench stands for hardware, which is never late for want of a processor; under lianad's thread (80).
-kHardwarePriority = 70
-kLinePriority = 75  # of what stands for a wire
+HARDWARE_PRIORITY = 70
+LINE_PRIORITY = 75  # of what stands for a wire
 # Kind of bus -> what lianad opens, what the bench opens: one virtual wire; two with a gateway between, which can lose
 # and swap; the two controllers of one emulated bus; or two adapters on a serial line.
-kInterfaces = {
+INTERFACES = {
     "vcan": (("vcan0", "vcan1"), ("vcan0", "vcan1")),
     "gateway": (("vcan0", "vcan1"), ("vcan2", "vcan3")),
     "sja1000": (("can0", "can2"), ("can1", "can3")),
@@ -25,7 +25,7 @@ kInterfaces = {
 }
 # The emulated controllers send in no time: the queue before them keeps the pace. The kernel counts 16 bytes for a
 # frame, 128 us at this rate, which is what one with 8 data bytes takes at 1 Mbit/s; there is room for 256.
-kWire = ("tbf", "rate", "1mbit", "burst", "32", "limit", "4096")
+WIRE = ("tbf", "rate", "1mbit", "burst", "32", "limit", "4096")
 
 
 def command(*words):
@@ -37,15 +37,15 @@ def command(*words):
 def reset_interfaces(kind):
     """As they were at the start, whatever a scenario left behind."""
     subprocess.run(["cangw", "-F"], capture_output=True, check=False)  # complains when there is nothing to flush
-    for name in sorted({name for end in kInterfaces[kind] for name in end}):
+    for name in sorted({name for end in INTERFACES[kind] for name in end}):
         if name not in (known for _, known in socket.if_nameindex()):  # /sys would show another network's
             command("ip", "link", "add", "dev", name, "type", "vcan")
         command("ip", "link", "set", name, "down")
         command("ip", "link", "set", name, "up")
         if kind == "sja1000":
-            command("tc", "qdisc", "replace", "dev", name, "root", *kWire)
+            command("tc", "qdisc", "replace", "dev", name, "root", *WIRE)
     if kind == "gateway":
-        for ours, theirs in zip(*kInterfaces[kind]):
+        for ours, theirs in zip(*INTERFACES[kind]):
             command("cangw", "-A", "-s", ours, "-d", theirs, "-e")
             command("cangw", "-A", "-s", theirs, "-d", ours, "-e")
 
@@ -99,7 +99,7 @@ class BenchOnCan(CanSystem):
 
     def __init__(self, kind, **options):
         super().__init__(**options)
-        self.ours, self.theirs, self.line = *kInterfaces[kind], None
+        self.ours, self.theirs, self.line = *INTERFACES[kind], None
         if kind == "serial":
             self.start_line()
         else:
@@ -111,7 +111,7 @@ class BenchOnCan(CanSystem):
         names = [name for pair in zip(self.ours, self.theirs) for name in pair]
         self.line = subprocess.Popen([sys.executable, "-S", SCENARIOS / "can" / "serial_line.py", commands, *names])
         wait_until(lambda: commands.exists() or self.line.poll() is not None, "the interfaces on serial lines")
-        os.sched_setscheduler(self.line.pid, os.SCHED_FIFO, os.sched_param(kLinePriority))
+        os.sched_setscheduler(self.line.pid, os.SCHED_FIFO, os.sched_param(LINE_PRIORITY))
 
     def __exit__(self, *why):
         super().__exit__(*why)
@@ -129,7 +129,7 @@ class BenchOnCan(CanSystem):
     def start_bench(self):
         words = ["--can", ",".join(self.theirs), "--api", self.api, "--arm", "light", "--physics", "ideal"]
         self.start("liana-bench", *self.tables(), *words, *self.reports_of_bench(), *self.bench_words)
-        os.sched_setscheduler(self.children["liana-bench"].pid, os.SCHED_FIFO, os.sched_param(kHardwarePriority))
+        os.sched_setscheduler(self.children["liana-bench"].pid, os.SCHED_FIFO, os.sched_param(HARDWARE_PRIORITY))
 
     def environment(self):
         names = {f"BENCH{index}": name for index, name in enumerate(self.theirs)}
