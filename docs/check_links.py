@@ -21,7 +21,7 @@ def pages():
 
 
 def readmes(folder):
-    return sorted({*folder.glob("README.md"), *folder.glob("*/README.md")})
+    return sorted({*folder.glob("README.md"), *folder.glob("*/README.md"), *folder.glob("*/*/README.md")})
 
 
 @functools.cache
