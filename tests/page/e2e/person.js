@@ -21,6 +21,7 @@ window.person = (() => {
   let last_s = NaN;
   let open_until_s = -1;
   let not_followed_s = 0;
+  let samples = 0;
 
   const live = () => window.liana.live;
   const now_s = () => live().sample.time_s;
@@ -54,6 +55,9 @@ window.person = (() => {
     open_until_s = -1;
   }
 
+  // No hand stands still to the last digit: one that does is taken for a tracker whose values are stuck.
+  const tremor_m = () => 2e-5 * Math.sin(2.4 * samples++);
+
   // Puts a handle where it has this pose in the base frame, its trigger held by so much.
   function put(side, pose, held) {
     const device = headset_to_base();
@@ -61,7 +65,7 @@ window.person = (() => {
     const place = turned(back(device), pose.slice(0, 3));
     const shift = turned(q, offset[side].place);
     const hand = window.headset.controllers[side];
-    hand.position.set(...place.map((x, i) => x - shift[i]));
+    hand.position.set(...place.map((x, i) => x - shift[i] + tremor_m()));
     hand.quaternion.set(q[1], q[2], q[3], q[0]);
     hand.updateButtonValue('trigger', held);
   }
