@@ -11,7 +11,7 @@ namespace liana::arbiter {
 namespace {
 
 // Of the tip's speed limit that a hand may ask for: an arm that friction held swings on faster than it is led.
-constexpr double kHandSpeed = 0.75;
+constexpr double kHandSpeed = 0.8;
 
 }  // namespace
 
