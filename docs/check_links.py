@@ -16,7 +16,10 @@ OTHERS = {"node_modules", "__pycache__", "corpus"}  # a fuzzer's corpus is data
 def pages():
     """All that people read: of the top, of docs, and the READMEs that open the folders."""
     top = [ROOT / "README.md", ROOT / "CHANGELOG.md", ROOT / "CONTRIBUTING.md"]
-    folders = [ROOT / "tests/README.md", *(page for name in ("firmware_like", "host", "hil", "lua") for page in readmes(ROOT / name))]
+    folders = [
+        ROOT / "tests/README.md",
+        *(page for name in ("firmware_like", "host", "hil", "lua") for page in readmes(ROOT / name)),
+    ]
     return [*top, *sorted(DOCS.rglob("*.md")), *folders]
 
 
