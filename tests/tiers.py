@@ -1,5 +1,7 @@
 """The tests, in two tiers: `./dev test [deep | FOLDER] [--json]` and `./dev tsan [FOLDER]`.
 
+`--folders` lists what may be asked for, `--shared-memory` says whether Python can make its locks.
+
 A tier is a row of stages. Each test of ctest and each other check is counted; what fails or is skipped is named at the
 end. A failure does not keep later stages from running. Exit code 0: all passed; 1: not; 2: bad input."""
 
@@ -17,6 +19,7 @@ import xml.etree.ElementTree
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests/structure"))
 import lint
+from lint import configure, does
 
 JOBS = os.cpu_count()
 
@@ -35,6 +38,7 @@ UNSANITIZED = ["alloc_guard_tests", "socketcan_tests", "closed_loop_tests", "wor
 TIDIED = ["firmware_like", "host/base/net", "host/api/server", "host/control/realtime"]
 # What has threads of its own.
 THREADED = ["host/base/event", "host/storage/archive", "host/control/realtime", "host/control/server"]
+ALL_PACKAGES = ["build", "configure", "format", "clang", "deep", "install", "chromium", "tshark", "vm", "bits", "npm"]
 FUZZ_SECONDS = 5  # each target
 PAGE_SUITES = ["unit", "console", "tls", "run_page", "vr", "frames"]
 BARE_ROOT = "README's first command on a bare Debian 12"
@@ -58,11 +62,6 @@ def say(text):
 
 def complain(text):
     print(f"test: {text}", file=sys.stderr, flush=True)
-
-
-def does(*command, **options):
-    """Whether the command, told from the top of the tree, ends well."""
-    return subprocess.run(command, cwd=ROOT, check=False, **options).returncode == 0
 
 
 class Tally:
@@ -139,22 +138,12 @@ def folder_of(preset):
     return "build/programs" if preset == "tests" else f"build/{preset}"
 
 
-def configure(preset):
-    done = subprocess.run(
-        ["cmake", "--preset", preset],
-        cwd=ROOT,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        check=False,
-    )
-    if done.returncode != 0:
-        print(done.stdout, file=sys.stderr)
-    return done.returncode == 0
+def ninja(preset, *targets):
+    return ["ninja", "-C", folder_of(preset), "-j", str(JOBS), *targets]
 
 
 def build(preset, *targets, **options):
-    return configure(preset) and does("ninja", "-C", folder_of(preset), "-j", str(JOBS), *targets, **options)
+    return configure(preset, **options) and does(*ninja(preset, *targets), **options)
 
 
 def objects():
@@ -174,27 +163,29 @@ def keeping_objects():
     }
 
 
-def build_tests(*targets):
-    """Programs and these; what is compiled is kept where ccache is."""
-    env = keeping_objects() if does("which", "ccache", stdout=subprocess.DEVNULL) else dict(os.environ)
-    told = ["cmake", "--preset", "tests"]
-    if not does(*told, env=env, stdout=subprocess.DEVNULL):
-        return False
-    if not does("ninja", "-C", "build/programs", "-j", str(JOBS), "programs", *targets, env=env):
-        return False
-    return does("ln", "-sfn", "programs/bin", "build/bin")
+def build_programs(preset, *targets, **options):
+    """The programs and these, of preset programs or tests."""
+    return build(preset, "programs", *targets, **options) and does("ln", "-sfn", "programs/bin", "build/bin")
+
+
+def build_tests(*targets, **options):
+    return build_programs("tests", *targets, **options)
 
 
 @contextlib.contextmanager
 def beside(preset, *targets):
     """The targets of what comes later are compiled while the rest leaves a processor idle. What does not compile is told
     when its turn comes."""
-    told = f"cmake --preset {preset} && ninja -C {folder_of(preset)} -j {JOBS} {' '.join(targets)}"
-    with subprocess.Popen(
-        told, shell=True, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-    ) as compiling:
+    configure(preset)
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    with subprocess.Popen(ninja(preset, *targets), cwd=ROOT, **quiet):
         yield
-        compiling.wait()
+
+
+def built(make):
+    """The stage that builds: whether `make` did."""
+    with stage("build"):
+        return TALLY.count("build", make())
 
 
 def install(*groups):
@@ -312,9 +303,8 @@ def proof():
     """A user's proof: the controller's arithmetic and rules, then whole processes, by the compiler that made the
     programs."""
     install("build", "configure")
-    with stage("build"):
-        is_built = TALLY.count("build", build_tests(*(f"tests/{folder}/all" for folder in PROVED), "tests/system/all"))
-    if not is_built:
+    targets = [*(f"tests/{folder}/all" for folder in PROVED), "tests/system/all"]
+    if not built(lambda: build_tests(*targets, env=keeping_objects())):
         return
     for folder in PROVED:
         with stage(f"tests/{folder}"):
@@ -325,13 +315,11 @@ def proof():
 
 def deep():
     """All the rest. The page comes first: some of the tests are of the page that it builds."""
-    install("build", "configure", "format", "clang", "deep", "vm", "bits", "npm")
+    install(*ALL_PACKAGES)
     with stage("lint"):
         for name, is_clean in lint.CHECKS.items():
             TALLY.count(name, is_clean())
-    with stage("build"):
-        is_built = TALLY.count("build", build_tests("all", *UNSANITIZED))
-    if not is_built:
+    if not built(lambda: build_tests("all", *UNSANITIZED, env=keeping_objects())):
         return
     with stage("page"):
         page()
@@ -356,19 +344,15 @@ def deep():
 
 def only_page():
     install("build", "chromium", "npm")
-    with stage("build"):
-        is_built = TALLY.count("build", build("programs", "programs"))
-    with stage("page"):
-        if is_built and does("ln", "-sfn", "programs/bin", "build/bin"):
+    if built(lambda: build_programs("programs")):
+        with stage("page"):
             page()
 
 
 def only_fuzzing():
     install("build", "configure", "clang")
-    with stage("build"):
-        is_built = TALLY.count("build", build("checked", "fuzz_targets"))
-    with stage("fuzzing"):
-        if is_built:
+    if built(lambda: build("checked", "fuzz_targets")):
+        with stage("fuzzing"):
             fuzzing()
 
 
@@ -379,11 +363,9 @@ def only_install():
 
 
 def only_folder(folder):
-    install("build", "configure", "format", "clang", "deep", "vm", "bits", "npm")
-    with stage("build"):
-        is_built = TALLY.count("build", build_tests(f"tests/{folder}/all"))
-    with stage("tests"):
-        if is_built:
+    install(*ALL_PACKAGES)
+    if built(lambda: build_tests(f"tests/{folder}/all")):
+        with stage("tests"):
             run_ctest("tests", folder)
 
 
@@ -397,9 +379,8 @@ OTHERS = {"deep": deep, "page": only_page, "fuzz": only_fuzzing, "install": only
 
 
 def folders():
-    """Those with tests of their own."""
-    found = {str(path.parent.relative_to(ROOT / "tests")) for path in (ROOT / "tests").glob("*/**/CMakeLists.txt")}
-    return sorted(found | set(OTHERS))
+    """Those with tests of ctest."""
+    return {str(path.parent.relative_to(ROOT / "tests")) for path in (ROOT / "tests").glob("*/**/CMakeLists.txt")}
 
 
 def has_shared_memory():
@@ -407,38 +388,47 @@ def has_shared_memory():
     return os.path.isdir("/dev/shm") and os.access("/dev/shm", os.W_OK)
 
 
-def folder_in(word):
-    """As the tests have it; raises ValueError for one without tests."""
-    folder = word.removeprefix("tests/").rstrip("/")
-    if folder not in folders():
-        raise ValueError(f"tests/{folder} has no tests of its own; folders with tests: {' '.join(folders())}")
+def folder_in(words, known):
+    """The one folder that the words name, as the tests have it, or none; raises ValueError for any other."""
+    if len(words) > 1:
+        raise ValueError(f"{' '.join(words)} are several; give one folder, or nothing")
+    folder = words[0].removeprefix("tests/").rstrip("/") if words else ""
+    if words and folder not in known:
+        raise ValueError(f"tests/{folder} has no tests of its own; folders with tests: {' '.join(sorted(known))}")
     return folder
 
 
 def tier(words):
     """What these words ask for; raises ValueError where nothing does."""
-    if words[:1] == ["--threads"]:
-        chosen = [folder_in(word) for word in words[1:]] or THREADED
-        return lambda: only_threads(chosen)
-    if len(words) > 1:
-        raise ValueError(f"{' '.join(words)} are several; give one folder, or nothing for the proof")
-    folder = folder_in(words[0]) if words else ""
+    folder = folder_in(words, folders() | set(OTHERS))
     if folder in ("", "deep", "system", "mutation") and not has_shared_memory():
         raise ValueError(NO_SHARED_MEMORY)
-    return OTHERS.get(folder, (lambda: only_folder(folder)) if folder else proof)
+    if not folder:
+        return proof
+    return OTHERS.get(folder, lambda: only_folder(folder))
+
+
+def tier_of_threads(words):
+    folder = folder_in(words, folders())
+    return lambda: only_threads([folder] if folder else THREADED)
 
 
 def main(words):
     if words == ["--folders"]:
-        print(" ".join(folders()))
+        print(" ".join(sorted(folders() | set(OTHERS))))
         return 0
+    if words == ["--shared-memory"]:
+        if not has_shared_memory():
+            complain(NO_SHARED_MEMORY)
+        return 0 if has_shared_memory() else 2
+    choose = tier_of_threads if words[:1] == ["--threads"] else tier
     as_json = "--json" in words
-    words = [word for word in words if word != "--json"]
-    options = [word for word in words if word.startswith("-") and word != "--threads"]
+    words = [word for word in words if word not in ("--json", "--threads")]
+    options = [word for word in words if word.startswith("-")]
     try:
         if options:
             raise ValueError(f"{options[0]}: no such option; allowed: --json")
-        run = tier(words)
+        run = choose(words)
     except ValueError as error:
         complain(error)
         return 2

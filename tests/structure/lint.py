@@ -12,6 +12,24 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 JOBS = str(os.cpu_count())
 
 
+def does(*command, **options):
+    """Whether the command, called at the top of the tree, ends well; one that is not there does not."""
+    try:
+        return subprocess.run(command, cwd=ROOT, check=False, **options).returncode == 0
+    except OSError as error:
+        print(f"{command[0]}: {error.strerror}", file=sys.stderr, flush=True)
+        return False
+
+
+def configure(preset, **options):
+    """CMake's configuration, which is shown only where it fails."""
+    told = ["cmake", "--preset", preset]
+    done = subprocess.run(told, cwd=ROOT, capture_output=True, text=True, check=False, **options)
+    if done.returncode != 0:
+        print(done.stdout + done.stderr, file=sys.stderr, flush=True)
+    return done.returncode == 0
+
+
 def output(*command):
     return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout.splitlines()
 
@@ -33,11 +51,10 @@ def scripts(program):
     return found
 
 
-def each(command, files, at_a_time=20):
+def each(command, files, at_a_time=20, **options):
     """Whether the command takes all files, as many calls at once as there are processors."""
     given = "\0".join(files).encode()
-    told = ["xargs", "-0", "-r", "-P", JOBS, "-n", str(at_a_time), *command]
-    return subprocess.run(told, cwd=ROOT, input=given, check=False).returncode == 0
+    return does("xargs", "-0", "-r", "-P", JOBS, "-n", str(at_a_time), *command, input=given, **options)
 
 
 def format_cpp(check=False):
@@ -55,16 +72,15 @@ def check_shell():
 
 def tidy(files):
     """What clang-tidy has to say of them fails. Its preset is only configured: it names the commands."""
-    told = ["cmake", "--preset", "tidy"]
-    configured = subprocess.run(told, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
-    if configured.returncode != 0:
-        sys.stderr.buffer.write(configured.stdout)
+    if not configure("tidy"):
         return False
-    return each(["clang-tidy", "-p", "build/tidy", "--quiet", "--warnings-as-errors=*"], files, 6)
+    # On standard error it only counts warnings of headers that are not ours.
+    told = ["clang-tidy", "-p", "build/tidy", "--quiet", "--warnings-as-errors=*"]
+    return each(told, files, 6, stderr=subprocess.DEVNULL)
 
 
 def runs(*command):
-    return lambda: subprocess.run(command, cwd=ROOT, check=False).returncode == 0
+    return lambda: does(*command)
 
 
 CHECKS = {
