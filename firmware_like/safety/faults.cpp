@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "firmware_like/math/convert.hpp"
+#include "firmware_like/math/enumerators.hpp"
 
 namespace liana {
 namespace {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "firmware_like/math/enumerators.hpp"
+
 namespace liana {
 namespace {
 

@@ -82,10 +82,9 @@ std::array<double, 2> torque_beyond(const RobotParams& table, const TensionSolve
 }
 
 // What is pulled beyond the plan grows with what is missing, and is let go again.
-double one_tick_tighter(const RobotParams& table, double pulled_N, double missing_N_s, double leak_s,
+double one_tick_tighter(const RobotParams& table, double pulled_N, double rise_N_s, double leak_s,
                         double limit_N) noexcept {
-  const double rate_N_s = missing_N_s - pulled_N / leak_s;
-  return smaller(pulled_N + rate_N_s * table.tick_s, limit_N);
+  return smaller(pulled_N + (rise_N_s - pulled_N / leak_s) * table.tick_s, limit_N);
 }
 
 double spread_of(const AnchoredVector& t, const CableVector& pull_N, Index first, Index n) noexcept {

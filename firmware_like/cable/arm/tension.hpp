@@ -75,9 +75,8 @@ void keep_min_tension(const RobotParams& table, const CableVector& tension_N, Se
 // to: a single cable that nears the floor is wound in. While friction holds the arm this moves nothing, so it may be
 // quicker than the arm's modes: at 3 / s from the floor on, a hand's cable came down to 0.3 N where it now has 6.6. Out
 // of a bend at the limits of both angles it takes 90 N until friction has turned round.
-constexpr double kTautBelow_N = 5.0;  // over the floor: under it a cable is wound in
-constexpr double kTautRate_1_s =
-    10.0;  // share of what is missing, per second; with more its own lag makes it oscillate
+constexpr double kTautBelow_N = 5.0;    // over the floor: under it a cable is wound in
+constexpr double kTautRate_1_s = 10.0;  // share of what is missing, per second; more would oscillate for its own lag
 constexpr double kTautLeak_s = 10.0;
 constexpr double kTautLimit_N = 120.0;
 

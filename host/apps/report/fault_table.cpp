@@ -8,6 +8,7 @@
 #include "firmware_like/cable/arm/contact_detector.hpp"
 #include "firmware_like/cable/arm/friction_estimator.hpp"
 #include "firmware_like/cable/arm/tension_monitor.hpp"
+#include "firmware_like/math/enumerators.hpp"
 #include "firmware_like/safety/drive_link_monitor.hpp"
 #include "firmware_like/safety/supervisor.hpp"
 #include "firmware_like/serial/joint_monitor.hpp"

@@ -53,7 +53,6 @@ void JointMove<Arm>::plan(const Joints<Arm>& from_rad) {
   using Kind = ArmTraits<Arm>;
   from_rad_ = from_rad;
   time_s_ = 0.0;
-  pace_ = begins_at_;
   motion::MoveNeeds needs;
   for (std::size_t i = 0; i < Kind::joint_count(table_); ++i) {
     const double way_rad = std::fabs(to_rad_[i] - from_rad[i]);
@@ -93,7 +92,7 @@ bool JointMove<Arm>::refused() {
     gone_rad = std::max(gone_rad, std::fabs(asked_rad[i] - from_rad_[i]));
   if (has_begun_ && gone_rad > kOtherPlace_rad) again_ = AnotherTry{};
   has_begun_ = false;
-  begins_at_ = std::max(kLeastPace, 0.5 * pace_);
+  pace_ = std::max(kLeastPace, 0.5 * pace_);
   return again_.refused();
 }
 

@@ -38,9 +38,8 @@ class JointMove {
   Joints<Arm> from_rad_, to_rad_;
   double interval_s_;
   motion::TrajectoryTiming law_;
-  double time_s_ = 0.0;     // of the law
-  double pace_ = 1.0;       // of that, in a second
-  double begins_at_ = 1.0;  // pace where it goes on from rest
+  double time_s_ = 0.0;  // of the law
+  double pace_ = 1.0;    // of that, in a second
   bool is_over_ = false, has_begun_ = false;
   AnotherTry again_;
 };

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "firmware_like/safety/faults.hpp"
+#include "firmware_like/math/enumerators.hpp"
 
 namespace liana::verification {
 
