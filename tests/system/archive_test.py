@@ -1,7 +1,6 @@
 """The flight recorder of every run: what it leaves without being asked, and that its death does not harm the run
 (req:A25).
 """
-import contextlib
 import csv
 import json
 import math
@@ -182,21 +181,6 @@ class RunsWithoutRecord(SystemTest):
             refused = run("liana", command, "liana-run-nosuch", env=home)
             self.assertEqual(refused.returncode, 2)
             self.assert_names(refused.stderr, "liana-run-nosuch", "folder")
-
-    def test_a_page_is_of_the_run_that_ended_last_not_of_one_that_goes_on(self):
-        if not (SOURCE / "build/page/view.html").exists():
-            self.skipTest("the page is not built")
-        going_on = self.folder.with_name("liana-run-goes-on")
-        going_on.mkdir()
-        self.addCleanup(shutil.rmtree, going_on)
-        (going_on / "archive.db").write_bytes((self.folder / "archive.db").read_bytes())
-        with contextlib.closing(sqlite3.connect(going_on / "archive.db")) as archive:
-            archive.execute("UPDATE life SET finished=0")
-            archive.commit()
-        shown = run("liana", "view", "--json", env={**os.environ, "XDG_STATE_HOME": str(self.home)})
-        self.assertEqual(shown.returncode, 0, shown.stderr)
-        self.assertEqual(json.loads(shown.stdout)["run"], str(self.folder))
-        self.assert_names(shown.stderr, "liana view liana-run-goes-on")
 
 
 class RunsWithRecord(SystemTest):

@@ -1,15 +1,18 @@
 """`liana run` with bad input: one message, exit code 2 before anything moves or 1 after, and a safe arm."""
+import contextlib
 import json
 import os
 import pathlib
 import signal
 import socket
+import sqlite3
 import tempfile
 import time
 import unittest
 
 from support import MISSIONS, SOURCE, SystemTest, start_run
 from liana.recordings import Truth
+from liana.system import run
 
 ATTACKS = SOURCE / "tests" / "lua" / "attacks"
 PATIENCE_S = 300
@@ -167,6 +170,25 @@ class RunsThatRepeat(Runs):
         for file, text in plain.items():
             with self.subTest(file):
                 self.assertEqual(held_up[file], text)
+
+
+class RunsOnAPage(Runs):
+    """With the page built, as `./dev test page` or `./dev view` build it."""
+
+    def test_a_page_is_of_the_run_that_ended_last_not_of_one_that_goes_on(self):
+        process, _, error = self.finished(MISSIONS / "short.lua", "--seed", 3)
+        self.assertEqual(process.returncode, 0, error)
+        (ended,) = (process.home / "liana" / "runs").iterdir()
+        going_on = ended.with_name("liana-run-goes-on")
+        going_on.mkdir()
+        (going_on / "archive.db").write_bytes((ended / "archive.db").read_bytes())
+        with contextlib.closing(sqlite3.connect(going_on / "archive.db")) as archive:
+            archive.execute("UPDATE life SET finished=0")
+            archive.commit()
+        shown = run("liana", "view", "--json", env={**os.environ, "XDG_STATE_HOME": str(process.home)})
+        self.assertEqual(shown.returncode, 0, shown.stderr)
+        self.assertEqual(json.loads(shown.stdout)["run"], str(ended))
+        self.assert_names(shown.stderr, "liana view liana-run-goes-on")
 
 
 if __name__ == "__main__":
