@@ -315,8 +315,8 @@ void CableArm::report(Report& out) const noexcept {
   out.tip_rate_rad_s = norm(tip.angular_rad_s);
   for (Index m = 0; m < as_index(table_.segment_count); ++m)
     out.node_command_m[m] = motion_.arm.node_in_base[m + 1].position_m;
-  out.speed_share = speed_share(motion_.governor.linear_share);
-  out.turn_share = speed_share(motion_.governor.angular_share);
+  out.speed_share = motion_.governor.speed_share;
+  out.turn_share = motion_.governor.turn_share;
   out.load_Nm = tension_.load_Nm;
   out.tension_plan_N = pull_N_;
   out.tension_measured_N = tension_measured_N_;

@@ -83,7 +83,7 @@ class Verifier {
     start_.tension_N = rig.out.tension_measured_N;
     // Whether it passes is no matter here: the published pose in the slit touches it, and costs as much as others.
     meter_.once("simulate", name, [&] {
-      verification::read_sequence(image_, candidate, prediction_, sequence_);
+      verification::read_sequence(image_, candidate.first_tick(), prediction_, sequence_);
       return verification::judge_simulated(rules_, sequence_, prediction_.comes_to_rest,
                                            simulation_.run(start_, sequence_), too_near_)
           .share;

@@ -73,6 +73,31 @@ TEST_F(Motion, TheTipReachesItsTargetAndThenKeepsIt) {
   EXPECT_LE(zhu2022::length(pose_error(setpoint.tip_in_base, state_.filter.pose)), 1e-9);
 }
 
+// What the limits held back is made up for as it can be braked from; at once, it would swing the arm.
+TEST_F(Motion, AnArmThatIsBehindCatchesUpNoFasterThanItCanSlowDownAgain) {
+  accept_setpoint(robot_, tip_setpoint({0.0, 0.0, 0.0}), state_);
+  run(50);
+  for (const double behind_m : {0.0005, 0.002}) {
+    state_.filter.pose.position_m[1] += behind_m;
+    state_.to.tip_in_base = state_.from.tip_in_base = state_.filter.pose;
+    state_.ik.residual = {0.0, behind_m, 0.0, 0.0, 0.0, 0.0};
+    const double max_m_s = std::sqrt(2.0 * 0.3 * robot_.limits.tip_accel_m_s2 * behind_m);
+    double fastest_m_s = 0.0, harder_m_s2 = 0.0, before_m_s = 0.0;
+    for (int i = 0; i < 400; ++i) {
+      const Pose from = tip();
+      run(1);
+      const double speed_m_s = norm(subtract(tip().position_m, from.position_m)) / robot_.tick_s;
+      fastest_m_s = std::max(fastest_m_s, speed_m_s);
+      harder_m_s2 = std::max(harder_m_s2, (before_m_s - speed_m_s) / robot_.tick_s);
+      before_m_s = speed_m_s;
+    }
+    EXPECT_LT(fastest_m_s, 1.05 * max_m_s) << behind_m;
+    EXPECT_GT(fastest_m_s, 0.5 * max_m_s) << behind_m;
+    EXPECT_LT(harder_m_s2, 0.6 * robot_.limits.tip_accel_m_s2) << "as it slows down";
+    EXPECT_LT(zhu2022::length(pose_error(state_.filter.pose, tip())), 1e-7) << "it has caught up";
+  }
+}
+
 TEST_F(Motion, JointAnglesReachTheirTargetExactly) {
   const ThetaVector goal = zhu2022::plus(theta(), zhu2022::Random(1).theta(robot_, 0.3));
   accept_setpoint(robot_, joint_setpoint(goal), state_);

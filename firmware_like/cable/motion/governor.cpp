@@ -24,13 +24,17 @@ void update_pulls(const RobotParams& table, const TensionSolver& solver, Index f
   }
 }
 
+// What the tip is moved by when one theta turns.
+Task column_of(const Jacobian& J, Index k) noexcept {
+  return {J.linear[k][0], J.linear[k][1], J.linear[k][2], J.angular[k][0], J.angular[k][1], J.angular[k][2]};
+}
+
 // J J^T + damping of the free thetas, factored.
 bool factor_of(const RobotParams& table, const Jacobian& J, std::uint32_t held_mask, SquareMatrix<6>& A) noexcept {
   A = {};
   for (Index k = 0; k < theta_total(table); ++k) {
     if ((held_mask >> k & 1u) != 0) continue;
-    const Task column{J.linear[k][0],  J.linear[k][1],  J.linear[k][2],
-                      J.angular[k][0], J.angular[k][1], J.angular[k][2]};
+    const Task column = column_of(J, k);
     for (Index r = 0; r < 6; ++r) {
       for (Index s = 0; s <= r; ++s) A[r][s] += column[r] * column[s];
     }
@@ -39,40 +43,83 @@ bool factor_of(const RobotParams& table, const Jacobian& J, std::uint32_t held_m
   return cholesky_factor(A);
 }
 
-// Pull of one cable per acceleration of the tip, by the free thetas that move it least.
-Task pull_per_tip(const RobotParams& table, const Jacobian& J, std::uint32_t held_mask, const SquareMatrix<6>& factor,
-                  const ThetaVector& pull_N_s2) noexcept {
-  Task pull{};
+// What every free theta turns by, per unit of the tip's way and turn, when those that move it least make it; 0 for held
+// ones.
+using ThetaTasks = std::array<Task, kMaxTheta>;
+bool thetas_per_tip(const RobotParams& table, const Jacobian& J, std::uint32_t held_mask, ThetaTasks& out) noexcept {
+  SquareMatrix<6> factor;
+  if (!factor_of(table, J, held_mask, factor)) return false;
   for (Index k = 0; k < theta_total(table); ++k) {
+    out[k] = {};
     if ((held_mask >> k & 1u) != 0) continue;
-    for (Index r = 0; r < 3; ++r) {
-      pull[r] += J.linear[k][r] * pull_N_s2[k];
-      pull[r + 3] += J.angular[k][r] * pull_N_s2[k];
-    }
+    out[k] = column_of(J, k);
+    cholesky_solve(factor, out[k]);
   }
-  cholesky_solve(factor, pull);
-  return pull;
+  return true;
 }
 
-void update_shares(const RobotParams& table, const Jacobian& J, std::uint32_t held_mask,
-                   GovernorState& state) noexcept {
-  SquareMatrix<6> factor;
-  if (!factor_of(table, J, held_mask, factor)) return;
-  double linear_s2_m = 0.0, angular_s2_rad = 0.0;  // shares of the room, squared, per unit of acceleration
+// The same of what all thetas together do to one cable, by `per_theta` each.
+Task cable_per_tip(const RobotParams& table, const ThetaTasks& theta, const ThetaVector& per_theta) noexcept {
+  Task out{};
+  for (Index k = 0; k < theta_total(table); ++k) {
+    for (Index r = 0; r < 6; ++r) out[r] += theta[k][r] * per_theta[k];
+  }
+  return out;
+}
+
+// The largest part of a limit that a unit of the tip's way or turn takes, whichever way it goes.
+class Taken {
+ public:
+  void take(const Task& per_tip, double limit) noexcept {
+    const double a = 1.0 / (limit * limit);
+    linear2_ = larger(linear2_, a * (per_tip[0] * per_tip[0] + per_tip[1] * per_tip[1] + per_tip[2] * per_tip[2]));
+    angular2_ = larger(angular2_, a * (per_tip[3] * per_tip[3] + per_tip[4] * per_tip[4] + per_tip[5] * per_tip[5]));
+  }
+  // Shares of so much way and turn that take no more than kGovernorTip.
+  double linear_share(double most) const noexcept { return share(std::sqrt(linear2_) * most); }
+  double angular_share(double most) const noexcept { return share(std::sqrt(angular2_) * most); }
+
+ private:
+  static double share(double taken) noexcept { return taken > kGovernorTip ? kGovernorTip / taken : 1.0; }
+  double linear2_ = 0.0, angular2_ = 0.0;
+};
+
+double speed_of(double accel_share, double by_rates) noexcept {
+  return smaller(by_rates, accel_share < kGovernorSpeed ? std::sqrt(accel_share / kGovernorSpeed) : 1.0);
+}
+
+// Of `theta_limit` for every free theta, and of each cable's limit for its row of `per_theta`.
+template <class Limit>
+Taken taken_of(const RobotParams& table, const Jacobian& J, std::uint32_t held_mask, double theta_limit,
+               const std::array<ThetaVector, kMaxCables>& per_theta, const Limit& limit_of) noexcept {
+  Taken out;
+  ThetaTasks theta;
+  if (!thetas_per_tip(table, J, held_mask, theta)) return out;
+  for (Index k = 0; k < theta_total(table); ++k) out.take(theta[k], theta_limit);
   Index c = 0;
   for (Index j = 0; j < theta_total(table) / 2; ++j) {
-    const double per_room = 1.0 / (state.room_N[j] * state.room_N[j]);
-    for (std::int32_t i = 0; i < table.segment[j].cables; ++i, ++c) {
-      const Task pull = pull_per_tip(table, J, held_mask, factor, state.pull_N_s2[c]);
-      linear_s2_m = larger(linear_s2_m, per_room * (pull[0] * pull[0] + pull[1] * pull[1] + pull[2] * pull[2]));
-      angular_s2_rad = larger(angular_s2_rad, per_room * (pull[3] * pull[3] + pull[4] * pull[4] + pull[5] * pull[5]));
-    }
+    for (std::int32_t i = 0; i < table.segment[j].cables; ++i, ++c)
+      out.take(cable_per_tip(table, theta, per_theta[c]), limit_of(j));
   }
+  return out;
+}
+
+void update_accel_shares(const RobotParams& table, const Jacobian& J, std::uint32_t held_mask,
+                         GovernorState& state) noexcept {
   const MotionLimits& limits = table.limits;
-  const double linear = std::sqrt(linear_s2_m) * limits.tip_accel_m_s2;
-  const double angular = std::sqrt(angular_s2_rad) * limits.tip_angular_accel_rad_s2;
-  state.linear_share = linear > kGovernorTip ? kGovernorTip / linear : 1.0;
-  state.angular_share = angular > kGovernorTip ? kGovernorTip / angular : 1.0;
+  const Taken taken = taken_of(table, J, held_mask, limits.theta_accel_rad_s2, state.pull_N_s2,
+                               [&state](Index segment) noexcept { return state.room_N[segment]; });
+  state.linear_share = taken.linear_share(limits.tip_accel_m_s2);
+  state.angular_share = taken.angular_share(limits.tip_angular_accel_rad_s2);
+}
+
+void update_speed_shares(const RobotParams& table, const CableGeometry& geometry, const Jacobian& J,
+                         std::uint32_t held_mask, GovernorState& state) noexcept {
+  const MotionLimits& limits = table.limits;
+  const Taken taken = taken_of(table, J, held_mask, limits.theta_rate_rad_s, geometry.jacobian_m_rad,
+                               [&limits](Index) noexcept { return limits.cable_speed_m_s; });
+  state.speed_share = speed_of(state.linear_share, taken.linear_share(limits.tip_speed_m_s));
+  state.turn_share = speed_of(state.angular_share, taken.angular_share(limits.tip_rate_rad_s));
 }
 
 // What each theta may brake with by itself, with a part of the room.
@@ -106,20 +153,18 @@ void take_room(const RobotParams& table, const TensionPlan& plan, GovernorState&
 void look_at_load(const RobotParams& table, const CableGeometry& geometry, const TensionRatio& ratio,
                   const ArmKinematics& arm, std::uint32_t held_mask, std::uint32_t tick,
                   GovernorState& state) noexcept {
-  const bool looks = state.cycle == 0;
-  if (tick == 9) state.cycle = state.cycle + 1 < kGovernorCycles ? state.cycle + 1 : 0;
-  if (!looks) return;
+  const std::uint32_t cycle = state.cycle;
+  if (tick == 9) state.cycle = cycle + 1 < kGovernorCycles ? cycle + 1 : 0;
   const Index half = theta_total(table) / 2;
-  if (tick == 5) update_mass_matrix(table, arm, state.mass_kg_m2);
-  if (tick == 6 || tick == 8) {
+  if (cycle == 0 && tick == 5) update_mass_matrix(table, arm, state.mass_kg_m2);
+  if (cycle == 0 && (tick == 6 || tick == 8)) {
     const TensionSolver solver = tension_solver(table, geometry, ratio);
     if (tick == 6) update_pulls(table, solver, 0, half, state);
     if (tick == 8) update_pulls(table, solver, half, theta_total(table), state);
   }
-  if (tick == 9) {
-    update_shares(table, arm.tip_jacobian, held_mask, state);
-    update_accels(table, state);
-  }
+  if (cycle == 0 && tick == 9) update_accel_shares(table, arm.tip_jacobian, held_mask, state);
+  if (cycle == 1 && tick == 8) update_accels(table, state);
+  if (cycle == 1 && tick == 9) update_speed_shares(table, geometry, arm.tip_jacobian, held_mask, state);
 }
 
 double room_taken(const RobotParams& table, const ThetaVector& accel_rad_s2, const GovernorState& state) noexcept {

@@ -17,10 +17,13 @@
 namespace liana::cable {
 
 // Newtons below are those of an arm that plans 40 N, taken times TensionLimits::scale.
-constexpr double kGovernorKeep_N = 18.0;      // over the floor, for friction and swing that no plan knows
-constexpr double kGovernorLeast_N = 4.0;      // room where a pose leaves none: the way out of it
-constexpr double kGovernorAlone = 0.4;        // of a theta's acceleration limit, where it slows down by itself
-constexpr double kGovernorTip = 0.7;          // of the room, for the tip's way alone and for its turn alone
+constexpr double kGovernorKeep_N = 18.0;  // over the floor, for friction and swing that no plan knows
+constexpr double kGovernorLeast_N = 4.0;  // room where a pose leaves none: the way out of it
+constexpr double kGovernorAlone = 0.4;    // of a theta's acceleration limit, where it slows down by itself
+constexpr double kGovernorTip = 0.55;     // of room and rates, for the tip's way alone and for its turn alone
+// Of the acceleration: what turns as it moves is accelerated by its speed squared, and where little of the acceleration
+// is missing, none of the speed is.
+constexpr double kGovernorSpeed = 0.7;
 constexpr std::uint32_t kGovernorCycles = 3;  // of the shape's ten ticks: it looks anew in so many of them
 
 struct GovernorState {
@@ -29,21 +32,15 @@ struct GovernorState {
   SegmentVector room_N{};                           // of each segment's cables, up as down
   ThetaVector accel_rad_s2{};                       // of each theta alone that stays in the room
   std::uint32_t cycle = 0;                          // 0: it looks
-  double linear_share = 1.0, angular_share = 1.0;   // of the table's limits of the tip's acceleration and jerk
+  double linear_share = 1.0, angular_share = 1.0;   // of the table's limits of the tip's acceleration
+  double speed_share = 1.0, turn_share = 1.0;       // of its limits of the tip's speeds
 };
-
-// Of the tip's speed limit that belongs to such a share of its acceleration: what turns as it moves is accelerated by
-// its speed squared. Where little of the acceleration is missing, none of the speed is.
-constexpr double kGovernorSpeed = 0.7;
-inline double speed_share(double accel_share) noexcept {
-  return accel_share < kGovernorSpeed ? std::sqrt(accel_share / kGovernorSpeed) : 1.0;
-}
 
 // Room for the cables of every segment under a plan at rest.
 void take_room(const RobotParams& table, const TensionPlan& plan, GovernorState& state) noexcept;
 
-// One tick of the look: dear work is spread over ticks 5, 6, 8 and 9, which have little else to do. Before
-// the arm may move it has looked for seconds. Cost: 5,000 instructions in one of these ticks.
+// One tick of the look: dear work is spread over ticks 5, 6, 8 and 9 of two cycles, which have little else to do.
+// Before the arm may move it has looked for seconds. Cost: 9,000 instructions in one of these ticks.
 void look_at_load(const RobotParams& table, const CableGeometry& geometry, const TensionRatio& ratio,
                   const ArmKinematics& arm, std::uint32_t held_mask, std::uint32_t tick, GovernorState& state) noexcept;
 

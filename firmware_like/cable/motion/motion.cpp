@@ -21,6 +21,9 @@ constexpr double kFollowRates = 5.0;                 // times a joint's rate: fu
 constexpr double kBrakeAccel = 0.8;
 constexpr double kBrakeJerk_1_s = 8.0;
 constexpr double kBrakeRoom = 0.8;
+// An arm that was held back makes up for it no faster than it can slow down again, with such a share of the tip's
+// acceleration; with all that its cables have, at once, it would swing.
+constexpr double kCatchUp = 0.3;
 constexpr double kBehind =
     1e-4;  // m and rad: from here the target does not wait, or a blocked arm could not be led away
 constexpr double kHeldNear_rad = 2e-6;    // from here a held variable that has slowed down
@@ -115,7 +118,29 @@ const ShapePace& shape_pace(const RobotParams& table, const MotionState& state) 
   return fastest > 1.01 * kShapeAlone.rate_share * table.limits.theta_rate_rad_s ? kShapeBesideTip : kShapeAlone;
 }
 
-IkGoal ik_goal(const MotionState& state) noexcept { return {state.filter.pose, state.held_mask, kTipCurvature_m}; }
+// Of what the tip lies behind, three coordinates of the residual from `first` on, what waits for later ticks: no more
+// than `most`, the length of the leash.
+void leave_for_later(double accel, double most, double tick_s, Index first, const std::array<double, 6>& residual,
+                     std::array<double, 6>& later) noexcept {
+  const double behind2 = residual[first] * residual[first] + residual[first + 1] * residual[first + 1] +
+                         residual[first + 2] * residual[first + 2];
+  const double at_once = 2.0 * accel * tick_s * tick_s;  // what may be made up for within a tick
+  if (behind2 <= at_once * at_once) return;
+  const double behind = std::sqrt(behind2);
+  const double share = smaller(1.0 - std::sqrt(at_once / behind), most / behind);
+  for (Index r = first; r < first + 3; ++r) later[r] = share * residual[r];
+}
+
+IkGoal ik_goal(const RobotParams& table, const MotionState& state) noexcept {
+  IkGoal goal{state.filter.pose, state.held_mask, kTipCurvature_m, {}};
+  const MotionLimits& limits = table.limits;
+  const GovernorState& governor = state.governor;
+  leave_for_later(kCatchUp * governor.linear_share * limits.tip_accel_m_s2, kLeash.most_m, table.tick_s, 0,
+                  state.ik.residual, goal.later);
+  leave_for_later(kCatchUp * governor.angular_share * limits.tip_angular_accel_rad_s2, kLeash.max_rad, table.tick_s, 3,
+                  state.ik.residual, goal.later);
+  return goal;
+}
 
 // How far every theta may go in this tick so that it can brake before its limit with what it may brake with by itself:
 // the others take over smoothly, before it stands. One that is faster already slows down so.
@@ -141,12 +166,12 @@ FollowStep solve_tip(const RobotParams& table, MotionState& state) noexcept {
   const ThetaVector move = shape_move(table, state.arm, state.to.node, state.to.clear, state.held_mask,
                                       shape_pace(table, state), state.ik_rad, state.shape);
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) state.ik_rad[k] += move[k];
-  return follow_ik(table, ik_goal(state), state.arm, bounds_before_limits(table, state), state.ik_rad);
+  return follow_ik(table, ik_goal(table, state), state.arm, bounds_before_limits(table, state), state.ik_rad);
 }
 
 // How the servo IK did, where the command stands now.
 void report_tip(const RobotParams& table, const FollowStep& step, MotionState& state) noexcept {
-  state.ik = follow_report(table, ik_goal(state), state.arm, step);
+  state.ik = follow_report(table, ik_goal(table, state), state.arm, step);
   if (state.ik.limit_mask != 0) state.limits |= kLimitTheta;
   if (state.ik.outcome == IkOutcome::kSingular) state.limits |= kLimitSingular;
   if (state.ik.outcome == IkOutcome::kUnreachable) state.limits |= kLimitReach;
@@ -244,12 +269,13 @@ void take_kinematics(const RobotParams& table, MotionState& state) noexcept {
 TipFilterConfig tip_filter_config(const RobotParams& table, double tip_speed_m_s,
                                   const GovernorState& governor) noexcept {
   const MotionLimits& limits = table.limits;
+  // Where there is little room, acceleration comes more slowly besides: the arm swings about what it is.
   const double linear_share = governor.linear_share, angular_share = governor.angular_share;
-  const FilterBounds linear{speed_share(linear_share) * limits.tip_speed_m_s, linear_share * limits.tip_accel_m_s2,
-                            linear_share * limits.tip_jerk_m_s3};
-  const FilterBounds angular{speed_share(angular_share) * limits.tip_rate_rad_s,
+  const FilterBounds linear{governor.speed_share * limits.tip_speed_m_s, linear_share * limits.tip_accel_m_s2,
+                            linear_share * larger(0.3, linear_share) * limits.tip_jerk_m_s3};
+  const FilterBounds angular{governor.turn_share * limits.tip_rate_rad_s,
                              angular_share * limits.tip_angular_accel_rad_s2,
-                             angular_share * limits.tip_angular_jerk_rad_s3};
+                             angular_share * larger(0.3, angular_share) * limits.tip_angular_jerk_rad_s3};
   const bool lowered = tip_speed_m_s > 0.0 && tip_speed_m_s < linear.speed;
   return {with_lag(linear, limits.tip_lag_s, lowered ? tip_speed_m_s : linear.speed),
           with_lag(angular, limits.tip_lag_s, angular.speed), table.tick_s};

@@ -232,6 +232,7 @@ IkResult servo_ik(const RobotParams& table, const IkGoal& goal, const ArmKinemat
 FollowStep follow_ik(const RobotParams& table, const IkGoal& goal, const ArmKinematics& arm, const FollowBounds& bounds,
                      ThetaVector& theta_rad) noexcept {
   Task asked = pose_error(goal.tip_in_base, arm.tip_in_base);
+  for (Index r = 0; r < asked.size(); ++r) asked[r] -= goal.later[r];
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k)
     take_share(arm.tip_jacobian, k, theta_rad[k] - bounds.arm_rad[k], asked);
   const DampedMove move =

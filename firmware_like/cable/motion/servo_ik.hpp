@@ -30,8 +30,9 @@ constexpr double kIkBlockedShare = 0.5;  // of the error that a step leaves: mor
 
 struct IkGoal {
   Pose tip_in_base{};
-  std::uint32_t held_mask = 0;  // bit i: theta i is not free
-  double curvature_m = 0.0;     // kTipCurvature_m to follow a moving target; 0 for a goal that may be far away
+  std::uint32_t held_mask = 0;    // bit i: theta i is not free
+  double curvature_m = 0.0;       // kTipCurvature_m to follow a moving target; 0 for a goal that may be far away
+  std::array<double, 6> later{};  // of the error, as a residual: what follow_ik leaves to later ticks
 };
 
 struct IkResult {

@@ -166,6 +166,8 @@ void visit(A& a, T& s) {
   a("cycle", s.cycle);
   a("linear_share", s.linear_share);
   a("angular_share", s.angular_share);
+  a("speed_share", s.speed_share);
+  a("turn_share", s.turn_share);
 }
 
 template <class A, Like<cable::MotionState> T>

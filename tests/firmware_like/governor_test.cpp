@@ -1,0 +1,73 @@
+// The governor: what it leaves of the tip's accelerations and speeds where cables or joints have no more.
+#include "firmware_like/cable/motion/governor.hpp"
+
+#include <gtest/gtest.h>
+
+#include "firmware_like/cable/motion/servo_ik.hpp"
+#include "tests/firmware_like/zhu2022.hpp"
+
+namespace liana::cable {
+namespace {
+
+// What it finds at a pose after it has looked once.
+GovernorState look(const RobotParams& robot, const ThetaVector& theta_rad) {
+  const CableLayout layout = cable_layout(robot);
+  const ArmTrig trig = arm_trig(robot, theta_rad);
+  const CableGeometry geometry = cable_geometry(robot, layout, trig);
+  GovernorState state;
+  state.room_N.fill(30.0);
+  for (std::uint32_t tick = 0; tick < 20; ++tick)
+    look_at_load(robot, geometry, TensionRatio{}, forward_kinematics(robot, theta_rad), 0, tick % 10, state);
+  return state;
+}
+
+TEST(Governor, WhatJointsAndCablesCanIsLeftToTheTipWhichNeverAsksForMore) {
+  const ThetaVector theta_rad = zhu2022::radians(zhu2022::kPanelEdge_deg);
+  const RobotParams table = zhu2022::table();
+  const GovernorState as_it_is = look(table, theta_rad);
+  for (const double share : {0.5, 0.1}) {
+    RobotParams slow = table;
+    slow.limits.theta_accel_rad_s2 *= share * share;
+    const GovernorState by_accel = look(slow, theta_rad);
+    EXPECT_LT(by_accel.linear_share, as_it_is.linear_share) << share;
+    EXPECT_LT(by_accel.angular_share, as_it_is.angular_share) << share;
+
+    slow = table;
+    slow.limits.theta_rate_rad_s *= share;
+    const GovernorState by_rate = look(slow, theta_rad);
+    EXPECT_EQ(by_rate.linear_share, as_it_is.linear_share) << share;
+    EXPECT_LT(by_rate.speed_share, as_it_is.speed_share) << share;
+    EXPECT_LT(by_rate.turn_share, as_it_is.turn_share) << share;
+
+    slow = table;
+    slow.limits.cable_speed_m_s *= 0.3 * share;
+    const GovernorState by_cable = look(slow, theta_rad);
+    EXPECT_EQ(by_cable.linear_share, as_it_is.linear_share) << share;
+    EXPECT_LT(by_cable.speed_share, as_it_is.speed_share) << share;
+    EXPECT_LT(by_cable.turn_share, as_it_is.turn_share) << share;
+  }
+}
+
+// The tip's way that it leaves, carried out by the free angles that move it least, stays within every joint's rate.
+TEST(Governor, TheSpeedThatItLeavesTakesItsShareOfEveryRateAtMost) {
+  const RobotParams robot = zhu2022::table();
+  zhu2022::Random random(3);
+  for (int i = 0; i < 50; ++i) {
+    const ThetaVector theta_rad = random.theta(robot, 0.9);
+    const GovernorState state = look(robot, theta_rad);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      IkGoal goal;
+      goal.tip_in_base = forward_kinematics(robot, theta_rad).tip_in_base;
+      const double way_m = state.speed_share * robot.limits.tip_speed_m_s * 1e-3;
+      goal.tip_in_base.position_m[axis] += way_m;
+      ThetaVector moved_rad = theta_rad;
+      ik_step(robot, goal, 1e-3, moved_rad);
+      for (std::size_t k = 0; k < zhu2022::kThetas; ++k)
+        EXPECT_LE(std::fabs(moved_rad[k] - theta_rad[k]), 1.03e-3 * kGovernorTip * robot.limits.theta_rate_rad_s) << i;
+    }
+    EXPECT_LE(state.speed_share, 1.0);
+  }
+}
+
+}  // namespace
+}  // namespace liana::cable
