@@ -15,6 +15,14 @@ constexpr double kStamp_s = 0.001;        // so far off is the time of a sample
 constexpr double kNoise_m = 0.005;
 constexpr double kNoise_rad = 0.035;
 
+// What stands still to the last digit is stuck where a hand cannot have stopped so: it was going at such a speed, or
+// its numbers trembled, a bend of their way being this much of a step. One that slows down without a tremor is an
+// emulated hand, and may stand.
+constexpr double kSudden_m_s = 0.02, kSudden_rad_s = 0.2;
+constexpr double kTremor = 0.5;
+constexpr double kTremor_s = 0.2;     // over which bends and steps are averaged
+constexpr double kTurnLever_m = 0.1;  // at which a turn counts as a way
+
 double in_seconds(std::int64_t us) { return static_cast<double>(us) * 1e-6; }
 
 Vec3 turn_between(const Pose& from, const Pose& to) {
@@ -60,18 +68,36 @@ void HandMonitor::follow(const device::Sample& sample) {
   const double share = hand_->is_moving_known ? std::min(1.0, dt_s / kVelocity_s) : 1.0;
   const auto nearer = [share](const Vec3& from, const Vec3& to) { return add(from, scale(subtract(to, from), share)); };
   const Vec3 way_m = subtract(sample.pose.position_m, hand_->pose.position_m);
+  const Vec3 turn_rad = turn_between(hand_->pose, sample.pose);
+  note_tremor(scale(way_m, 1.0 / dt_s), scale(turn_rad, 1.0 / dt_s), dt_s);
   hand_->velocity_m_s = nearer(hand_->velocity_m_s, scale(way_m, 1.0 / dt_s));
-  hand_->rate_rad_s = nearer(hand_->rate_rad_s, scale(turn_between(hand_->pose, sample.pose), 1.0 / dt_s));
+  hand_->rate_rad_s = nearer(hand_->rate_rad_s, scale(turn_rad, 1.0 / dt_s));
   hand_->is_moving_known = true;
   hand_->pose = sample.pose;
   hand_->t_us = sample.t_us;
+}
+
+void HandMonitor::note_tremor(const Vec3& velocity_m_s, const Vec3& rate_rad_s, double dt_s) {
+  const double share = std::min(1.0, dt_s / kTremor_s);
+  const auto size = [](const Vec3& way, const Vec3& turn) { return norm(way) + kTurnLever_m * norm(turn); };
+  const double step = size(velocity_m_s, rate_rad_s);
+  const double bend = size(subtract(velocity_m_s, hand_->step_m_s), subtract(rate_rad_s, hand_->step_rad_s));
+  hand_->steps += share * (step - hand_->steps);
+  hand_->bends += share * (bend - hand_->bends);
+  hand_->step_m_s = velocity_m_s;
+  hand_->step_rad_s = rate_rad_s;
+}
+
+bool HandMonitor::could_not_stop() const {
+  return norm(hand_->velocity_m_s) > kSudden_m_s || norm(hand_->rate_rad_s) > kSudden_rad_s ||
+         hand_->bends > kTremor * hand_->steps;
 }
 
 bool HandMonitor::is_stuck(const device::Sample& sample) {
   const bool is_same =
       sample.pose.position_m == hand_->pose.position_m && sample.pose.quaternion == hand_->pose.quaternion;
   if (!is_same && !same_from_us_) return false;
-  if (is_same && (same_from_us_ || hand_->t_us - varies_from_us_ >= kProof_us)) {
+  if (is_same && (same_from_us_ || (hand_->t_us - varies_from_us_ >= kProof_us && could_not_stop()))) {
     if (!same_from_us_) same_from_us_ = hand_->t_us;
     return limits_.trembles && sample.t_us - *same_from_us_ >= kStuck_us;
   }
@@ -90,7 +116,7 @@ HandMonitor::Finding HandMonitor::judge(const device::Sample& sample) {
   const bool is_anew = !hand_ || finding == Finding::kJumped || (!is_led && !leads_to(*hand_, sample));
   if (hand_ && !is_led) is_stuck(sample);
   if (is_anew) {
-    hand_ = Track{sample.pose, sample.t_us, {}, {}, false};
+    hand_ = Track{sample.pose, sample.t_us, {}, {}, false, {}, {}, 0.0, 0.0};
   } else {
     follow(sample);
   }

@@ -31,7 +31,7 @@ class HandMonitor {
     kUnseen,    // has no pose, or is older than the one before
     kDoubtful,  // no hand does that: left out, until the next one tells
     kJumped,    // and it stays there: has to be let go
-    kStuck,     // numbers that always varied are the same for kStuck_us
+    kStuck,     // numbers that always varied, of a hand that moved or trembled, are the same for kStuck_us
   };
 
   static constexpr std::int64_t kProof_us = 200'000;  // so long without a repetition: its numbers vary
@@ -50,11 +50,15 @@ class HandMonitor {
     std::int64_t t_us = 0;
     Vec3 velocity_m_s{}, rate_rad_s{};
     bool is_moving_known = false;
+    Vec3 step_m_s{}, step_rad_s{};    // of the last step alone
+    double steps = 0.0, bends = 0.0;  // mean speed, and mean change of it from step to step
   };
 
   bool leads_to(const Track& from, const device::Sample& to) const;
   Finding judge_held(const device::Sample& sample);
   bool is_stuck(const device::Sample& sample);
+  bool could_not_stop() const;
+  void note_tremor(const Vec3& velocity_m_s, const Vec3& rate_rad_s, double dt_s);
   void follow(const device::Sample& sample);
 
   HandLimits limits_;

@@ -150,6 +150,39 @@ TEST(HandMonitor, NumbersThatHaveAlwaysVariedAreStuckWithinEightyMilliseconds) {
   }
 }
 
+// An emulated hand without a tremor comes to stand like this; a frozen one has still been moving.
+TEST(HandMonitor, AHandThatSlowsDownSmoothlyMayStandAndOneThatStopsInMotionMayNot) {
+  for (const double rate_hz : kRates_hz) {
+    for (const bool is_frozen : {false, true}) {
+      HandMonitor watch;
+      const double step_s = 1.0 / rate_hz, until_s = is_frozen ? 0.7035 : 1.0;
+      bool is_stuck = false;
+      for (double t_s = 0.0; t_s < 3.0; t_s += step_s) {
+        const double s = std::min(t_s, until_s);
+        const Pose pose{{0.05 * (1.0 - std::cos(std::numbers::pi * s)), 0.0, 0.0}};
+        const Finding found = watch.judge({.t_us = std::llround(1e6 * t_s), .deadman = true, .pose = pose});
+        is_stuck = is_stuck || found == Finding::kStuck;
+      }
+      EXPECT_EQ(is_stuck, is_frozen) << rate_hz;
+    }
+  }
+}
+
+// A hand that rests, of which only the tracker's noise moves, is frozen when that ends.
+TEST(HandMonitor, NoiseThatEndsIsAStuckTracker) {
+  HandMonitor watch;
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> noise_m(0.0, 0.00002);
+  device::Sample sample{.t_us = 0, .deadman = true, .pose = {}};
+  for (int i = 0; i < 200; ++i, sample.t_us += 11'000) {
+    for (double& x_m : sample.pose.position_m) x_m = noise_m(random);
+    ASSERT_EQ(watch.judge(sample), Finding::kHand) << i;
+  }
+  bool is_stuck = false;
+  for (int i = 0; i < 10; ++i, sample.t_us += 11'000) is_stuck = is_stuck || watch.judge(sample) == Finding::kStuck;
+  EXPECT_TRUE(is_stuck);
+}
+
 // Encoders at rest, or a tracker whose every pose is told twice.
 TEST(HandMonitor, NumbersThatRepeatByNatureAreNotStuck) {
   HandMonitor watch;
