@@ -1,6 +1,7 @@
 #include "host/control/arbiter/cable_arbiter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <utility>
 
@@ -12,6 +13,25 @@ namespace {
 
 // Of the tip's speed limit that a hand may ask for: an arm that friction held swings on faster than it is led.
 constexpr double kHandSpeed = 0.8;
+constexpr double kLeastShare = 0.02;  // a setpoint has a speed, also one that stays
+// A hand that turns away from what slowed it is not let go all at once.
+constexpr double kEaseRise_1_s = 2.0;
+// The tip goes on as it was commanded until a new setpoint acts.
+constexpr double kIntervalsAhead = 3.0;
+
+// Of what the hand may ask for, in place of a setpoint that was refused; the last is to stay.
+constexpr std::array kSlowerWays = {0.5, 0.15, 0.0};
+
+// The goal no farther than the tip comes in its filter's lag with `share` of its speeds, along its own way.
+Pose pulled_in(const cable::RobotParams& table, const Pose& tip, const Pose& goal, double share) {
+  const cable::MotionLimits& limits = table.limits;
+  const double lag_s = limits.tip_lag_s > 0.0 ? limits.tip_lag_s : limits.tip_speed_m_s / limits.tip_accel_m_s2;
+  const double ahead_s = share * (lag_s + kIntervalsAhead * interval_s(table));
+  const double shift_m = norm(subtract(goal.position_m, tip.position_m));
+  const Vec3 turn_rad = rotation_vector(multiply(goal.quaternion, conjugate(tip.quaternion)));
+  const double most_s = std::max(shift_m / limits.tip_speed_m_s, norm(turn_rad) / limits.tip_rate_rad_s);
+  return most_s <= ahead_s ? goal : interpolated_pose(tip, goal, turn_rad, ahead_s / most_s);
+}
 
 }  // namespace
 
@@ -149,7 +169,7 @@ void CableArbiter::cap_tip_speed(double speed_m_s) {
 
 void CableArbiter::ask_speed() {
   const double max_m_s = kHandSpeed * robot_speed_m_s_;
-  moves_.limit_tip_speed(ease_.share * std::min({asked_speed_m_s_, cap_m_s_, max_m_s}));
+  moves_.limit_tip_speed(std::max(kLeastShare, ease_.share) * std::min({asked_speed_m_s_, cap_m_s_, max_m_s}));
 }
 
 void CableArbiter::end_shape_transition() {
@@ -187,6 +207,15 @@ bool CableArbiter::refused(const std::string& why, bool may_pass_slower) {
   dither_ = {};
   if (was_engaged_) refusal_wait_.refuse(led_from_, led_to_);
   return goes_on || was_engaged_;
+}
+
+std::optional<cable::Setpoint> CableArbiter::slower(const cable::Outputs& now, const char* limit) {
+  if (!was_engaged_ || slower_ways_ == kSlowerWays.size()) return std::nullopt;
+  if (slower_ways_ == 0) asked_share_ = ease_.share;
+  const double share = kSlowerWays[slower_ways_++];
+  refusal_wait_.slow(share, limit);
+  ease_ = {share * asked_share_, virtual_fixtures::SlowdownCause::kRefused, 0, limit};
+  return led_setpoint(now);
 }
 
 std::optional<cable::Setpoint> CableArbiter::next_setpoint(std::uint64_t tick, const cable::Outputs& now) {
@@ -236,16 +265,24 @@ std::optional<cable::Setpoint> CableArbiter::steered_setpoint(const cable::Outpu
   const std::uint32_t held = moves_.wishes().held_mask;
   const Pose led = guidance_.guide(goal.tip_in_base, {now.tip_command, now.theta_command_rad, held}, interval_s_);
   if (refusal_wait_.holds(now.tip_command, led, interval_s_)) {
-    ease_ = {0.0, virtual_fixtures::SlowdownCause::kRefused};
+    ease_ = {0.0, virtual_fixtures::SlowdownCause::kRefused, 0, refusal_wait_.limit()};
     return std::nullopt;
   }
   led_from_ = now.tip_command;
   led_to_ = led;
-  ease_ = virtual_fixtures::ease(table_, now.theta_command_rad, held, led);
+  const double most = ease_.share + kEaseRise_1_s * interval_s_;
+  virtual_fixtures::Ease eased = virtual_fixtures::ease(table_, now.theta_command_rad, held, led);
+  if (eased.share > most) eased = {most, ease_.cause, ease_.theta, ease_.limit};
+  ease_ = eased;
   if (refusal_wait_.speed_share() < ease_.share)
-    ease_ = {refusal_wait_.speed_share(), virtual_fixtures::SlowdownCause::kRefused};
+    ease_ = {refusal_wait_.speed_share(), virtual_fixtures::SlowdownCause::kRefused, 0, refusal_wait_.limit()};
+  slower_ways_ = 0;
+  return led_setpoint(now);
+}
+
+cable::Setpoint CableArbiter::led_setpoint(const cable::Outputs& now) {
   ask_speed();
-  return moves_.steer(now, led);
+  return moves_.steer(now, ease_.share < 1.0 ? pulled_in(table_, now.tip_command, led_to_, ease_.share) : led_to_);
 }
 
 // The operator's node takes the place of its own target, or one that is free.

@@ -74,6 +74,9 @@ class CableArbiter {
   // The way back stops and starts again, some times, and where `may_pass_slower` moves to a goal do (another_try.hpp).
   // Whether what was asked for goes on.
   bool refused(const std::string& why = "", bool may_pass_slower = false);
+  // What a hand asks for, with less of its speed than in the setpoint that was refused for `limit` (its name in the
+  // table of refusals), for the same interval: half, a seventh, and to stay. Then nothing, and where nobody steers.
+  std::optional<cable::Setpoint> slower(const cable::Outputs& now, const char* limit);
 
   // A planned move or a dither is under way.
   bool is_busy() const { return moves_.is_busy() || dither_.is_under_way(); }
@@ -111,6 +114,7 @@ class CableArbiter {
   void set_node_objectives();
   cable::Setpoint dithering_setpoint();
   std::optional<cable::Setpoint> steered_setpoint(const cable::Outputs& now, const TeleopGoal& goal);
+  cable::Setpoint led_setpoint(const cable::Outputs& now);
   void end_shape_transition();
   void ask_speed();
 
@@ -129,7 +133,9 @@ class CableArbiter {
   cable::NodeTarget device_node_{};
   bool was_engaged_ = false;
   RefusalWait refusal_wait_;
-  Pose led_from_{}, led_to_{};  // last setpoint of the hand: where the tip was commanded to be, and its goal
+  Pose led_from_{}, led_to_{};   // last setpoint of the hand: where the tip was commanded to be, and its goal
+  std::size_t slower_ways_ = 0;  // that were tried in its interval
+  double asked_share_ = 1.0;     // of its first setpoint
   virtual_fixtures::Guidance guidance_;
   virtual_fixtures::Ease ease_;
 };

@@ -21,6 +21,12 @@ class RefusalWait {
     share_ = kFirstShare;
     passed_s_ = 0.0;
   }
+  // In place of what was refused for `limit` a slower way is tried, with `share` of the speed that was asked for.
+  void slow(double share, const char* limit) {
+    share_ = std::max(kLeastShare, share * share_);
+    passed_s_ = 0.0;
+    limit_ = limit;
+  }
   // Once per interval of `dt_s`, with the hand's next goal: whether it is not asked for yet.
   bool holds(const Pose& tip, const Pose& goal, double dt_s) {
     left_s_ = goes_on(tip, goal) ? left_s_ - dt_s : 0.0;
@@ -32,11 +38,13 @@ class RefusalWait {
   }
   // Of the tip's speed, while it is asked for again.
   double speed_share() const { return share_; }
+  // What the last refusal was for; empty: there was none.
+  const char* limit() const { return limit_; }
   void forget() { *this = {}; }
 
  private:
   static constexpr double kFirst_s = 0.2, kMost_s = 6.4;
-  static constexpr double kFirstShare = 0.3, kRise_1_s = 0.5;
+  static constexpr double kFirstShare = 0.3, kLeastShare = 0.1, kRise_1_s = 0.5;
   static constexpr double kForgotten_s = 3.0;  // without another refusal
   static constexpr double kSame = 0.3;         // of the way that was refused
   static constexpr double kLeast_m = 0.001, kLeast_rad = 0.01;
@@ -55,6 +63,7 @@ class RefusalWait {
   }
 
   Vec3 shift_m_{}, turn_rad_{};
+  const char* limit_ = "";
   double left_s_ = 0.0, wait_s_ = kFirst_s, share_ = 1.0, passed_s_ = 0.0;
 };
 

@@ -36,6 +36,8 @@ class SerialArbiter : public Arbiter<serial::SerialArm> {
   void hold(const std::string& why = "held");
   std::optional<Setpoint> next_setpoint(std::uint64_t tick, const Now& now);
   bool refused(const std::string& why = "", bool may_pass_slower = false);
+  // No hand leads a serial arm's tip.
+  std::optional<Setpoint> slower(const Now&, const char*) { return std::nullopt; }
 
   // A push or giving way is asked for.
   bool is_forcing() const { return asked_.has_value(); }

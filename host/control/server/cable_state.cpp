@@ -62,7 +62,7 @@ std::string ease_name(const virtual_fixtures::Ease& ease) {
     case virtual_fixtures::SlowdownCause::kSingular:
       return "near singular";
     case virtual_fixtures::SlowdownCause::kRefused:
-      return "refused";
+      return ease.limit;
     case virtual_fixtures::SlowdownCause::kJointLimit:
       break;
   }

@@ -102,13 +102,16 @@ class TypedArmServer : public ArmServer {
   void move_joints(const api::Arguments& fields);
   void retract(const api::Arguments& fields);
   LastVerdict verify_and_release(const typename Arm::Setpoint& setpoint, std::uint32_t owner);
+  LastVerdict verified(const verification::Candidate<Arm>& candidate);
+  bool compares(const LastVerdict& refused);
 
-  double patience_s(const verification::Candidate<Arm>& candidate) const;
+  double patience_s(std::uint64_t first_tick) const;
 
   timing::TimeMode time_mode_;
   verification::IssueStep<Arm> release_;
   std::vector<Command> released_;             // not yet due at the newest image
   verification::Prediction<Arm> prediction_;  // of the last command
+  verification::Prediction<Arm> stop_;        // of no command in its place
 };
 
 template <class Arm, class Steering>
@@ -192,23 +195,50 @@ std::optional<LastVerdict> TypedArmServer<Arm, Steering>::release_next(bool may_
 // In virtual time the service waits for the simulation, so that runs repeat bit for bit; in real time until the arm
 // would need the command.
 template <class Arm, class Steering>
-double TypedArmServer<Arm, Steering>::patience_s(const verification::Candidate<Arm>& candidate) const {
+double TypedArmServer<Arm, Steering>::patience_s(std::uint64_t first_tick) const {
   if (time_mode_ != timing::TimeMode::kReal) return verification::kWhenever;
   const std::uint64_t now = tick();
-  return now < candidate.first_tick() ? static_cast<double>(candidate.first_tick() - now) * table_.tick_s : 0.0;
+  return now < first_tick ? static_cast<double>(first_tick - now) * table_.tick_s : 0.0;
 }
 
+// What is refused for how the arm swings may pass beside its stop, and what a hand asks for more slowly. The refusal
+// that is told is the first.
 template <class Arm, class Steering>
 LastVerdict TypedArmServer<Arm, Steering>::verify_and_release(const typename Arm::Setpoint& setpoint,
                                                               std::uint32_t owner) {
-  const verification::TwinSnapshot<Arm>& image = link_.image.value();
   const auto interval = static_cast<std::uint64_t>(table_.interval_ticks);
-  const verification::Candidate<Arm> candidate =
-      release_.candidate(setpoint, owner, image.next_tick + interval, interval);
+  const auto candidate = release_.candidate(setpoint, owner, link_.image.value().next_tick + interval, interval);
+  LastVerdict asked = verified(candidate);
+  LastVerdict last = asked;
+  if (compares(last)) last = verified(release_.another(setpoint, candidate));
+  while (!last.released && verification::is_of_motion(last.worst.code)) {
+    const auto slower = arbiter_.slower(outputs(), verification::row_of(last.worst.code).name);
+    if (!slower) break;
+    last = verified(release_.another(*slower, candidate));
+  }
+  if (last.released) return last;
+  asked.goes_on = arbiter_.refused(asked.worst.text, verification::may_pass_slower(asked.worst.code));
+  return asked;
+}
+
+// Whether it is to be verified once more, beside what becomes of the arm when it stays refused.
+template <class Arm, class Steering>
+bool TypedArmServer<Arm, Steering>::compares(const LastVerdict& refused) {
+  const verification::Refusal code = refused.worst.code;
+  if (!verification::is_of_swing(code)) return false;
+  const verification::TwinSnapshot<Arm>& image = link_.image.value();
+  const std::uint64_t first_tick = refused.first_tick;
+  verification::Twin<Arm>::stop(image, released_, first_tick, verification::max_stop_ticks(table_.tick_s), stop_);
+  return simulation_->compares(code, image, first_tick, stop_, patience_s(first_tick));
+}
+
+template <class Arm, class Steering>
+LastVerdict TypedArmServer<Arm, Steering>::verified(const verification::Candidate<Arm>& candidate) {
+  const verification::TwinSnapshot<Arm>& image = link_.image.value();
   verification::Twin<Arm>::run(image, released_, candidate, verification::max_stop_ticks(table_.tick_s), prediction_);
   simulation_->begin(image, candidate, prediction_);
   verification::ExecutionVerdict execution = verification::judge_execution<Arm>(table_, candidate, prediction_, zone_);
-  const verification::SimulationVerdict simulation = simulation_->verdict(patience_s(candidate));
+  const verification::SimulationVerdict simulation = simulation_->verdict(patience_s(candidate.first_tick()));
   verification::judge_model(table_, image.last_outputs, execution);
   if (time_mode_ == timing::TimeMode::kReal) {
     link_.report.refresh();
@@ -220,19 +250,14 @@ LastVerdict TypedArmServer<Arm, Steering>::verify_and_release(const typename Arm
   verification::Verdict worst = execution.passed() ? static_cast<const verification::Verdict&>(simulation) : execution;
   worst.margins = simulation.margins;
   worst.slowly = simulation.slowly;
-  bool goes_on = released;
-  if (released) {
-    released_.push_back(*telecommand);
-  } else {
-    goes_on = arbiter_.refused(worst.text, verification::may_pass_slower(worst.code));
-  }
+  if (released) released_.push_back(*telecommand);
   return {candidate.sequence(),
           released,
-          goes_on,
+          released,
           worst,
           joints_deg(prediction_.ticks[prediction_.command_ticks - 1]),
           joints_deg(prediction_.ticks.back()),
-          setpoint.kind,
+          candidate.setpoint().kind,
           candidate.first_tick(),
           leads_back,
           execution,

@@ -22,6 +22,8 @@ class Candidate {
   using Command = Telecommand<typename Arm::Setpoint>;
 
   std::uint64_t sequence() const { return telecommand_.sequence(); }
+  // 0 for what was asked for; counts what was tried in its place.
+  std::uint32_t trial() const { return trial_; }
   std::uint64_t first_tick() const { return telecommand_.first_tick(); }
   std::uint64_t expiry_tick() const { return telecommand_.expiry_tick(); }
   const typename Arm::Setpoint& setpoint() const { return telecommand_.setpoint(); }
@@ -29,8 +31,9 @@ class Candidate {
  private:
   friend class IssueStep<Arm>;
   friend class Twin<Arm>;
-  explicit Candidate(const Command& telecommand) : telecommand_(telecommand) {}
+  Candidate(const Command& telecommand, std::uint32_t trial) : telecommand_(telecommand), trial_(trial) {}
   Command telecommand_;
+  std::uint32_t trial_;
 };
 
 template <class Arm>
@@ -39,6 +42,8 @@ class IssueStep {
   // A candidate with a sequence of its own for the interval [first_tick, first_tick + interval_ticks).
   Candidate<Arm> candidate(const typename Arm::Setpoint& setpoint, std::uint32_t owner, std::uint64_t first_tick,
                            std::uint64_t interval_ticks);
+  // One in the place of `refused`, the newest candidate: for its interval and owner, under its sequence.
+  Candidate<Arm> another(const typename Arm::Setpoint& setpoint, const Candidate<Arm>& refused);
   // The telecommand; nothing unless both ends passed exactly this candidate, the newest one, and it was not released
   // before.
   std::optional<Telecommand<typename Arm::Setpoint>> release(const Candidate<Arm>& candidate,
@@ -47,6 +52,7 @@ class IssueStep {
 
  private:
   std::uint64_t last_sequence_ = 0;
+  std::uint32_t last_trial_ = 0;
   std::uint64_t last_released_ = 0;
 };
 

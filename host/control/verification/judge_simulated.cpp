@@ -21,11 +21,53 @@ constexpr double kTipLead = 1.05;   // the same allowance as the execution end's
 
 std::string numbered(const char* what, Index index) { return what + std::string(" ") + std::to_string(index + 1); }
 
+constexpr double kPhase_s = 0.05;   // the same swing may come so much later
+constexpr double kNoWorse_N = 2.0;  // of an arm that plans 40 N
+constexpr double kNoFaster = 1.02;
+
+// How the arm swings when nothing more is asked of it: of every moment, the least tensions and the largest speeds from
+// there on.
+class StopSwing {
+ public:
+  explicit StopSwing(const simulation::Motion* stop) {
+    if (stop == nullptr || !stop->solved) return;
+    from_ = stop->moments;
+    for (Index i = from_.size(); i-- > 1;) widen(from_[i - 1], from_[i]);
+  }
+
+  // From `time_s` on; a moment without speeds where nothing is known, or where the motion was over before.
+  const Moment& from(double time_s) const {
+    const auto later = [](const Moment& moment, double t_s) { return moment.time_s < t_s; };
+    const auto first = std::lower_bound(from_.begin(), from_.end(), time_s - kPhase_s, later);
+    return first == from_.end() ? none_ : *first;
+  }
+
+ private:
+  static Moment without() {
+    Moment none;
+    none.tension_N.fill(kTaut_N);
+    return none;
+  }
+  static void widen(Moment& moment, const Moment& next) {
+    for (Index c = 0; c < next.tension_N.size(); ++c)
+      moment.tension_N[c] = std::fmin(moment.tension_N[c], next.tension_N[c]);
+    for (Index k = 0; k < next.rate_rad_s.size(); ++k)
+      moment.rate_rad_s[k] = std::fmax(std::fabs(moment.rate_rad_s[k]), std::fabs(next.rate_rad_s[k]));
+    for (Index m = 0; m < next.node_speed_m_s.size(); ++m)
+      moment.node_speed_m_s[m] = std::fmax(moment.node_speed_m_s[m], next.node_speed_m_s[m]);
+    moment.tip_rate_rad_s = std::fmax(moment.tip_rate_rad_s, next.tip_rate_rad_s);
+  }
+
+  static constexpr double kTaut_N = 1e6;
+  std::vector<Moment> from_;
+  Moment none_ = without();
+};
+
 // Checks of every moment, in the order of time; remembers when and where the first one failed.
 class MomentJudge {
  public:
-  MomentJudge(const MotionRules& rules, SimulationVerdict& verdict)
-      : table_(rules.table), zone_(rules.zone), verdict_(verdict), judge_(verdict) {}
+  MomentJudge(const MotionRules& rules, const simulation::Motion* stop, SimulationVerdict& verdict)
+      : table_(rules.table), zone_(rules.zone), stop_(stop), verdict_(verdict), judge_(verdict) {}
 
   void told(const simulation::JointSequence& sequence) {
     for (Index row = 0; row < sequence.rows_rad.size(); ++row) {
@@ -56,9 +98,10 @@ class MomentJudge {
 
   void simulated(const simulation::JointSequence& sequence, const simulation::Motion& motion) {
     for (const Moment& moment : motion.moments) {
-      joints(sequence, motion, moment);
-      nodes(moment);
-      cables(moment, motion.min_passed_share);
+      const Moment& anyway = stop_.from(moment.time_s);
+      joints(sequence, motion, moment, anyway);
+      nodes(moment, anyway);
+      cables(moment, anyway, motion.min_passed_share);
     }
   }
 
@@ -74,7 +117,8 @@ class MomentJudge {
     return std::fmax(table_.segment[k / 2].theta_limit_rad, std::fabs(sequence.rows_rad.front()[k]));
   }
 
-  void joints(const simulation::JointSequence& sequence, const simulation::Motion& motion, const Moment& moment) {
+  void joints(const simulation::JointSequence& sequence, const simulation::Motion& motion, const Moment& moment,
+              const Moment& anyway) {
     for (Index k = 0; k < thetas(); ++k) {
       // Friction may hold it as far out from the beginning.
       const double stands_rad = std::fabs(motion.moments.front().theta_rad[k]) + motion.friction_band_rad[k];
@@ -82,27 +126,30 @@ class MomentJudge {
                    std::fabs(moment.theta_rad[k]) + motion.friction_band_rad[k],
                    std::fmax(max_rad(sequence, k), stands_rad) + kSwingAngle_rad);
       judge_.check(Refusal::kJointRate, "simulated rate of theta", kDegreesPerSecond, static_cast<int>(k),
-                   moment.rate_rad_s[k], kSwingRate * table_.limits.theta_rate_rad_s);
+                   moment.rate_rad_s[k],
+                   std::fmax(kSwingRate * table_.limits.theta_rate_rad_s, kNoFaster * std::fabs(anyway.rate_rad_s[k])));
       note("theta", k, moment.time_s);
     }
   }
 
-  void nodes(const Moment& moment) {
+  void nodes(const Moment& moment, const Moment& anyway) {
+    const auto allowed = [](double limit, double speed) { return std::fmax(limit, kNoFaster * speed); };
     const auto tip = static_cast<Index>(table_.segment_count) - 1;
     const double tip_m_s = zone_.limit_at(moment.node_in_base_m[tip], table_.limits.tip_speed_m_s);
     for (Index m = 0; m < tip; ++m) {
       judge_.check(Refusal::kNodeSpeed, "speed of node", kMetresPerSecond, static_cast<int>(m),
-                   moment.node_speed_m_s[m], kNodeShare * table_.limits.tip_speed_m_s);
+                   moment.node_speed_m_s[m],
+                   allowed(kNodeShare * table_.limits.tip_speed_m_s, anyway.node_speed_m_s[m]));
       note("node", m, moment.time_s);
     }
     judge_.check(Refusal::kTipSpeed, "simulated tip speed", kMetresPerSecond, -1, moment.node_speed_m_s[tip],
-                 kSwingTip * tip_m_s);
+                 allowed(kSwingTip * tip_m_s, anyway.node_speed_m_s[tip]));
     judge_.check(Refusal::kTipSpeed, "simulated tip turn rate", kDegreesPerSecond, -1, moment.tip_rate_rad_s,
-                 kSwingTip * table_.limits.tip_rate_rad_s);
+                 allowed(kSwingTip * table_.limits.tip_rate_rad_s, anyway.tip_rate_rad_s));
     note("tip", kNoIndex, moment.time_s);
   }
 
-  void cables(const Moment& moment, const cable::CableVector& passed_share) {
+  void cables(const Moment& moment, const Moment& anyway, const cable::CableVector& passed_share) {
     const cable::TensionLimits& limits = table_.tension;
     const double unsure_N = kSwingTension_N * limits.scale();
     for (Index c = 0; c < static_cast<Index>(table_.cable_count()); ++c) {
@@ -110,7 +157,8 @@ class MomentJudge {
       const double left_N = (tension_N - unsure_N) * passed_share[c] - limits.floor_anywhere_N;
       judge_.check(Refusal::kSwingTension, "tension with inertia of cable", kNewtons, static_cast<int>(c),
                    tension_N + unsure_N, limits.alarm_N);
-      if (left_N < 0.0 && verdict_.passed())
+      const bool swings_so_anyway = tension_N >= anyway.tension_N[c] - kNoWorse_N * limits.scale();
+      if (left_N < 0.0 && !swings_so_anyway && verdict_.passed())
         judge_.refuse(Refusal::kSwingTension,
                       slack_text(c, tension_N, limits.floor_anywhere_N / passed_share[c] + unsure_N));
       least(verdict_.margins.tension_N, std::fmin(limits.alarm_N - tension_N - unsure_N, left_N));
@@ -135,6 +183,7 @@ class MomentJudge {
 
   const cable::RobotParams& table_;
   const arbiter::SpeedZone& zone_;
+  StopSwing stop_;
   SimulationVerdict& verdict_;
   Judge judge_;
 };
@@ -176,7 +225,8 @@ void judge_walls(const MotionRules& rules, const config::SceneFixture& walls, co
 }  // namespace
 
 SimulationVerdict judge_simulated(const MotionRules& rules, const simulation::JointSequence& sequence,
-                                  bool comes_to_rest, const simulation::Motion& motion, TooNear& too_near) {
+                                  bool comes_to_rest, const simulation::Motion& motion, TooNear& too_near,
+                                  const simulation::Motion* stop) {
   SimulationVerdict verdict;
   if (!motion.solved) {
     refuse(verdict, Refusal::kNotFinite, "the simulated arm's equations have no solution", {});
@@ -188,7 +238,7 @@ SimulationVerdict judge_simulated(const MotionRules& rules, const simulation::Jo
   for (const config::SceneFixture& fixture : rules.scene.fixtures)
     if (verdict.passed()) judge_walls(rules, fixture, motion, verdict);
   if (verdict.passed()) verdict.first = {};
-  MomentJudge moments(rules, verdict);
+  MomentJudge moments(rules, stop, verdict);
   moments.told(sequence);
   moments.told_tip(motion, sequence.interval_s);
   moments.simulated(sequence, motion);
@@ -197,6 +247,11 @@ SimulationVerdict judge_simulated(const MotionRules& rules, const simulation::Jo
   judge_tick_time(rules.table, rules.machine, verdict);
   if (verdict.first.body.empty()) verdict.first = nearest;
   return verdict;
+}
+
+bool is_of_swing(Refusal code) {
+  return code == Refusal::kSwingTension || code == Refusal::kTipSpeed || code == Refusal::kNodeSpeed ||
+         code == Refusal::kJointRate;
 }
 
 }  // namespace liana::verification

@@ -24,9 +24,14 @@ struct MotionRules {
   Pose drawing_in_base{};     // where the scene stands
 };
 
-// `comes_to_rest`: the sequence ends with the arm told to stand. `too_near`: of all motions of this arm in turn. Cost:
-// about 300 instructions a moment.
+// `comes_to_rest`: the sequence ends with the arm told to stand. `too_near`: of all motions of this arm in turn.
+// `stop`: what the arm does when nothing more is asked of it; how it swings then is no reason to refuse a motion that
+// swings no worse. Cost: about 300 instructions a moment.
 SimulationVerdict judge_simulated(const MotionRules& rules, const simulation::JointSequence& sequence,
-                                  bool comes_to_rest, const simulation::Motion& motion, TooNear& too_near);
+                                  bool comes_to_rest, const simulation::Motion& motion, TooNear& too_near,
+                                  const simulation::Motion* stop = nullptr);
+
+// Refused for how the simulated arm swings: with `stop` it may pass.
+bool is_of_swing(Refusal code);
 
 }  // namespace liana::verification

@@ -92,6 +92,12 @@ bool may_pass_slower(Refusal code) {
   return code == kSwingTension || code == kTipSpeed || code == kNodeSpeed || code == kJointRate || code == kNoRest;
 }
 
+bool is_of_motion(Refusal code) {
+  using enum Refusal;
+  constexpr std::array kOthers = {kNone, kNotAccepted, kTooSlow, kTickTime, kModel, kPath, kNoVerdict};
+  return std::find(kOthers.begin(), kOthers.end(), code) == kOthers.end();
+}
+
 const char* refusal_action_name(RefusalAction action) { return action == kStop ? "stop" : "hold"; }
 
 std::string markdown_of(std::span<const RefusalRow> rows) {

@@ -33,6 +33,8 @@ const RefusalRow& row_of(Refusal code);
 
 // Refused for how the arm would swing: from rest, and more slowly, the same may pass.
 bool may_pass_slower(Refusal code);
+// It is about how the arm would move, not about verification itself, the time it took or the model.
+bool is_of_motion(Refusal code);
 
 const char* refusal_action_name(RefusalAction action);
 

@@ -25,7 +25,7 @@ Vector between(const Vector& from, const Vector& to, double share) {
 }  // namespace
 
 template <class Arm>
-void read_sequence(const TwinSnapshot<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction,
+void read_sequence(const TwinSnapshot<Arm>& image, std::uint64_t first_tick, const Prediction<Arm>& prediction,
                    simulation::ToldRows<arbiter::Joints<Arm>>& out) {
   using Kind = arbiter::ArmTraits<Arm>;
   const auto& table = image.controller.table();
@@ -36,7 +36,7 @@ void read_sequence(const TwinSnapshot<Arm>& image, const Candidate<Arm>& candida
   const auto& now = Kind::command_rad(image.last_outputs);
   out.rows_rad.push_back(now);
   // Until the candidate's first tick the drives are told what was released before: straight to where that begins.
-  const auto rows = (candidate.first_tick() - image.next_tick) / interval;
+  const auto rows = (first_tick - image.next_tick) / interval;
   for (std::uint64_t row = 1; row <= rows; ++row) {
     const double share = static_cast<double>(row * interval) / static_cast<double>(rows * interval + 1);
     out.rows_rad.push_back(arbiter::between(now, Kind::command_rad(prediction.ticks.front()), share));
@@ -45,22 +45,22 @@ void read_sequence(const TwinSnapshot<Arm>& image, const Candidate<Arm>& candida
     out.rows_rad.push_back(Kind::command_rad(prediction.ticks[std::min(tick, last)]));
 }
 
-#define LIANA_READ_SEQUENCE(Arm)                                                                            \
-  template void read_sequence<Arm>(const TwinSnapshot<Arm>&, const Candidate<Arm>&, const Prediction<Arm>&, \
+#define LIANA_READ_SEQUENCE(Arm)                                                                    \
+  template void read_sequence<Arm>(const TwinSnapshot<Arm>&, std::uint64_t, const Prediction<Arm>&, \
                                    simulation::ToldRows<arbiter::Joints<Arm>>&)
 LIANA_READ_SEQUENCE(cable::CableArm);
 LIANA_READ_SEQUENCE(serial::SerialArm);
 #undef LIANA_READ_SEQUENCE
 
-void read_sequence(const TwinSnapshot<CableArm>& image, const Candidate<CableArm>& candidate,
+void read_sequence(const TwinSnapshot<CableArm>& image, std::uint64_t first_tick,
                    const Prediction<CableArm>& prediction, simulation::JointSequence& out) {
-  read_sequence<CableArm>(image, candidate, prediction, out);
+  read_sequence<CableArm>(image, first_tick, prediction, out);
   const auto interval = static_cast<std::size_t>(image.controller.table().interval_ticks);
   const std::size_t last = prediction.ticks.size() - 1;
   const cable::Outputs &now = image.last_outputs, &begins = prediction.ticks.front();
   out.loads_Nm.assign(1, now.load_Nm);
   out.tensions_N.assign(1, now.tension_plan_N);
-  const auto rows = (candidate.first_tick() - image.next_tick) / interval;
+  const auto rows = (first_tick - image.next_tick) / interval;
   for (std::uint64_t row = 1; row <= rows; ++row) {
     const double share = static_cast<double>(row * interval) / static_cast<double>(rows * interval + 1);
     out.loads_Nm.push_back(between(now.load_Nm, begins.load_Nm, share));
@@ -85,6 +85,7 @@ void SimulationVerifier<CableArm>::watch(const TwinSnapshot<CableArm>& image) {
   if (now.homed == 0) observer_.forget();
   observer_.watch(now.theta_measured_rad, now.tension_measured_N, told_now(rules_.table, now), since_s);
   watched_tick_ = image.next_tick;
+  stop_.solved = false;
 }
 
 void SimulationVerifier<CableArm>::believe(const cable::ThetaVector& theta_off_rad, const Pose& drawing_in_base,
@@ -97,24 +98,39 @@ void SimulationVerifier<CableArm>::believe(const cable::ThetaVector& theta_off_r
 void SimulationVerifier<CableArm>::begin(const TwinSnapshot<CableArm>& image, const Candidate<CableArm>& candidate,
                                          const Prediction<CableArm>& prediction) {
   number_ = candidate.sequence();
+  trial_ = candidate.trial();
   comes_to_rest_ = prediction.comes_to_rest;
-  read_sequence(image, candidate, prediction, sequence_);
+  begun_ = simulates(image, candidate.first_tick(), prediction);
+}
+
+bool SimulationVerifier<CableArm>::simulates(const TwinSnapshot<CableArm>& image, std::uint64_t first_tick,
+                                             const Prediction<CableArm>& prediction) {
+  read_sequence(image, first_tick, prediction, sequence_);
   simulation::StartState start = observer_.now();
   start.drawing_in_base = rules_.drawing_in_base;
   for (std::size_t k = 0; k < start.theta_rad.size(); ++k) start.theta_rad[k] += theta_off_rad_[k];
-  begun_ = worker_.begin(start, sequence_);
+  return worker_.begin(start, sequence_);
+}
+
+bool SimulationVerifier<CableArm>::compares(Refusal code, const TwinSnapshot<CableArm>& image, std::uint64_t first_tick,
+                                            const Prediction<CableArm>& stop, double patience_s) {
+  if (stop_.solved || !is_of_swing(code) || !simulates(image, first_tick, stop)) return false;
+  const simulation::Motion* motion = worker_.motion(patience_s);
+  if (motion != nullptr) stop_ = *motion;
+  return stop_.solved;
 }
 
 SimulationVerdict SimulationVerifier<CableArm>::verdict(double patience_s) {
   const simulation::Motion* motion = begun_ ? worker_.motion(patience_s) : nullptr;
   SimulationVerdict verdict;
   if (motion != nullptr) {
-    verdict = judge_simulated(rules_, sequence_, comes_to_rest_, *motion, too_near_);
+    verdict = judge_simulated(rules_, sequence_, comes_to_rest_, *motion, too_near_, &stop_);
   } else {
     verdict.code = Refusal::kNoVerdict;
     verdict.text = "the simulation had no verdict before the command's interval";
   }
   verdict.sequence = number_;
+  verdict.trial = trial_;
   return verdict;
 }
 
@@ -123,7 +139,7 @@ void SimulationVerifier<serial::SerialArm>::begin(const TwinSnapshot<Arm>& image
   verdict_ = judge_motion<Arm>(table_, candidate, prediction);
   verdict_.margins = margins_unknown();
   if (!verdict_.passed()) return;
-  read_sequence(image, candidate, prediction, sequence_);
+  read_sequence(image, candidate.first_tick(), prediction, sequence_);
   const bool carries = candidate.setpoint().payload_at_tip.mass_kg > 0.0;
   const simulation::SerialMotion& motion = simulation_.run(image.last_outputs.joint_measured_rad, sequence_, carries);
   judge_serial(table_, simulation_, sequence_, motion, too_near_, verdict_);

@@ -18,10 +18,10 @@ constexpr double kWhenever = std::numeric_limits<double>::infinity();
 
 // Every T_c what the drives are told: now, then at the end of each interval that the twin has looked into.
 template <class Arm>
-void read_sequence(const TwinSnapshot<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction,
+void read_sequence(const TwinSnapshot<Arm>& image, std::uint64_t first_tick, const Prediction<Arm>& prediction,
                    simulation::ToldRows<arbiter::Joints<Arm>>& out);
 // The same of a cable arm, with what its tensions are planned to do at the rows.
-void read_sequence(const TwinSnapshot<cable::CableArm>& image, const Candidate<cable::CableArm>& candidate,
+void read_sequence(const TwinSnapshot<cable::CableArm>& image, std::uint64_t first_tick,
                    const Prediction<cable::CableArm>& prediction, simulation::JointSequence& out);
 
 template <class Arm>
@@ -45,8 +45,14 @@ class SimulationVerifier<cable::CableArm> {
   void begin(const TwinSnapshot<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction);
   // The verdict on what was begun; refused as kNoVerdict where it takes longer than `patience_s`.
   SimulationVerdict verdict(double patience_s);
+  // Where `code` is about how the arm swings: looks at `stop`, what becomes of the arm when a candidate of `first_tick`
+  // is refused, and judges by it until the next image. Whether the candidate is to be judged anew.
+  bool compares(Refusal code, const TwinSnapshot<Arm>& image, std::uint64_t first_tick, const Prediction<Arm>& stop,
+                double patience_s);
 
  private:
+  bool simulates(const TwinSnapshot<Arm>& image, std::uint64_t first_tick, const Prediction<Arm>& prediction);
+
   MotionRules rules_;
   simulation::Worker worker_;
   simulation::ArmObserver observer_;
@@ -54,9 +60,11 @@ class SimulationVerifier<cable::CableArm> {
   simulation::JointSequence sequence_;
   TooNear too_near_;
   std::uint64_t number_ = 0;  // of the candidate
+  std::uint32_t trial_ = 0;
   bool comes_to_rest_ = false;
   bool begun_ = false;
   std::uint64_t watched_tick_ = 0;
+  simulation::Motion stop_;  // unsolved: nothing is compared
 };
 
 // A serial arm: what the drives are told as its own kinematics has it, and where links of rigid gears go with that. It
@@ -76,6 +84,8 @@ class SimulationVerifier<serial::SerialArm> {
   // Judges what the candidate makes the controller tell its drives, from where the arm is measured to be.
   void begin(const TwinSnapshot<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction);
   SimulationVerdict verdict(double) { return verdict_; }
+  // Links of rigid gears do not swing.
+  bool compares(Refusal, const TwinSnapshot<Arm>&, std::uint64_t, const Prediction<Arm>&, double) { return false; }
 
  private:
   serial::RobotParams table_;

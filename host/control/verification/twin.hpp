@@ -28,6 +28,10 @@ class Twin {
   // Cost: a tick of the controller for each of them, and nothing else that counts.
   static void run(const TwinSnapshot<Arm>& start, std::span<const Command> released, const Candidate<Arm>& candidate,
                   std::size_t max_stop_ticks, Prediction<Arm>& prediction);
+  // The same with nothing in the place of a candidate of the interval that begins at `first_tick`: what the arm does
+  // when that is refused.
+  static void stop(const TwinSnapshot<Arm>& start, std::span<const Command> released, std::uint64_t first_tick,
+                   std::size_t max_stop_ticks, Prediction<Arm>& prediction);
 };
 
 extern template class Twin<cable::CableArm>;

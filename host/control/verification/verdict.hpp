@@ -60,6 +60,7 @@ struct First {
 // One end's judgement of one candidate.
 struct Verdict {
   std::uint64_t sequence = 0;
+  std::uint32_t trial = 0;  // of what was tried under this sequence
   Refusal code = Refusal::kNone;
   std::string text;    // why it was refused; empty when passed
   std::string margin;  // where the motion comes nearest to a limit, e.g. "theta 3: 0.8 of the rate limit"

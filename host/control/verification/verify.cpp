@@ -51,6 +51,7 @@ ExecutionVerdict judge_execution(const typename Arm::Table& table, const Candida
                                  const Prediction<Arm>& prediction, const arbiter::SpeedZone& zone) {
   ExecutionVerdict verdict;
   verdict.sequence = candidate.sequence();
+  verdict.trial = candidate.trial();
   Judge judge(verdict);
   for (std::size_t i = 0; i < prediction.ticks.size(); ++i) {
     const Outputs<Arm>& outputs = prediction.ticks[i];
@@ -80,6 +81,7 @@ SimulationVerdict judge_motion(const typename Arm::Table& table, const Candidate
                                const Prediction<Arm>& prediction, const arbiter::SpeedZone& zone) {
   SimulationVerdict verdict;
   verdict.sequence = candidate.sequence();
+  verdict.trial = candidate.trial();
   Judge judge(verdict);
   for (const Outputs<Arm>& outputs : prediction.ticks) {
     judge_joints(table, prediction.ticks.front(), outputs, judge);

@@ -67,6 +67,26 @@ TEST(IssueStep, VerdictsOnOtherCandidatesDoNotCount) {
   EXPECT_FALSE(release.release(old, execution(1), simulation(1))) << "a newer candidate exists";
 }
 
+// req:A20 req:C6
+TEST(IssueStep, AnotherInItsPlaceHasItsNumberAndNeedsVerdictsOfItsOwn) {
+  IssueStep<cable::CableArm> release;
+  const Candidate<cable::CableArm> asked = release.candidate(hold(), 7, 100, 5);
+  const Candidate<cable::CableArm> other = release.another(cable::Setpoint{}, asked);
+  EXPECT_EQ(other.sequence(), asked.sequence());
+  EXPECT_FALSE(release.release(other, execution(1), simulation(1))) << "verdicts on what it replaces";
+  ExecutionVerdict executed = execution(1);
+  SimulationVerdict simulated = simulation(1);
+  executed.trial = simulated.trial = 1;
+  EXPECT_FALSE(release.release(asked, execution(1), simulation(1))) << "another one is newer";
+  const auto telecommand = release.release(other, executed, simulated);
+  ASSERT_TRUE(telecommand);
+  EXPECT_EQ(telecommand->first_tick(), 100u);
+  EXPECT_EQ(telecommand->expiry_tick(), 105u);
+  EXPECT_EQ(telecommand->owner(), 7u);
+  EXPECT_EQ(telecommand->setpoint().kind, CommandKind::kNone);
+  EXPECT_FALSE(release.release(other, executed, simulated)) << "released already";
+}
+
 TEST(IssueStep, NothingIsReleasedTwice) {
   IssueStep<cable::CableArm> release;
   const Candidate<cable::CableArm> candidate = release.candidate(hold(), 7, 100, 5);

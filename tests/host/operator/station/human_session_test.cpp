@@ -64,7 +64,7 @@ Crossing cross(HumanTable table, const haptics::Delays& delays = {}) {
   });
   rig.hold_at_zero(1u << 8);
   const arbiter::DeviceUse entry{"hand", device::Kind::kHandController, {4.0, 1.0}, 0, 0.1, false};
-  clocked(out.slit, out.slit_s, [&] { return out.edge && rig.step("hand", "slit", entry, 200.0); });
+  clocked(out.slit, out.slit_s, [&] { return out.edge && rig.step("hand", "slit", entry, 300.0); });
   rig.hold_at_zero(1u << 6 | 1u << 8);
   const arbiter::DeviceUse fine{"hand", device::Kind::kHandController, {2.0, 1.0}, 0, 0.03, false};
   clocked(out.rod, out.rod_s, [&] { return out.slit && rig.step("hand", "rod", fine, 90.0); });
