@@ -32,6 +32,7 @@ TREMOR_M, TREMOR_HZ = 0.0005, (8.0, 12.0)
 INTERVAL_S, STEP_S = 0.02, 0.001
 AFTER_FAULT_S = 1.0
 LAG_MOST_S, LAG_LEAST_WAY_M = 2.0, 0.01
+STILL_M = 1e-4  # in ten intervals
 
 
 class Follower:
@@ -183,10 +184,14 @@ def held_way(hand):
 
 
 def drift(hand, states):
-    """How far the commanded tip ends beside where the mapping has it, mm and deg; nothing when it did not get there."""
-    if not states or states[-1][0] < ENDS_S - 0.1:
+    """How far the commanded tip ends beside where the mapping has it, mm and deg; nothing of a hand that let go, at
+    which the arm stops where it is, and of a tip that is on its way still.
+    """
+    if not states or states[-1][0] < ENDS_S - 0.1 or hand.open_s[1] > 0:
         return None, None
-    first, last = states[0][1]["setpoint_cp"], states[-1][1]["setpoint_cp"]
+    first, before, last = (states[i][1]["setpoint_cp"] for i in (0, -10, -1))
+    if math.dist(before, last) > STILL_M:
+        return None, None
     way_m, turn_deg = held_way(hand)
     beside = [b - a - way_m * axis for a, b, axis in zip(first, last, hand.axis)]
     half = math.radians(turn_deg) / 2
