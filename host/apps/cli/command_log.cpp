@@ -34,7 +34,7 @@ std::string outcome(const CommandRecord& life) {
   if (life.refusal) {
     const verification::RefusalRow& row =
         verification::row_of(static_cast<verification::Refusal>(life.refusal->number));
-    return "refused, M_e " + std::to_string(life.refusal->number) + " " + row.name + ": " + life.refusal->text;
+    return "refused: " + life.refusal->text + " [" + std::to_string(life.refusal->number) + " " + row.name + "]";
   }
   return life.complete ? "complete" : life.start ? "started" : life.release ? "released" : "asked for";
 }

@@ -31,7 +31,8 @@ event::Event fault_event(const Fault& fault) {
           .number = event::number_of(fault.number),
           .subject = subject_of(fault),
           .values = {{"detail", static_cast<double>(fault.detail)}, {"tick", static_cast<double>(fault.tick)}},
-          .text = std::string(info.name) + ": " + info.text};
+          .text = std::string(info.text) + " " + info.remedy + " [" + std::to_string(event::number_of(fault.number)) + " " +
+                  info.name + "]"};
 }
 
 event::Event faults_without_place_event(std::uint32_t count) {
@@ -109,12 +110,14 @@ event::Event emergency_event(std::size_t drive, std::uint16_t code) {
 }
 
 event::Event verdict_event(std::uint64_t command, const verification::Verdict& verdict) {
+  const verification::RefusalRow& row = verification::row_of(verdict.code);
   return {.kind = event::EventKind::kVerdict,
           .number = event::number_of(verdict.code),
           .subject = event::number_of(verdict.code) < 200 ? "execution" : "simulation",
           .values = {{"command", static_cast<double>(command)}, {"share", verdict.share}},
-          .text = "refused " + std::to_string(command) + ", M_e " + std::to_string(event::number_of(verdict.code)) +
-                  " " + verification::row_of(verdict.code).name + ": " + verdict.text};
+          .text = "refused: " + verdict.text + ". " + row.remedy + " [" +
+                  std::to_string(event::number_of(verdict.code)) + " " + row.name + ", command " +
+                  std::to_string(command) + "]"};
 }
 
 event::Event path_event(const arbiter::PathEvents& news) {

@@ -76,7 +76,8 @@ void judge_distances(const config::SceneConfig& scene, const simulation::Distanc
   const double least_m = distances.scene.distance_m, start_m = distances.scene_at_start_m;
   const double claimed_m = least_m - levels.prediction_m;
   const First first = at_scene(scene, distances.scene, link_name);
-  verdict.margins.clearance_m = claimed_m - levels.refuse_m;
+  verdict.margins.clearance_m =
+      clearance::obstacle_count(scene) > 0 ? claimed_m - levels.refuse_m : margins_unknown().clearance_m;
   verdict.slowly = claimed_m < levels.slow_m;
   verdict.first = first;
   const bool stands_too_near = start_m - levels.prediction_m < levels.refuse_m;
@@ -84,9 +85,9 @@ void judge_distances(const config::SceneConfig& scene, const simulation::Distanc
   const auto refuse_contact = [&](double simulated_m, double stands_m, const First& where) {
     too_near.refused();
     refuse(verdict, Refusal::kSceneContact,
-           "the arm could touch " + where.body + ": " + in_millimetres(simulated_m - levels.prediction_m) +
-               " of the simulated " + in_millimetres(simulated_m) + " are certain, " + in_millimetres(levels.refuse_m) +
-               " have to be left; it stands " + in_millimetres(stands_m) + " off",
+           "the arm could touch " + where.body + ": predicted " + in_millimetres(simulated_m) + ", uncertain by " +
+               in_millimetres(levels.prediction_m) + ", allowed " + in_millimetres(levels.refuse_m) +
+               " for certain; it stands " + in_millimetres(stands_m) + " off",
            where);
   };
   if (!std::isfinite(least_m) || (claimed_m < levels.refuse_m && !leads_away(distances, travel_m, too_near))) {

@@ -55,13 +55,11 @@ void judge_tip(const serial::RobotParams& table, const simulation::SerialMotion&
 void judge_serial(const serial::RobotParams& table, const simulation::SerialSimulation& simulation,
                   const simulation::ToldRows<serial::JointVector>& told, const simulation::SerialMotion& motion,
                   TooNear& too_near, SimulationVerdict& verdict) {
-  const double clearance_unknown_m = verdict.margins.clearance_m;
   const std::vector<Vec3>& tip_m = motion.tip_in_base_m;
   const double travel_m = tip_m.empty() ? 0.0 : norm(subtract(tip_m.back(), tip_m.front()));
   judge_distances(
       simulation.scene(), motion.distances, [&](std::int32_t link) { return simulation.contact().link_name(link); },
       travel_m, too_near, verdict);
-  if (clearance::obstacle_count(simulation.scene()) == 0) verdict.margins.clearance_m = clearance_unknown_m;
   if (!verdict.passed()) return;
   const First nearest = verdict.first;
   verdict.first = {};

@@ -102,7 +102,7 @@ const char* refusal_action_name(RefusalAction action) { return action == kStop ?
 
 std::string markdown_of(std::span<const RefusalRow> rows) {
   std::string text =
-      "| M_e | name | what it says | margin in | action | what to do |\n"
+      "| code | name | what it says | margin in | action | what to do |\n"
       "|---|---|---|---|---|---|\n";
   for (const RefusalRow& row : rows) {
     text += "| " + std::to_string(static_cast<int>(row.code)) + " | " + row.name + " | " + row.says + " | " + row.unit +

@@ -64,7 +64,7 @@ void add_latency(CLI::App& app, Action& action) {
 void add_faults(CLI::App& app, Action& action) {
   auto [sub, faults] = add<FaultsOptions>(app, action, "faults", faults_command);
   sub.add_option("--robot", faults.robot, "robot table whose tick counts")->capture_default_str();
-  sub.add_flag("--refusals", faults.refusals, "error codes M_e of verification in place of faults");
+  sub.add_flag("--refusals", faults.refusals, "refusal codes of verification in place of faults");
   sub.add_flag("--markdown", faults.markdown,
                "print the table of docs/reference/faults.md, or of docs/reference/refusals.md");
   add_json(sub, faults.json);

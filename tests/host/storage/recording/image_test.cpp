@@ -142,7 +142,7 @@ TEST(Image, AnImageWithFlippedBytesIsRefusedOrHarmless) {
   const std::string good = state_of(rig.controller);
   std::mt19937 draw(7);
   int taken = 0;
-  for (int i = 0; i < 4000; ++i) {
+  for (int i = 0; i < 1000; ++i) {
     std::string bad = good;
     for (int flips = 1 + i % 3; flips > 0; --flips) {
       char& byte = bad[draw() % bad.size()];
@@ -154,8 +154,8 @@ TEST(Image, AnImageWithFlippedBytesIsRefusedOrHarmless) {
     other.controller = controller_from<cable::CableArm>(bad, rig.robot, "images.mcap");
     other.run(4);
   }
-  EXPECT_GT(taken, 100);
-  EXPECT_LT(taken, 4000);
+  EXPECT_GT(taken, 20);
+  EXPECT_LT(taken, 1000);
 }
 
 }  // namespace
