@@ -125,7 +125,8 @@ void print_summary(const verification::Verdict& verdict) {
     std::printf("accepted%s\n", verdict.slowly ? ", to be carried out slowly" : "");
   } else {
     const verification::RefusalRow& row = verification::row_of(verdict.code);
-    std::printf("refused: %s. %s [%d %s]\n", verdict.text.c_str(), row.remedy, static_cast<int>(verdict.code), row.name);
+    std::printf("refused: %s. %s [%d %s]\n", verdict.text.c_str(), row.remedy, static_cast<int>(verdict.code),
+                row.name);
   }
   const verification::Margins& left = verdict.margins;
   const double clearance_mm = verdict.first.body.empty() ? std::nan("") : 1000.0 * left.clearance_m;

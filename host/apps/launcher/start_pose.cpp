@@ -9,6 +9,7 @@
 #include "firmware_like/math/trig.hpp"
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/tables.hpp"
+#include "host/base/options/nearest.hpp"
 #include "host/model/config/field.hpp"
 #include "host/model/config/robot_parts.hpp"
 #include "host/model/simulation/serial_simulation.hpp"
@@ -31,10 +32,16 @@ struct Choice {
   throw BadInput("--start-pose: '" + given + "': allowed for robot " + choice.robot + ": " + allowed);
 }
 
-std::string names(const Poses& poses) {
+std::string list_of(const std::vector<std::string>& names) {
   std::string list;
-  for (const auto& [name, angles_deg] : poses) list += (list.empty() ? "" : ", ") + name;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
   return list;
+}
+
+std::vector<std::string> names(const Poses& poses) {
+  std::vector<std::string> names;
+  for (const auto& [name, angles_deg] : poses) names.push_back(name);
+  return names;
 }
 
 std::optional<std::vector<double>> numbers_in(std::string_view text) {
@@ -74,7 +81,9 @@ StartPose chosen(const Choice& choice, const std::string& given) {
   const auto numbers = numbers_in(text);
   const std::size_t count = choice.range_deg.size();
   if (!numbers || numbers->size() != count)
-    refuse(choice, text, names(choice.poses) + ", or its " + std::to_string(count) + " angles in degrees");
+    refuse(choice, text,
+           list_of(names(choice.poses)) + ", or its " + std::to_string(count) + " angles in degrees" +
+               options::did_you_mean(text, names(choice.poses)));
   for (std::size_t i = 0; i < count; ++i) {
     if (choice.range_deg[i].contains((*numbers)[i])) continue;
     refuse(choice, text, "angle " + std::to_string(i + 1) + " in " + choice.range_deg[i].text() + " deg");

@@ -31,8 +31,8 @@ event::Event fault_event(const Fault& fault) {
           .number = event::number_of(fault.number),
           .subject = subject_of(fault),
           .values = {{"detail", static_cast<double>(fault.detail)}, {"tick", static_cast<double>(fault.tick)}},
-          .text = std::string(info.text) + " " + info.remedy + " [" + std::to_string(event::number_of(fault.number)) + " " +
-                  info.name + "]"};
+          .text = std::string(info.text) + " " + info.remedy + " [" + std::to_string(event::number_of(fault.number)) +
+                  " " + info.name + "]"};
 }
 
 event::Event faults_without_place_event(std::uint32_t count) {

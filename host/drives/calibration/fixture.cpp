@@ -8,6 +8,7 @@
 #include "firmware_like/cable/arm/tension.hpp"
 #include "firmware_like/drive/pdo.hpp"
 #include "firmware_like/math/trig.hpp"
+#include "host/base/options/nearest.hpp"
 #include "host/drives/calibration/text.hpp"
 
 namespace liana::calibration {
@@ -41,8 +42,13 @@ ThetaVector named_pose_rad(const config::RobotConfig& robot, const std::string& 
   const auto found = robot.named_poses_deg.find(name);
   if (found == robot.named_poses_deg.end()) {
     std::string known;
-    for (const auto& [pose, angles] : robot.named_poses_deg) known += (known.empty() ? "" : ", ") + pose;
-    throw std::runtime_error("pose '" + name + "': allowed are the named poses of robot " + robot.name + ": " + known);
+    std::vector<std::string> names;
+    for (const auto& [pose, angles] : robot.named_poses_deg) {
+      known += (known.empty() ? "" : ", ") + pose;
+      names.push_back(pose);
+    }
+    throw std::runtime_error("pose '" + name + "': allowed are the named poses of robot " + robot.name + ": " + known +
+                             options::did_you_mean(name, names));
   }
   ThetaVector theta_rad{};
   for (Index i = 0; i < found->second.size(); ++i) theta_rad[i] = found->second[i] * kDegree;

@@ -459,6 +459,8 @@ class Help(Messages, unittest.TestCase):
             (["completion", "bsh"], "bsh", "bash"),
             (["verify", "--from-deg=prepared", "--to-deg=zero", "--duration=5"], "prepared", "prepare"),
             (["sweep", "--from-deg=prepar"], "prepar", "prepare"),
+            (["run", "slit_crossing", "--start-pose=prepar"], "prepar", "prepare"),
+            (["run", "slit_crossing", "--in-pose=fixtur"], "fixtur", "fixture"),
         ]:
             code, out, error = liana(*words)
             self.assertEqual((code, error.count("\n")), (2, 1), (words, error))
