@@ -158,9 +158,10 @@ class MomentJudge {
       judge_.check(Refusal::kSwingTension, "tension with inertia of cable", kNewtons, static_cast<int>(c),
                    tension_N + unsure_N, limits.alarm_N);
       const bool swings_so_anyway = tension_N >= anyway.tension_N[c] - kNoWorse_N * limits.scale();
-      if (left_N < 0.0 && !swings_so_anyway && verdict_.passed())
+      if (left_N < 0.0 && !swings_so_anyway && verdict_.passed()) {
         judge_.refuse(Refusal::kSwingTension,
                       slack_text(c, tension_N, limits.floor_anywhere_N / passed_share[c] + unsure_N));
+      }
       least(verdict_.margins.tension_N, std::fmin(limits.alarm_N - tension_N - unsure_N, left_N));
       note("cable", c, moment.time_s);
     }
