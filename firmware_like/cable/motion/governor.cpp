@@ -88,27 +88,28 @@ double speed_of(double accel_share, double by_rates) noexcept {
   return smaller(by_rates, accel_share < kGovernorSpeed ? std::sqrt(accel_share / kGovernorSpeed) : 1.0);
 }
 
-// Of `theta_limit` for every free theta, and of each cable's limit for its row of `per_theta`.
+// Of `theta_limit` for every free theta, and of each cable's limit for its row of `per_theta`; false, and nothing is
+// known anew, where the Jacobian has no factors.
 template <class Limit>
-Taken taken_of(const RobotParams& table, const Jacobian& J, std::uint32_t held_mask, double theta_limit,
-               const std::array<ThetaVector, kMaxCables>& per_theta, const Limit& limit_of) noexcept {
-  Taken out;
+bool look_at(const RobotParams& table, const Jacobian& J, std::uint32_t held_mask, double theta_limit,
+             const std::array<ThetaVector, kMaxCables>& per_theta, const Limit& limit_of, Taken& out) noexcept {
   ThetaTasks theta;
-  if (!thetas_per_tip(table, J, held_mask, theta)) return out;
+  if (!thetas_per_tip(table, J, held_mask, theta)) return false;
   for (Index k = 0; k < theta_total(table); ++k) out.take(theta[k], theta_limit);
   Index c = 0;
   for (Index j = 0; j < theta_total(table) / 2; ++j) {
     for (std::int32_t i = 0; i < table.segment[j].cables; ++i, ++c)
       out.take(cable_per_tip(table, theta, per_theta[c]), limit_of(j));
   }
-  return out;
+  return true;
 }
 
 void update_accel_shares(const RobotParams& table, const Jacobian& J, std::uint32_t held_mask,
                          GovernorState& state) noexcept {
   const MotionLimits& limits = table.limits;
-  const Taken taken = taken_of(table, J, held_mask, limits.theta_accel_rad_s2, state.pull_N_s2,
-                               [&state](Index segment) noexcept { return state.room_N[segment]; });
+  Taken taken;
+  const auto room_of = [&state](Index segment) noexcept { return state.room_N[segment]; };
+  if (!look_at(table, J, held_mask, limits.theta_accel_rad_s2, state.pull_N_s2, room_of, taken)) return;
   state.linear_share = taken.linear_share(limits.tip_accel_m_s2);
   state.angular_share = taken.angular_share(limits.tip_angular_accel_rad_s2);
 }
@@ -116,8 +117,9 @@ void update_accel_shares(const RobotParams& table, const Jacobian& J, std::uint3
 void update_speed_shares(const RobotParams& table, const CableGeometry& geometry, const Jacobian& J,
                          std::uint32_t held_mask, GovernorState& state) noexcept {
   const MotionLimits& limits = table.limits;
-  const Taken taken = taken_of(table, J, held_mask, limits.theta_rate_rad_s, geometry.jacobian_m_rad,
-                               [&limits](Index) noexcept { return limits.cable_speed_m_s; });
+  Taken taken;
+  const auto speed_of_cable = [&limits](Index) noexcept { return limits.cable_speed_m_s; };
+  if (!look_at(table, J, held_mask, limits.theta_rate_rad_s, geometry.jacobian_m_rad, speed_of_cable, taken)) return;
   state.speed_share = speed_of(state.linear_share, taken.linear_share(limits.tip_speed_m_s));
   state.turn_share = speed_of(state.angular_share, taken.angular_share(limits.tip_rate_rad_s));
 }

@@ -224,12 +224,11 @@ LastVerdict TypedArmServer<Arm, Steering>::verify_and_release(const typename Arm
 // Whether it is to be verified once more, beside what becomes of the arm when it stays refused.
 template <class Arm, class Steering>
 bool TypedArmServer<Arm, Steering>::compares(const LastVerdict& refused) {
-  const verification::Refusal code = refused.worst.code;
-  if (!verification::is_of_swing(code)) return false;
+  if (!verification::is_of_swing(refused.worst.code)) return false;
   const verification::TwinSnapshot<Arm>& image = link_.image.value();
   const std::uint64_t first_tick = refused.first_tick;
   verification::Twin<Arm>::stop(image, released_, first_tick, verification::max_stop_ticks(table_.tick_s), stop_);
-  return simulation_->compares(code, image, first_tick, stop_, patience_s(first_tick));
+  return simulation_->compares(image, first_tick, stop_, patience_s(first_tick));
 }
 
 template <class Arm, class Steering>

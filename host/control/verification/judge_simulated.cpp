@@ -250,9 +250,4 @@ SimulationVerdict judge_simulated(const MotionRules& rules, const simulation::Jo
   return verdict;
 }
 
-bool is_of_swing(Refusal code) {
-  return code == Refusal::kSwingTension || code == Refusal::kTipSpeed || code == Refusal::kNodeSpeed ||
-         code == Refusal::kJointRate;
-}
-
 }  // namespace liana::verification

@@ -31,7 +31,4 @@ SimulationVerdict judge_simulated(const MotionRules& rules, const simulation::Jo
                                   bool comes_to_rest, const simulation::Motion& motion, TooNear& too_near,
                                   const simulation::Motion* stop = nullptr);
 
-// Refused for how the simulated arm swings: with `stop` it may pass.
-bool is_of_swing(Refusal code);
-
 }  // namespace liana::verification

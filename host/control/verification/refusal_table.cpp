@@ -88,9 +88,11 @@ const RefusalRow& row_of(Refusal code) {
   return row != kRows.end() && row->code == code ? *row : kRows.front();
 }
 
-bool may_pass_slower(Refusal code) {
-  return code == kSwingTension || code == kTipSpeed || code == kNodeSpeed || code == kJointRate || code == kNoRest;
+bool is_of_swing(Refusal code) {
+  return code == kSwingTension || code == kTipSpeed || code == kNodeSpeed || code == kJointRate;
 }
+
+bool may_pass_slower(Refusal code) { return is_of_swing(code) || code == kNoRest; }
 
 bool is_of_motion(Refusal code) {
   using enum Refusal;

@@ -31,7 +31,9 @@ std::span<const RefusalRow> refusal_table();
 // The row of a code; of kNone one without a name.
 const RefusalRow& row_of(Refusal code);
 
-// Refused for how the arm would swing: from rest, and more slowly, the same may pass.
+// Refused for how the arm would swing: beside the stop that follows a refusal it may pass (judge_simulated.hpp).
+bool is_of_swing(Refusal code);
+// Refused for how the arm would swing or stop: from rest, and more slowly, the same may pass.
 bool may_pass_slower(Refusal code);
 // It is about how the arm would move, not about verification itself, the time it took or the model.
 bool is_of_motion(Refusal code);

@@ -112,9 +112,9 @@ bool SimulationVerifier<CableArm>::simulates(const TwinSnapshot<CableArm>& image
   return worker_.begin(start, sequence_);
 }
 
-bool SimulationVerifier<CableArm>::compares(Refusal code, const TwinSnapshot<CableArm>& image, std::uint64_t first_tick,
+bool SimulationVerifier<CableArm>::compares(const TwinSnapshot<CableArm>& image, std::uint64_t first_tick,
                                             const Prediction<CableArm>& stop, double patience_s) {
-  if (stop_.solved || !is_of_swing(code) || !simulates(image, first_tick, stop)) return false;
+  if (stop_.solved || !simulates(image, first_tick, stop)) return false;
   const simulation::Motion* motion = worker_.motion(patience_s);
   if (motion != nullptr) stop_ = *motion;
   return stop_.solved;

@@ -45,9 +45,9 @@ class SimulationVerifier<cable::CableArm> {
   void begin(const TwinSnapshot<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction);
   // The verdict on what was begun; refused as kNoVerdict where it takes longer than `patience_s`.
   SimulationVerdict verdict(double patience_s);
-  // Where `code` is about how the arm swings: looks at `stop`, what becomes of the arm when a candidate of `first_tick`
-  // is refused, and judges by it until the next image. Whether the candidate is to be judged anew.
-  bool compares(Refusal code, const TwinSnapshot<Arm>& image, std::uint64_t first_tick, const Prediction<Arm>& stop,
+  // Looks at `stop`, what becomes of the arm when a candidate of `first_tick` is refused, and judges by it until the
+  // next image. Whether the candidate is to be judged anew.
+  bool compares(const TwinSnapshot<Arm>& image, std::uint64_t first_tick, const Prediction<Arm>& stop,
                 double patience_s);
 
  private:
@@ -85,7 +85,7 @@ class SimulationVerifier<serial::SerialArm> {
   void begin(const TwinSnapshot<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction);
   SimulationVerdict verdict(double) { return verdict_; }
   // Links of rigid gears do not swing.
-  bool compares(Refusal, const TwinSnapshot<Arm>&, std::uint64_t, const Prediction<Arm>&, double) { return false; }
+  bool compares(const TwinSnapshot<Arm>&, std::uint64_t, const Prediction<Arm>&, double) { return false; }
 
  private:
   serial::RobotParams table_;

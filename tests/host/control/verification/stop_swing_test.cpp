@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host/control/verification/judge_simulated.hpp"
+#include "host/control/verification/refusal_table.hpp"
 
 namespace liana::verification {
 namespace {
