@@ -1,6 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import type { RunHead } from '../../host/apps/web/src/data/run';
+import { fault_row } from '../../host/apps/web/src/model/tables';
 import { outcome_of } from '../../host/apps/web/src/run/outcome';
 import { kArm } from './support';
 
@@ -19,14 +20,14 @@ test('of a failed run it says what failed, where, why, and the remedy of the fau
   const outcome = outcome_of(head({
     report: { mission: 'slit_crossing', outcome: 'failed', reason: 'the arm is STOPPING', faults: [], steps: [done, { ...done, name: 'into the slit', outcome: 'failed', reason: 'fault' }] },
     events: [
-      { sequence: 1, tick: 250, kind: 'fault', number: 5006, subject: 'drive 7', values: {}, text: 'cable_break: gone' },
+      { sequence: 1, tick: 250, kind: 'fault', number: 5006, subject: 'drive 7', values: {}, text: `It is gone. ${fault_row(5006)!.remedy} [5006 cable_break]` },
       { sequence: 2, tick: 260, kind: 'fault', number: 3002, subject: 'drive 7', values: {}, text: 'later' },
     ],
   }));
   assert.equal(outcome.success, false);
   assert.equal(outcome.what, 'slit_crossing failed in "into the slit"');
   assert.equal(outcome.where, 'at 1.0 s, in step 2: into the slit');
-  assert.match(outcome.why, /^drive 7 \(node 8, segment 3\): cable_break: gone/);
+  assert.match(outcome.why, /^drive 7 \(node 8, segment 3\): It is gone. \[5006 cable_break\]/);
   assert.match(outcome.todo[0], /look at the cable and its clamp/);
   assert.equal(outcome.tick, 250);
 });

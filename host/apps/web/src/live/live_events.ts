@@ -1,7 +1,6 @@
 // Events as they come, newest first; a click takes the scene to that moment while it is in the last minute.
 import type { LianaEvent } from '../data/sample';
 import { weight_of } from '../model/weight';
-import { remedy_of } from '../run/event_list';
 import { h } from '../ui/dom';
 import type { Live } from './live';
 
@@ -41,10 +40,8 @@ export class LiveEvents {
 
   private row(event: LianaEvent, period_s: number): HTMLElement {
     const time_s = event.tick * period_s;
-    const remedy = remedy_of(event);
     return h('li', { class: weight_of(event) },
       h('button', { type: 'button', onclick: () => this.go_to(time_s) },
-        h('span', { class: 'when' }, `${time_s.toFixed(2)} s`), h('span', { class: 'kind' }, event.kind), h('span', { class: 'text' }, event.text),
-        remedy ? h('span', { class: 'remedy' }, remedy) : null));
+        h('span', { class: 'when' }, `${time_s.toFixed(2)} s`), h('span', { class: 'kind' }, event.kind), h('span', { class: 'text' }, event.text)));
   }
 }

@@ -29,15 +29,13 @@ const kSettles_s = 0.1; // arm time: what a state says of a request is there a f
 const kPathRefused = 207; // M_e of a path that was looked at as a whole
 const kWhole: Ending = { ok: true, text: 'done' };
 
-function is_refusal(event: LianaEvent): boolean {
-  return event.kind === 'verdict' || (event.kind === 'path' && event.number === 0);
-}
-
-// "refused 208 clearance: link 27 and the wall. Steer away from it."; empty for an event that refuses no command.
+// "refused: link 27 and the wall. Steer away from it. [208 clearance, command 9]"; empty for an event that refuses no
+// command. A verdict's event says all of it; that of a path only its reason.
 export function refusal_words(event: LianaEvent): string {
-  if (!is_refusal(event)) return '';
-  const row = refusal_row(event.number === 0 ? kPathRefused : event.number);
-  return `refused${row ? ` ${row.number} ${row.name}` : ''}: ${event.text}. ${row?.remedy ?? ''}`.trim();
+  if (event.kind === 'verdict') return event.text;
+  if (event.kind !== 'path' || event.number !== 0) return '';
+  const row = refusal_row(kPathRefused);
+  return `refused: ${event.text}. ${row?.remedy ?? ''} [${kPathRefused} ${row?.name ?? 'path'}]`;
 }
 
 function events_since(taken: Taken, seen: Seen): readonly LianaEvent[] {
@@ -48,7 +46,7 @@ function events_since(taken: Taken, seen: Seen): readonly LianaEvent[] {
 function cut_short(taken: Taken, seen: Seen): Ending | null {
   const { stop, faults } = seen.facts;
   if (stop) return { ok: false, text: `ended by an emergency stop of ${stop.by}` };
-  const refused = events_since(taken, seen).find(is_refusal);
+  const refused = events_since(taken, seen).find((event) => refusal_words(event) !== '');
   if (refused) return { ok: false, text: refusal_words(refused) };
   if (faults && faults.length > 0) return { ok: false, text: `ended by fault ${faults[0].number} ${faults[0].name.replaceAll('_', ' ')}` };
   if (!seen.is_mine) return { ok: false, text: 'ended: motion is no longer yours' };

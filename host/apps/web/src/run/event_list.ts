@@ -1,17 +1,8 @@
 // The events of a run, by kind; a click takes the scene there.
 import type { Run } from '../data/run';
 import { last_before } from '../data/run';
-import type { LianaEvent } from '../data/sample';
-import { fault_row, refusal_row } from '../model/tables';
 import { weight_of } from '../model/weight';
 import { h, set_class } from '../ui/dom';
-
-// What to do about an event; empty when nothing is to be done.
-export function remedy_of(event: LianaEvent): string {
-  if (event.kind === 'fault' || event.kind === 'boot_problem') return fault_row(event.number)?.remedy ?? '';
-  if (event.kind === 'verdict') return refusal_row(event.number)?.remedy ?? '';
-  return '';
-}
 
 export class EventList {
   readonly element: HTMLElement;
@@ -22,12 +13,10 @@ export class EventList {
     const { events } = run;
     const { period_s } = run.head;
     this.rows = events.map((event) => {
-      const remedy = remedy_of(event);
       const time_s = event.tick * period_s;
       return h('li', { class: weight_of(event), 'data-kind': event.kind },
         h('button', { type: 'button', onclick: () => go_to(time_s) },
-          h('span', { class: 'when' }, `${time_s.toFixed(2)} s`), h('span', { class: 'kind' }, event.kind), h('span', { class: 'text' }, event.text),
-          remedy ? h('span', { class: 'remedy' }, remedy) : null));
+          h('span', { class: 'when' }, `${time_s.toFixed(2)} s`), h('span', { class: 'kind' }, event.kind), h('span', { class: 'text' }, event.text)));
     });
     const kinds = [...new Set(events.map((event) => event.kind))];
     const filter = h('div', { class: 'filter', role: 'group', 'aria-label': 'kinds of events' }, ...kinds.map((kind) => this.choice(kind)));

@@ -71,11 +71,12 @@ function says_more(reason: string, cause: LianaEvent | undefined): boolean {
   return seen[1].split(', ').some((fault) => fault !== 'none named' && !fault.startsWith(`${cause.number} `));
 }
 
-// The event that ended it, then what else report and step say; nothing is said twice.
-function why_of(cause: LianaEvent | undefined, robot: RunHead['robot'], reasons: readonly string[]): string {
+// The event that ended it, then what else report and step say; nothing is said twice, and what to do not here.
+function why_of(cause: LianaEvent | undefined, robot: RunHead['robot'], reasons: readonly string[], todo: readonly string[]): string {
   const subject = cause ? where_it_is(cause.subject, robot) : '';
   const is_named = !cause || subject === '' || words_of(cause.text).includes(words_of(subject));
-  const first = cause ? `${is_named ? '' : `${subject}: `}${cause.text}` : '';
+  const text = todo.reduce((rest, remedy) => rest.replace(`${remedy} `, ''), cause?.text ?? '');
+  const first = cause ? `${is_named ? '' : `${subject}: `}${text}` : '';
   const more: string[] = [];
   for (const reason of reasons.flatMap((text) => text.split('; '))) {
     if (says_more(reason, cause) && ![first, ...more].some((said) => words_of(said).includes(words_of(reason)))) more.push(reason);
@@ -116,7 +117,7 @@ function failure_of(head: RunHead): Outcome {
     success: false,
     what: `${report.mission ?? head.title} ${report.outcome ?? 'failed'}${failed ? ` in "${failed.name}"` : ''}`,
     where: tick === null ? '' : where_of(head, tick),
-    why: why_of(cause, head.robot, [report.reason ?? '', failed?.reason ?? '']),
+    why: why_of(cause, head.robot, [report.reason ?? '', failed?.reason ?? ''], [...todo]),
     todo: [...todo],
     tick,
   };
