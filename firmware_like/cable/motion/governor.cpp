@@ -84,8 +84,12 @@ class Taken {
   double linear2_ = 0.0, angular2_ = 0.0;
 };
 
+// Accelerations grow with the square of the speed: of what turns as it moves, and, far more, where the arm all but loses
+// a direction, whose thetas speed up while the tip does not.
 double speed_of(double accel_share, double by_rates) noexcept {
-  return smaller(by_rates, accel_share < kGovernorSpeed ? std::sqrt(accel_share / kGovernorSpeed) : 1.0);
+  const double by_turning = accel_share < kGovernorSpeed ? std::sqrt(accel_share / kGovernorSpeed) : 1.0;
+  const double by_loss = kGovernorLoss * by_rates * by_rates * std::sqrt(accel_share);
+  return smaller(by_rates, smaller(by_turning, by_loss));
 }
 
 // Of `theta_limit` for every free theta, and of each cable's limit for its row of `per_theta`; false, and nothing is

@@ -21,9 +21,11 @@ constexpr double kGovernorKeep_N = 18.0;  // over the floor, for friction and sw
 constexpr double kGovernorLeast_N = 4.0;  // room where a pose leaves none: the way out of it
 constexpr double kGovernorAlone = 0.4;    // of a theta's acceleration limit, where it slows down by itself
 constexpr double kGovernorTip = 0.55;     // of room and rates, for the tip's way alone and for its turn alone
-// Of the acceleration: what turns as it moves is accelerated by its speed squared, and where little of the acceleration
-// is missing, none of the speed is.
-constexpr double kGovernorSpeed = 0.7;
+constexpr double kGovernorSpeed = 0.7;    // of the acceleration: where less of it is missing, none of the speed is
+// Near a pose that loses a direction by s (the Jacobian's least singular value) thetas turn with v / s and are
+// accelerated by v^2 / s^3. Shares of rate and acceleration go with s; the square of the first takes in that s gets
+// smaller on the way.
+constexpr double kGovernorLoss = 2.0;
 constexpr std::uint32_t kGovernorCycles = 3;  // of the shape's ten ticks: it looks anew in so many of them
 
 struct GovernorState {

@@ -74,6 +74,9 @@ class CableArbiter {
   // The way back stops and starts again, some times, and where `may_pass_slower` moves to a goal do (another_try.hpp).
   // Whether what was asked for goes on.
   bool refused(const std::string& why = "", bool may_pass_slower = false);
+  // Whether the last setpoint was a hand's; and whether one was refused for the same limit a moment ago.
+  bool leads_hand() const { return was_engaged_; }
+  bool stands_refused() const { return was_engaged_ && refusal_wait_.stands(); }
   // What a hand asks for, with less of its speed than in the setpoint that was refused for `limit` (its name in the
   // table of refusals), for the same interval: half, a seventh, and to stay. Then nothing, and where nobody steers.
   std::optional<cable::Setpoint> slower(const cable::Outputs& now, const char* limit);

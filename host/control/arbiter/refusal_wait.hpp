@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <string_view>
 
 #include "firmware_like/math/pose.hpp"
 
@@ -14,6 +15,7 @@ class RefusalWait {
  public:
   // A goal was refused, asked for with the tip commanded to `tip`.
   void refuse(const Pose& tip, const Pose& goal) {
+    refused_for_ = limit_;
     shift_m_ = subtract(goal.position_m, tip.position_m);
     turn_rad_ = turn_between(tip, goal);
     left_s_ = wait_s_;
@@ -38,6 +40,8 @@ class RefusalWait {
   }
   // Of the tip's speed, while it is asked for again.
   double speed_share() const { return share_; }
+  // Another refusal now would be for the same limit as the one of a moment ago.
+  bool stands() const { return wait_s_ > kFirst_s && std::string_view(limit_) == refused_for_; }
   // What the last refusal was for; empty: there was none.
   const char* limit() const { return limit_; }
   void forget() { *this = {}; }
@@ -63,7 +67,7 @@ class RefusalWait {
   }
 
   Vec3 shift_m_{}, turn_rad_{};
-  const char* limit_ = "";
+  const char *limit_ = "", *refused_for_ = "";
   double left_s_ = 0.0, wait_s_ = kFirst_s, share_ = 1.0, passed_s_ = 0.0;
 };
 

@@ -37,6 +37,9 @@ class SerialArbiter : public Arbiter<serial::SerialArm> {
   std::optional<Setpoint> next_setpoint(std::uint64_t tick, const Now& now);
   bool refused(const std::string& why = "", bool may_pass_slower = false);
   // No hand leads a serial arm's tip.
+  // Nothing is asked for more slowly.
+  bool leads_hand() const { return false; }
+  bool stands_refused() const { return false; }
   std::optional<Setpoint> slower(const Now&, const char*) { return std::nullopt; }
 
   // A push or giving way is asked for.

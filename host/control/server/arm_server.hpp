@@ -38,6 +38,7 @@ struct LastVerdict {
   verification::ExecutionVerdict execution{};
   verification::SimulationVerdict simulation{};
   std::optional<SourceStamp> source_stamp{};  // released, and made of what a device said
+  bool is_news = true;  // false: a hand that is slowed to a stop, or that is refused for the same again; guidance tells
 };
 
 // A request about motion, from the owner, that the table of requests has let through.

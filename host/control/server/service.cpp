@@ -239,6 +239,7 @@ void Service::release_next() {
   keep_way();
   if (!verdict) return;
   if (dispatch_) dispatch_->note(tick(), owner_.name(), *verdict);
+  if (!verdict->is_news) return;
   notes_.verdict = *verdict;
   notes_.verdict_us = arm_time_us();
   if (verdict->released) return;
@@ -246,8 +247,8 @@ void Service::release_next() {
   if (!verdict->goes_on) ++notes_.refused_motions;
   note(verdict_event(verdict->sequence, verdict->worst));
   const verification::RefusalRow& row = verification::row_of(verdict->worst.code);
-  const bool stops =
-      row.action == verification::RefusalAction::kStop && !verdict->leads_back;  // the way out tries again
+  // The way back tries again, and so does a hand, which the arm waits for.
+  const bool stops = row.action == verification::RefusalAction::kStop && !verdict->leads_back && !verdict->goes_on;
   if (stops) order_stop({"lianad", std::string("refused: ") + row.says, tick()});
 }
 

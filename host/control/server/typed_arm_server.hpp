@@ -103,7 +103,7 @@ class TypedArmServer : public ArmServer {
   void retract(const api::Arguments& fields);
   LastVerdict verify_and_release(const typename Arm::Setpoint& setpoint, std::uint32_t owner);
   LastVerdict verified(const verification::Candidate<Arm>& candidate);
-  bool compares(const LastVerdict& refused);
+  verification::StopSwings stop_swings(const LastVerdict& refused);
 
   double patience_s(std::uint64_t first_tick) const;
 
@@ -201,8 +201,8 @@ double TypedArmServer<Arm, Steering>::patience_s(std::uint64_t first_tick) const
   return now < first_tick ? static_cast<double>(first_tick - now) * table_.tick_s : 0.0;
 }
 
-// What is refused for how the arm swings may pass beside its stop, and what a hand asks for more slowly. The refusal
-// that is told is the first.
+// What is refused for how the arm swings may pass beside its stop, and what a hand asks for more slowly: at last by
+// stopping, where nothing speaks against the stop itself. The refusal that is told is the first.
 template <class Arm, class Steering>
 LastVerdict TypedArmServer<Arm, Steering>::verify_and_release(const typename Arm::Setpoint& setpoint,
                                                               std::uint32_t owner) {
@@ -210,25 +210,27 @@ LastVerdict TypedArmServer<Arm, Steering>::verify_and_release(const typename Arm
   const auto candidate = release_.candidate(setpoint, owner, link_.image.value().next_tick + interval, interval);
   LastVerdict asked = verified(candidate);
   LastVerdict last = asked;
-  if (compares(last)) last = verified(release_.another(setpoint, candidate));
+  if (verification::is_of_swing(last.worst.code) && stop_swings(last) != verification::StopSwings::kUnknown)
+    last = verified(release_.another(setpoint, candidate));
   while (!last.released && verification::is_of_motion(last.worst.code)) {
     const auto slower = arbiter_.slower(outputs(), verification::row_of(last.worst.code).name);
     if (!slower) break;
     last = verified(release_.another(*slower, candidate));
   }
   if (last.released) return last;
+  if (arbiter_.leads_hand() && verification::is_of_motion(last.worst.code))
+    asked.is_news = !arbiter_.stands_refused() && stop_swings(last) != verification::StopSwings::kPasses;
   asked.goes_on = arbiter_.refused(asked.worst.text, verification::may_pass_slower(asked.worst.code));
   return asked;
 }
 
-// Whether it is to be verified once more, beside what becomes of the arm when it stays refused.
+// Of what becomes of the arm when this stays refused.
 template <class Arm, class Steering>
-bool TypedArmServer<Arm, Steering>::compares(const LastVerdict& refused) {
-  if (!verification::is_of_swing(refused.worst.code)) return false;
+verification::StopSwings TypedArmServer<Arm, Steering>::stop_swings(const LastVerdict& refused) {
   const verification::TwinSnapshot<Arm>& image = link_.image.value();
   const std::uint64_t first_tick = refused.first_tick;
   verification::Twin<Arm>::stop(image, released_, first_tick, verification::max_stop_ticks(table_.tick_s), stop_);
-  return simulation_->compares(image, first_tick, stop_, patience_s(first_tick));
+  return simulation_->look_at_stop(image, first_tick, stop_, patience_s(first_tick));
 }
 
 template <class Arm, class Steering>

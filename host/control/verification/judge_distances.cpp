@@ -22,7 +22,7 @@ First at_itself(const simulation::Nearest& nearest, const LinkName& link_name) {
 }
 
 // An arm that is too near already may go away; the way back out may need it to go along beside a body first.
-bool leads_away(const simulation::Distances& distances, double travel_m, const TooNear& too_near) {
+bool leads_away(const simulation::Distances& distances, double travel_m, const TooNearTo& too_near) {
   const double start_m = distances.scene_at_start_m, least_m = distances.scene.distance_m;
   const double end_m = distances.scene_at_end_m;
   if (!too_near.stands()) return end_m >= start_m && least_m >= start_m - kGivenAway_m;
@@ -38,15 +38,17 @@ const simulation::BodyBeside* entered(const simulation::Distances& distances, do
   return nullptr;
 }
 
-// An arm that touches itself, or all but does, may unfold, and no more than rounding the other way.
-bool leads_apart(const simulation::Distances& distances) {
+// An arm that touches itself, or all but does, may unfold, and no more than rounding the other way. One that stood so
+// when it was enabled may stay as well.
+bool leads_apart(const simulation::Distances& distances, const TooNearTo& itself) {
   const double start_m = distances.self_at_start_m;
-  return distances.self_at_end_m >= start_m - kRounded_m && distances.self.distance_m >= start_m - kGivenAway_m;
+  const double least_m = itself.stands() ? itself.least_m() : start_m - kRounded_m;
+  return distances.self_at_end_m >= least_m && distances.self.distance_m >= start_m - kGivenAway_m;
 }
 
 }  // namespace
 
-void TooNear::stand(double distance_m) {
+void TooNearTo::stand(double distance_m) {
   const double kept_m = distance_m - kGivenAway_m;
   farthest_m_ = stands_ ? std::max(distance_m, farthest_m_) : distance_m;
   min_m_ = stands_ ? std::max(min_m_, kept_m) : kept_m;
@@ -81,22 +83,24 @@ void judge_distances(const config::SceneConfig& scene, const simulation::Distanc
   verdict.slowly = claimed_m < levels.slow_m;
   verdict.first = first;
   const bool stands_too_near = start_m - levels.prediction_m < levels.refuse_m;
-  stands_too_near ? too_near.stand(start_m) : too_near.forget();
+  stands_too_near ? too_near.scene.stand(start_m) : too_near.scene.forget();
+  const double off_itself_m = distances.self_at_start_m;
+  off_itself_m > 0.0 ? too_near.itself.forget() : too_near.itself.stand(off_itself_m);
   const auto refuse_contact = [&](double simulated_m, double stands_m, const First& where) {
-    too_near.refused();
+    too_near.scene.refused();
     refuse(verdict, Refusal::kSceneContact,
            "the arm could touch " + where.body + ": predicted " + in_millimetres(simulated_m) + ", uncertain by " +
                in_millimetres(levels.prediction_m) + ", allowed " + in_millimetres(levels.refuse_m) +
                " for certain; it stands " + in_millimetres(stands_m) + " off",
            where);
   };
-  if (!std::isfinite(least_m) || (claimed_m < levels.refuse_m && !leads_away(distances, travel_m, too_near))) {
+  if (!std::isfinite(least_m) || (claimed_m < levels.refuse_m && !leads_away(distances, travel_m, too_near.scene))) {
     refuse_contact(least_m, start_m, first);
   } else if (const simulation::BodyBeside* body = entered(distances, levels.prediction_m)) {
     refuse_contact(body->nearest.distance_m, body->at_start_m, at_scene(scene, body->nearest, link_name));
   } else if (!(distances.self.distance_m > 0.0)) {
     const First self = at_itself(distances.self, link_name);
-    if (leads_apart(distances))
+    if (leads_apart(distances, too_near.itself))
       verdict.touches_itself = self.body;
     else
       refuse(verdict, Refusal::kSelfContact, "the arm would touch itself: " + self.body, self);

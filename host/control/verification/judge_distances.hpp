@@ -22,11 +22,11 @@ constexpr double kCreptDip_m = 1e-4;
 // By how much less than the farthest it has stood off an arm may go along after all refusals.
 constexpr double kMostCrept_m = 3e-3;
 
-// How near to the scene an arm may be led that is nearer than commands may leave it: 1 mm less than the farthest it has
+// How near to something an arm may be led that is nearer to it than commands may leave it: 1 mm less than the farthest it has
 // stood off since. Motions may lead it away, and along beside a body no nearer than that. What is no nearer as
 // simulated may be nearer by the simulation's error, again and again: an arm that has come nearer than that only goes
 // away, until a motion is refused. From where it then stands it may go along once more, so that a way back is there.
-class TooNear {
+class TooNearTo {
  public:
   // The next motion begins so far off.
   void stand(double distance_m);
@@ -40,6 +40,11 @@ class TooNear {
  private:
   double farthest_m_ = 0.0, min_m_ = 0.0;
   bool stands_ = false, was_refused_ = false;
+};
+
+struct TooNear {
+  TooNearTo scene, itself;
+  void forget() { *this = {}; }
 };
 
 // What people call link 0, 1, ...

@@ -86,6 +86,7 @@ void SimulationVerifier<CableArm>::watch(const TwinSnapshot<CableArm>& image) {
   observer_.watch(now.theta_measured_rad, now.tension_measured_N, told_now(rules_.table, now), since_s);
   watched_tick_ = image.next_tick;
   stop_.solved = false;
+  stop_swings_ = StopSwings::kUnknown;
 }
 
 void SimulationVerifier<CableArm>::believe(const cable::ThetaVector& theta_off_rad, const Pose& drawing_in_base,
@@ -112,12 +113,15 @@ bool SimulationVerifier<CableArm>::simulates(const TwinSnapshot<CableArm>& image
   return worker_.begin(start, sequence_);
 }
 
-bool SimulationVerifier<CableArm>::compares(const TwinSnapshot<CableArm>& image, std::uint64_t first_tick,
-                                            const Prediction<CableArm>& stop, double patience_s) {
-  if (stop_.solved || !simulates(image, first_tick, stop)) return false;
+StopSwings SimulationVerifier<CableArm>::look_at_stop(const TwinSnapshot<CableArm>& image, std::uint64_t first_tick,
+                                                      const Prediction<CableArm>& stop, double patience_s) {
+  if (stop_.solved || !simulates(image, first_tick, stop)) return stop_swings_;
   const simulation::Motion* motion = worker_.motion(patience_s);
-  if (motion != nullptr) stop_ = *motion;
-  return stop_.solved;
+  if (motion == nullptr || !motion->solved) return stop_swings_;
+  stop_ = *motion;
+  TooNear too_near = too_near_;
+  const bool passes = judge_simulated(rules_, sequence_, true, stop_, too_near, &stop_).passed();
+  return stop_swings_ = passes ? StopSwings::kPasses : StopSwings::kTouches;
 }
 
 SimulationVerdict SimulationVerifier<CableArm>::verdict(double patience_s) {

@@ -27,6 +27,10 @@ void read_sequence(const TwinSnapshot<cable::CableArm>& image, std::uint64_t fir
 template <class Arm>
 class SimulationVerifier;
 
+// Of the stop that follows when nothing more is released: whether it was simulated, and touches nothing. How it swings
+// is no reason against it: there is no better one.
+enum class StopSwings : std::uint8_t { kUnknown, kPasses, kTouches };
+
 // The cable arm: its dynamics, in a thread of its own.
 template <>
 class SimulationVerifier<cable::CableArm> {
@@ -46,9 +50,9 @@ class SimulationVerifier<cable::CableArm> {
   // The verdict on what was begun; refused as kNoVerdict where it takes longer than `patience_s`.
   SimulationVerdict verdict(double patience_s);
   // Looks at `stop`, what becomes of the arm when a candidate of `first_tick` is refused, and judges by it until the
-  // next image. Whether the candidate is to be judged anew.
-  bool compares(const TwinSnapshot<Arm>& image, std::uint64_t first_tick, const Prediction<Arm>& stop,
-                double patience_s);
+  // next image. Once an image.
+  StopSwings look_at_stop(const TwinSnapshot<Arm>& image, std::uint64_t first_tick, const Prediction<Arm>& stop,
+                          double patience_s);
 
  private:
   bool simulates(const TwinSnapshot<Arm>& image, std::uint64_t first_tick, const Prediction<Arm>& prediction);
@@ -65,6 +69,7 @@ class SimulationVerifier<cable::CableArm> {
   bool begun_ = false;
   std::uint64_t watched_tick_ = 0;
   simulation::Motion stop_;  // unsolved: nothing is compared
+  StopSwings stop_swings_ = StopSwings::kUnknown;
 };
 
 // A serial arm: what the drives are told as its own kinematics has it, and where links of rigid gears go with that. It
@@ -85,7 +90,9 @@ class SimulationVerifier<serial::SerialArm> {
   void begin(const TwinSnapshot<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction);
   SimulationVerdict verdict(double) { return verdict_; }
   // Links of rigid gears do not swing.
-  bool compares(const TwinSnapshot<Arm>&, std::uint64_t, const Prediction<Arm>&, double) { return false; }
+  StopSwings look_at_stop(const TwinSnapshot<Arm>&, std::uint64_t, const Prediction<Arm>&, double) {
+    return StopSwings::kUnknown;
+  }
 
  private:
   serial::RobotParams table_;
