@@ -69,5 +69,19 @@ TEST(Governor, TheSpeedThatItLeavesTakesItsShareOfEveryRateAtMost) {
   }
 }
 
+// Towards the straight arm, which cannot turn about its axis nor come nearer.
+TEST(Governor, NearAPoseThatLosesADirectionSpeedFallsFarFasterThanThePoseComesNear) {
+  ThetaVector theta_rad = zhu2022::radians(zhu2022::kPanelEdge_deg);
+  double before = 1.0;  // each time half as far
+  for (const double scale : {0.1, 0.05, 0.025}) {
+    ThetaVector near_rad = theta_rad;
+    for (double& angle : near_rad) angle *= scale;
+    const GovernorState state = look(zhu2022::table(), near_rad);
+    EXPECT_GT(state.speed_share, 0.0) << scale;
+    EXPECT_LT(state.speed_share, 0.5 * before) << scale;
+    before = state.speed_share;
+  }
+}
+
 }  // namespace
 }  // namespace liana::cable

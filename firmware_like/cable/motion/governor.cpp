@@ -84,11 +84,11 @@ class Taken {
   double linear2_ = 0.0, angular2_ = 0.0;
 };
 
-// Accelerations grow with the square of the speed: of what turns as it moves, and, far more, where the arm all but loses
-// a direction, whose thetas speed up while the tip does not.
+// Accelerations grow with the square of the speed: of what turns as it moves, and, far more, where the arm all but
+// loses a direction, whose thetas speed up while the tip does not.
 double speed_of(double accel_share, double by_rates) noexcept {
   const double by_turning = accel_share < kGovernorSpeed ? std::sqrt(accel_share / kGovernorSpeed) : 1.0;
-  const double by_loss = kGovernorLoss * by_rates * by_rates * std::sqrt(accel_share);
+  const double by_loss = kGovernorLoss * by_rates * by_rates * std::sqrt(by_rates);
   return smaller(by_rates, smaller(by_turning, by_loss));
 }
 

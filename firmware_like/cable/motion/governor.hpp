@@ -22,10 +22,9 @@ constexpr double kGovernorLeast_N = 4.0;  // room where a pose leaves none: the 
 constexpr double kGovernorAlone = 0.4;    // of a theta's acceleration limit, where it slows down by itself
 constexpr double kGovernorTip = 0.55;     // of room and rates, for the tip's way alone and for its turn alone
 constexpr double kGovernorSpeed = 0.7;    // of the acceleration: where less of it is missing, none of the speed is
-// Near a pose that loses a direction by s (the Jacobian's least singular value) thetas turn with v / s and are
-// accelerated by v^2 / s^3. Shares of rate and acceleration go with s; the square of the first takes in that s gets
-// smaller on the way.
-constexpr double kGovernorLoss = 2.0;
+// Near a pose where the tip all but loses a direction thetas turn with v / s and are accelerated by v^2 / s^3, s the
+// Jacobian's least singular value, with which the share of the rates goes: the speed falls with its power 2.5.
+constexpr double kGovernorLoss = 6.0;
 constexpr std::uint32_t kGovernorCycles = 3;  // of the shape's ten ticks: it looks anew in so many of them
 
 struct GovernorState {

@@ -22,8 +22,8 @@ constexpr double kCreptDip_m = 1e-4;
 // By how much less than the farthest it has stood off an arm may go along after all refusals.
 constexpr double kMostCrept_m = 3e-3;
 
-// How near to something an arm may be led that is nearer to it than commands may leave it: 1 mm less than the farthest it has
-// stood off since. Motions may lead it away, and along beside a body no nearer than that. What is no nearer as
+// How near to something an arm may be led that is nearer to it than commands may leave it: 1 mm less than the farthest
+// it has stood off since. Motions may lead it away, and along beside a body no nearer than that. What is no nearer as
 // simulated may be nearer by the simulation's error, again and again: an arm that has come nearer than that only goes
 // away, until a motion is refused. From where it then stands it may go along once more, so that a way back is there.
 class TooNearTo {

@@ -10,7 +10,7 @@ namespace liana::verification {
 // room for the swing: these are the simulated arm's own.
 constexpr double kSwingAngle_rad = 0.0087;  // 0.5 deg beyond the range of an angle
 constexpr double kSwingRate = 1.25;         // times a joint's limit
-constexpr double kSwingTip = 1.5;           // times the tip's limits
+constexpr double kSwingTip = 1.15;          // times the tip's limits
 constexpr double kSwingTension_N = 5.0;     // what the simulation may be off by, of an arm that plans 40 N: taken off
 constexpr double kNodeShare = 2.0;          // times the tip's limit: nodes may pass each other while the shape changes
 

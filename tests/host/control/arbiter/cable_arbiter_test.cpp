@@ -389,6 +389,25 @@ TEST_F(Arbitration, WhatAHandIsRefusedIsAskedForMoreSlowlyInTheSameIntervalAndAt
   EXPECT_FALSE(arbiter_.slower(now_, "swing_tension")) << "nobody steers";
 }
 
+TEST_F(Arbitration, AHandThatPushesOnAgainstTheSameLimitHasARefusalThatStands) {
+  use_hand();
+  steered(0.2);
+  steered(0.25);
+  const auto refused_for = [&](const char* limit) {
+    for (int i = 0; i < 1000 && !steered(0.26); ++i) continue;
+    for (int i = 0; i < 10 && arbiter_.slower(now_, limit); ++i) continue;
+    const bool stands = arbiter_.stands_refused();
+    arbiter_.refused();
+    return stands;
+  };
+  EXPECT_FALSE(refused_for("self_contact"));
+  EXPECT_TRUE(refused_for("self_contact"));
+  EXPECT_FALSE(refused_for("joint_angle"));
+  EXPECT_TRUE(refused_for("joint_angle"));
+  for (int i = 0; i < 1000; ++i) steered(0.26);
+  EXPECT_FALSE(refused_for("joint_angle")) << "it is forgotten";
+}
+
 TEST_F(Arbitration, AHandThatTurnsBackAfterARefusalIsFollowedAtOnce) {
   use_hand();
   steered(0.2);

@@ -60,8 +60,8 @@ class AnArmThatSwings : public testing::Test {
 TEST_F(AnArmThatSwings, IsRefusedWhateverItsStopWouldDoUnlessThatIsKnown) {
   EXPECT_EQ(judged(motion(7.0, 0.0)), Refusal::kNone);
   EXPECT_EQ(judged(motion(5.0, 0.0)), Refusal::kSwingTension);
-  EXPECT_EQ(judged(motion(40.0, 0.14)), Refusal::kNone);
-  EXPECT_EQ(judged(motion(40.0, 0.16)), Refusal::kTipSpeed);
+  EXPECT_EQ(judged(motion(40.0, 0.114)), Refusal::kNone);
+  EXPECT_EQ(judged(motion(40.0, 0.116)), Refusal::kTipSpeed);
   simulation::Motion unsolved = motion(-10.0, 0.2);
   unsolved.solved = false;
   EXPECT_EQ(judged(motion(5.0, 0.0), &unsolved), Refusal::kSwingTension);

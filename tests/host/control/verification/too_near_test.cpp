@@ -40,6 +40,21 @@ class AnArmBesideABody : public testing::Test {
     return judge_simulated(rules_, told, true, motion, too_near_).code;
   }
 
+  // The same between links of its own, the scene far away.
+  Refusal folds(double start_m, double least_m, double end_m) {
+    simulation::Motion motion;
+    motion.solved = true;
+    motion.distances.scene = {1.0, 3, 0, 0.1};
+    motion.distances.scene_at_start_m = motion.distances.scene_at_end_m = 1.0;
+    motion.distances.self = {least_m, 3, 30, 0.1};
+    motion.distances.self_at_start_m = start_m;
+    motion.distances.self_at_end_m = end_m;
+    simulation::JointSequence told;
+    told.rows_rad.resize(1);
+    told.interval_s = 0.02;
+    return judge_simulated(rules_, told, true, motion, too_near_).code;
+  }
+
   double travel_m_ = 0.0;  // of the first node
   MotionRules rules_;
   TooNear too_near_;
@@ -104,6 +119,16 @@ TEST_F(AnArmBesideABody, ThatTouchesOneBodyIsLetOutOfItAndIntoNoOther) {
   EXPECT_EQ(out_of_ball(0.100, 0.0059), Refusal::kSceneContact) << "no deeper than in the first, but in another one";
   EXPECT_EQ(out_of_ball(-0.010, -0.0109), Refusal::kNone) << "wedged between both: as far as one can tell no deeper";
   EXPECT_EQ(out_of_ball(-0.010, -0.0111), Refusal::kSceneContact);
+}
+
+TEST_F(AnArmBesideABody, ThatOverlapsItselfMayStayAndUnfoldAndFoldsNoFurtherByOneMotionAfterTheOther) {
+  EXPECT_EQ(folds(0.0100, -0.0001, 0.0001), Refusal::kSelfContact) << "it stands clear of itself";
+  EXPECT_EQ(folds(-0.0200, -0.0201, -0.0201), Refusal::kNone) << "how measured angles tremble";
+  EXPECT_EQ(folds(-0.0205, -0.0209, -0.0209), Refusal::kNone);
+  EXPECT_EQ(folds(-0.0209, -0.0211, -0.0211), Refusal::kSelfContact) << "1 mm deeper than it stood once";
+  EXPECT_EQ(folds(-0.0209, -0.0209, -0.0050), Refusal::kNone);
+  EXPECT_EQ(folds(-0.0050, -0.0061, -0.0050), Refusal::kSelfContact) << "on the way";
+  EXPECT_EQ(folds(-0.0050, -0.0050, -0.0061), Refusal::kSelfContact) << "it has been less deep meanwhile";
 }
 
 }  // namespace
