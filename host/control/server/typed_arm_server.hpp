@@ -210,16 +210,20 @@ LastVerdict TypedArmServer<Arm, Steering>::verify_and_release(const typename Arm
   const auto candidate = release_.candidate(setpoint, owner, link_.image.value().next_tick + interval, interval);
   LastVerdict asked = verified(candidate);
   LastVerdict last = asked;
-  if (verification::is_of_swing(last.worst.code) && stop_swings(last) != verification::StopSwings::kUnknown)
-    last = verified(release_.another(setpoint, candidate));
+  using verification::StopSwings;
+  StopSwings stop = verification::is_of_swing(last.worst.code) ? stop_swings(last) : StopSwings::kUnknown;
+  if (stop != StopSwings::kUnknown) last = verified(release_.another(setpoint, candidate));
   while (!last.released && verification::is_of_motion(last.worst.code)) {
     const auto slower = arbiter_.slower(outputs(), verification::row_of(last.worst.code).name);
     if (!slower) break;
     last = verified(release_.another(*slower, candidate));
   }
   if (last.released) return last;
-  if (arbiter_.leads_hand() && verification::is_of_motion(last.worst.code))
-    asked.is_news = !arbiter_.stands_refused() && stop_swings(last) != verification::StopSwings::kPasses;
+  if (arbiter_.leads_hand() && verification::is_of_motion(last.worst.code)) {
+    const bool stands = arbiter_.stands_refused();
+    if (!stands && stop == StopSwings::kUnknown) stop = stop_swings(last);
+    asked.is_news = !stands && stop != StopSwings::kPasses;
+  }
   asked.goes_on = arbiter_.refused(asked.worst.text, verification::may_pass_slower(asked.worst.code));
   return asked;
 }
