@@ -63,10 +63,10 @@ async function otherwise() {
     for (const entry of entries(whole)) {
       const said = await ask(entry).catch((error) => error.message);
       const promised = entry.defaultValue;
-      const is_known = promised !== undefined && !String(promised).startsWith('$NODEID') && !BY_ROBOT.has(whole.index);
+      const isKnown = promised !== undefined && !String(promised).startsWith('$NODEID') && !BY_ROBOT.has(whole.index);
       const expected = entry.dataType === DataType.VISIBLE_STRING ? promised : Number(promised);
-      compared += is_known ? 1 : 0;
-      if (is_known ? said !== expected : typeof said !== 'number') differ.push([entry.key, said, expected]);
+      compared += isKnown ? 1 : 0;
+      if (isKnown ? said !== expected : typeof said !== 'number') differ.push([entry.key, said, expected]);
     }
   return { differ, compared };
 }

@@ -1,15 +1,15 @@
 // Holds every message of a `liana log export --mcap` against the JSON schema that Foxglove publishes under the name of
 // its schema. Usage: node check_schemas.mjs FILE; prints JSON: per topic schema, number of messages, frames it knows.
 // Ends with 1 at the first thing that is not as it should be.
-import published from "@foxglove/schemas/dist/jsonschema.js";
-import { text, withReader } from "./readable.mjs";
+import published from '@foxglove/schemas/dist/jsonschema.js';
+import { text, withReader } from './readable.mjs';
 
 const isOf = {
-  object: (value) => typeof value === "object" && value !== null && !Array.isArray(value),
+  object: (value) => typeof value === 'object' && value !== null && !Array.isArray(value),
   array: Array.isArray,
-  string: (value) => typeof value === "string",
-  boolean: (value) => typeof value === "boolean",
-  number: (value) => typeof value === "number",
+  string: (value) => typeof value === 'string',
+  boolean: (value) => typeof value === 'boolean',
+  number: (value) => typeof value === 'number',
   integer: Number.isInteger,
 };
 
@@ -20,8 +20,8 @@ function check(value, schema, where) {
     return;
   }
   if (!isOf[schema.type](value)) throw new Error(`${where}: is no ${schema.type}: ${JSON.stringify(value)}`);
-  if (schema.type === "array") value.forEach((each, i) => check(each, schema.items, `${where}[${i}]`));
-  if (schema.type !== "object") return;
+  if (schema.type === 'array') value.forEach((each, i) => check(each, schema.items, `${where}[${i}]`));
+  if (schema.type !== 'object') return;
   for (const name of schema.required ?? []) if (!(name in value)) throw new Error(`${where}: lacks ${name}`);
   for (const [name, each] of Object.entries(value)) {
     const known = schema.properties?.[name];
@@ -38,9 +38,9 @@ const topics = await withReader(process.argv[2], async (reader) => {
     const topic = (found[channel.topic] ??= { schema: name, messages: 0 });
     topic.messages += 1;
     const value = JSON.parse(text.decode(message.data));
-    if (name.startsWith("foxglove.")) check(value, published[name.slice("foxglove.".length)], channel.topic);
-    if (channel.topic === "/tf") topic.frames = value.transforms.map((each) => each.child_frame_id);
-    if (channel.topic === "/scene") topic.frames = value.entities.map((each) => each.frame_id);
+    if (name.startsWith('foxglove.')) check(value, published[name.slice('foxglove.'.length)], channel.topic);
+    if (channel.topic === '/tf') topic.frames = value.transforms.map((each) => each.child_frame_id);
+    if (channel.topic === '/scene') topic.frames = value.entities.map((each) => each.frame_id);
   }
   return found;
 });

@@ -1,7 +1,7 @@
 // Reads MCAP files with the reader that Foxglove and others use: per file and channel its encodings and number of
 // messages, and of JSON channels every message parsed and held against the `required` of the channel's schema.
 // Usage: node list_channels.mjs FILE...; prints JSON, and ends with 1 at the first thing that is not as it should be.
-import { text, withReader } from "./readable.mjs";
+import { text, withReader } from './readable.mjs';
 
 function checkJson(topic, required, data) {
   const message = JSON.parse(text.decode(data));
@@ -16,7 +16,7 @@ async function channelsOf(reader) {
   for (const { id, topic, messageEncoding, schemaId } of reader.channelsById.values()) {
     const schema = reader.schemasById.get(schemaId);
     channels[topic] = { encoding: messageEncoding, schema: schema.encoding, messages: 0 };
-    if (messageEncoding === "json") required[id] = JSON.parse(text.decode(schema.data)).required;
+    if (messageEncoding === 'json') required[id] = JSON.parse(text.decode(schema.data)).required;
   }
   for await (const message of reader.readMessages()) {
     const { topic } = reader.channelsById.get(message.channelId);
@@ -27,5 +27,5 @@ async function channelsOf(reader) {
 }
 
 const found = {};
-for (const file of process.argv.slice(2)) found[file.split("/").pop()] = await withReader(file, channelsOf);
+for (const file of process.argv.slice(2)) found[file.split('/').pop()] = await withReader(file, channelsOf);
 console.log(JSON.stringify(found));

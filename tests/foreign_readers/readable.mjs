@@ -1,7 +1,7 @@
 // An MCAP file opened with the reader that Foxglove and others use.
-import { open } from "node:fs/promises";
-import { McapIndexedReader } from "@mcap/core";
-import { decompress } from "fzstd";
+import { open } from 'node:fs/promises';
+import { McapIndexedReader } from '@mcap/core';
+import { decompress } from 'fzstd';
 
 class Readable {
   constructor(handle) { this.handle = handle; }
@@ -12,7 +12,7 @@ class Readable {
   }
 }
 
-export const text = new TextDecoder("utf-8", { fatal: true });
+export const text = new TextDecoder('utf-8', { fatal: true });
 
 // Calls `use` with the reader, and closes the file.
 export async function withReader(file, use) {

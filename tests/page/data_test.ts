@@ -1,11 +1,11 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { RecordReader, type Layout } from '../../host/apps/web/src/data/record';
-import { last_before, Run, type RunHead } from '../../host/apps/web/src/data/run';
-import { telemetry_of } from '../../host/apps/web/src/data/telemetry';
-import { chain_of } from '../../host/apps/web/src/model/arm_chain';
+import { lastBefore, Run, type RunHead } from '../../host/apps/web/src/data/run';
+import { telemetryOf } from '../../host/apps/web/src/data/telemetry';
+import { chainOf } from '../../host/apps/web/src/model/arm_chain';
 import { decimated } from '../../host/apps/web/src/plots/decimate';
-import { kArm, near } from './support';
+import { ARM, near } from './support';
 
 const layout: Layout = {
   version: 1,
@@ -47,7 +47,7 @@ test('a layout of another version, and one whose fields are not within the recor
 });
 
 // As `liana view` writes them.
-function planes_of(columns: number[][]): Uint8Array {
+function planesOf(columns: number[][]): Uint8Array {
   const bytes: number[] = [];
   for (const column of columns) {
     const steps = column.map((value, i) => (value - (i > 0 ? column[i - 1] : 0)) & 0xffff);
@@ -62,19 +62,19 @@ test('telemetry comes back from byte planes of differences, also across the end 
     { name: 'a', index: 1, unit: 'm', scale: 1 },
   ];
   const head = { rows: 4, ticks: { first: 10, every: 5 }, columns };
-  const telemetry = telemetry_of(head, planes_of([[1, -2, 32767, -32767], [-32768, 5, -32768, 0]]));
+  const telemetry = telemetryOf(head, planesOf([[1, -2, 32767, -32767], [-32768, 5, -32768, 0]]));
   assert.deepEqual([...telemetry.columns.get('a')![0]], [0.5, -1, 16383.5, -16383.5]);
   assert.deepEqual([...telemetry.columns.get('a')![1]], [NaN, 5, NaN, 0]);
 });
 
 test('telemetry of another length than its head says is damaged', () => {
   const head = { rows: 2, ticks: { first: 0, every: 1 }, columns: [{ name: 'a', index: 0, unit: 'm', scale: 1 }] };
-  assert.throws(() => telemetry_of(head, new Uint8Array(3)), /3 bytes, 4 belong/);
+  assert.throws(() => telemetryOf(head, new Uint8Array(3)), /3 bytes, 4 belong/);
 });
 
 test('the last entry at or before a tick is found, none before the first', () => {
   const list = [{ tick: 10 }, { tick: 20 }, { tick: 20 }, { tick: 30 }];
-  assert.deepEqual([5, 10, 25, 20, 99].map((tick) => last_before(list, tick)), [-1, 0, 2, 2, 3]);
+  assert.deepEqual([5, 10, 25, 20, 99].map((tick) => lastBefore(list, tick)), [-1, 0, 2, 2, 3]);
 });
 
 test('decimation keeps every peak and stays under the most points', () => {
@@ -96,13 +96,13 @@ test('of a run each moment has the facts of its time, which are told by their ch
   const names = Array.from({ length: 10 }, (_, index) => ({ name: 'measured_js_deg', index, unit: 'deg', scale: 0.001 }));
   const facts = [{ tick: 10, state: { state: 'DISABLED', owner: 'anna' } }, { tick: 15, state: { state: 'ENABLED' } }];
   const telemetry = { rows: 2, ticks: { first: 10, every: 5 }, columns: names };
-  const head: RunHead = { format: 1, title: '', robot: kArm, scene: { name: 's' }, report: null, period_s: 0.004, steps: [], events: [], commands: [], facts, telemetry };
+  const head: RunHead = { format: 1, title: '', robot: ARM, scene: { name: 's' }, report: null, period_s: 0.004, steps: [], events: [], commands: [], facts, telemetry };
   const angles_mdeg = [-8500, 0, -12000, 0, 8000, -2000, 13000, 0, 12000, -2000];
-  const run = new Run(head, planes_of(angles_mdeg.map((a) => [0, a])));
+  const run = new Run(head, planesOf(angles_mdeg.map((a) => [0, a])));
   assert.deepEqual(run.at(0).facts, { state: 'DISABLED', owner: 'anna' });
   const sample = run.at(1);
   assert.deepEqual([sample.tick, sample.facts], [15, { state: 'ENABLED', owner: 'anna' }]);
-  const chain = chain_of(kArm);
+  const chain = chainOf(ARM);
   chain.set(angles_mdeg.map((a) => a / 1000));
   for (let r = 0; r < 3; ++r) assert.ok(near(sample.numbers.get('measured_cp')![r], chain.tip[12 + r], 1e-5));
 });

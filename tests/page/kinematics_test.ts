@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { chain_of } from '../../host/apps/web/src/model/arm_chain';
-import { json_file, kArm, kMicro, near } from './support';
+import { chainOf } from '../../host/apps/web/src/model/arm_chain';
+import { jsonFile, ARM, MICRO, near } from './support';
 
 interface Golden {
   cases: { name: string; theta_deg: number[]; tip_pose: number[][]; segment_ends_m: number[][] }[];
@@ -9,8 +9,8 @@ interface Golden {
 
 // req:A35
 test('the cable arm stands where the golden values have it, at all its nodes and its tip', () => {
-  const chain = chain_of(kArm);
-  for (const golden of (json_file('tests/golden/arm.json') as Golden).cases) {
+  const chain = chainOf(ARM);
+  for (const golden of (jsonFile('tests/golden/arm.json') as Golden).cases) {
     chain.set(golden.theta_deg);
     for (let r = 0; r < 3; ++r) {
       for (let c = 0; c < 4; ++c)
@@ -25,8 +25,8 @@ interface SerialGolden {
 }
 
 test('the serial arm has its tip where the golden values have it', () => {
-  const chain = chain_of(kMicro);
-  for (const golden of (json_file('tests/golden/micro.json') as SerialGolden).cases) {
+  const chain = chainOf(MICRO);
+  for (const golden of (jsonFile('tests/golden/micro.json') as SerialGolden).cases) {
     chain.set(golden.joint_deg);
     for (let r = 0; r < 3; ++r)
       for (let c = 0; c < 4; ++c)
@@ -35,8 +35,8 @@ test('the serial arm has its tip where the golden values have it', () => {
 });
 
 test('each piece begins where the one before it ends', () => {
-  for (const robot of [kArm, kMicro]) {
-    const chain = chain_of(robot);
+  for (const robot of [ARM, MICRO]) {
+    const chain = chainOf(robot);
     chain.set([12, -9, 7, -8, 12, -3, 12, -10, -12, -2]);
     let end = [0, 0, 0];
     chain.pieces.forEach((piece, k) => {
@@ -49,7 +49,7 @@ test('each piece begins where the one before it ends', () => {
 });
 
 test('angles that are not there or no numbers count as 0', () => {
-  const chain = chain_of(kArm);
+  const chain = chainOf(ARM);
   chain.set([NaN, 0, 0]);
   assert.ok(near(chain.tip[12], 4, 1e-6));
 });

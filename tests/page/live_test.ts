@@ -3,21 +3,21 @@ import { webcrypto } from 'node:crypto';
 import { test } from 'node:test';
 import type { Layout } from '../../host/apps/web/src/data/record';
 import { History } from '../../host/apps/web/src/live/history';
-import { credit_of, proof_of } from '../../host/apps/web/src/live/protocol';
+import { creditOf, proofOf } from '../../host/apps/web/src/live/protocol';
 import { Rate } from '../../host/apps/web/src/live/rate';
 import { StateAge } from '../../host/apps/web/src/live/state_age';
-import { AlarmBook, conditions_of, type Condition } from '../../host/apps/web/src/model/alarms';
+import { AlarmBook, conditionsOf, type Condition } from '../../host/apps/web/src/model/alarms';
 import { near } from './support';
 
 if (!('crypto' in globalThis)) Object.assign(globalThis, { crypto: webcrypto }); // Node 18
 
 test('the credit of a record is its sequence, little-endian', () => {
-  assert.deepEqual([...new Uint8Array(credit_of(0x01020304))], [4, 3, 2, 1]);
+  assert.deepEqual([...new Uint8Array(creditOf(0x01020304))], [4, 3, 2, 1]);
 });
 
 test('the proof is the HMAC-SHA256 of the nonce as text, in hex', async () => {
   // RFC 4231, test case 2.
-  assert.equal(await proof_of('Jefe', 'what do ya want for nothing?'), '5bdcc146bf60754e6a042426089575c75a003f089d2739839dec58b964ec3843');
+  assert.equal(await proofOf('Jefe', 'what do ya want for nothing?'), '5bdcc146bf60754e6a042426089575c75a003f089d2739839dec58b964ec3843');
 });
 
 test('a minute of records is kept, the oldest go', () => {
@@ -46,8 +46,8 @@ test('the age of a state is how late it came against the quickest, and how long 
 test('a rate counts what happened in the last second', () => {
   const rate = new Rate();
   for (let i = 0; i < 90; ++i) rate.add(i / 90);
-  assert.equal(rate.per_second(89 / 90), 90);
-  assert.equal(rate.per_second(3), 0);
+  assert.equal(rate.perSecond(89 / 90), 90);
+  assert.equal(rate.perSecond(3), 0);
 });
 
 const slow: Condition = { key: 'x', priority: 2, title: 't', cause: 'c', todo: 'd' };
@@ -71,14 +71,14 @@ test('an alarm that is over stays until somebody has seen it; one that was seen 
   const book = new AlarmBook();
   const hard = { ...slow, key: 'y', priority: 1 as const };
   book.update([hard], 0);
-  assert.equal(book.list()[0].is_active, true); // at once
+  assert.equal(book.list()[0].isActive, true); // at once
   book.update([], 10);
-  assert.deepEqual([book.list()[0].is_active, book.list()[0].acknowledged_by], [false, '']);
+  assert.deepEqual([book.list()[0].isActive, book.list()[0].acknowledgedBy], [false, '']);
   book.acknowledge('y', 'anna');
   assert.equal(book.list().length, 0);
   book.update([hard], 20);
   book.acknowledge('y', 'anna');
-  assert.equal(book.list()[0].acknowledged_by, 'anna');
+  assert.equal(book.list()[0].acknowledgedBy, 'anna');
   book.update([], 24);
   assert.equal(book.list().length, 0);
 });
@@ -89,14 +89,14 @@ test('what has come back has to be seen anew', () => {
   book.update([hard], 0);
   book.update([], 4);
   book.update([hard], 5);
-  assert.deepEqual([book.list()[0].is_active, book.list()[0].since_s], [true, 5]);
+  assert.deepEqual([book.list()[0].isActive, book.list()[0].since_s], [true, 5]);
 });
 
 test('fifteen silent drives are one alarm with the remedy of the fault table, before what matters less', () => {
   const faults = Array.from({ length: 15 }, (_, index) => ({ number: 3002, name: 'drive_silent', index }));
   const book = new AlarmBook();
   const clearance = { body: 'wall', sure: 'camera', camera: 'none', level: 'slow' };
-  for (const now_s of [0, 1]) book.update(conditions_of({ faults, clearance }), now_s);
+  for (const now_s of [0, 1]) book.update(conditionsOf({ faults, clearance }), now_s);
   const [first, second] = book.list();
   assert.equal(book.list().length, 2);
   assert.match(first.title, /^3002 drive silent: drives or buses 0, 1, 2/);

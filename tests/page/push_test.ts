@@ -1,22 +1,22 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import type { Facts, Push } from '../../host/apps/web/src/data/sample';
-import { derived_events, with_told_changes } from '../../host/apps/web/src/data/derived_events';
+import { derivedEvents, withToldChanges } from '../../host/apps/web/src/data/derived_events';
 import { Live } from '../../host/apps/web/src/live/live';
 import type { Welcome } from '../../host/apps/web/src/live/protocol';
-import { is_at_site, payload_place } from '../../host/apps/web/src/model/payload_place';
-import { push_lines } from '../../host/apps/web/src/model/force_control_text';
+import { isAtSite, payloadPlace } from '../../host/apps/web/src/model/payload_place';
+import { pushLines } from '../../host/apps/web/src/model/force_control_text';
 import type { Scene, ScenePose } from '../../host/apps/web/src/model/robot';
-import { weight_of } from '../../host/apps/web/src/model/weight';
-import { groups_of } from '../../host/apps/web/src/plots/groups';
-import { kArm, kMicro, sample_of } from './support';
+import { weightOf } from '../../host/apps/web/src/model/weight';
+import { groupsOf } from '../../host/apps/web/src/plots/groups';
+import { ARM, MICRO, sampleOf } from './support';
 
-const no_push: Push = { number: 0, phase: 'none', end: 'none', law: 'force', touched: false, wrist: 'silent' };
-const pressing: Push = { ...no_push, number: 1, phase: 'pressing', touched: true, wrist: 'good' };
+const noPush: Push = { number: 0, phase: 'none', end: 'none', law: 'force', touched: false, wrist: 'silent' };
+const pressing: Push = { ...noPush, number: 1, phase: 'pressing', touched: true, wrist: 'good' };
 const open = { captured: false, latch: 'open', lock: 'open' };
 const servoing = { phase: 'approaching', target: 'adapter', reason: '' };
 // What a record holds of a push in its adapter.
-const kNumbers = {
+const NUMBERS = {
   'push.felt.force_N': [0.3, -0.4, -20], 'push.felt.torque_Nm': [0, 3, 4], 'push.given.force_N': [-0.3, 0.4, 20],
   'push.set_N': [30], 'push.travel_m': [0.012], 'push.aside_m': [0.0004], 'adapter.depth_m': [0.0015, 0.001, 0.0021],
   'servo.error_m': [0.003, 0, 0.004], 'servo.error_deg': [0, 0.1, 0], 'servo.swing_m': [0.014],
@@ -25,23 +25,23 @@ const place: ScenePose = { position_m: [0, 0, 0], quaternion_wxyz: [1, 0, 0, 0] 
 const scene: Scene = { name: 's', payload: { ...place, start: 'mechanism', length_m: 1, radius_m: 0.3 }, adapter: place };
 // As states of arms that have nothing to push with say it.
 const bare: Facts = {
-  push: no_push, adapter: open, payload: { mass_kg: 0 }, servo: { ...servoing, phase: 'standby', target: '' },
+  push: noPush, adapter: open, payload: { mass_kg: 0 }, servo: { ...servoing, phase: 'standby', target: '' },
 };
 
-function lines(facts: Facts, numbers: Record<string, number[]> = kNumbers): Record<string, string> {
-  return Object.fromEntries(push_lines(sample_of(numbers, facts), scene));
+function lines(facts: Facts, numbers: Record<string, number[]> = NUMBERS): Record<string, string> {
+  return Object.fromEntries(pushLines(sampleOf(numbers, facts), scene));
 }
 
 test('an arm without wrist sensor, adapter and servo has no words of them', () => {
-  const none = Object.fromEntries(Object.entries(kNumbers).map(([name, numbers]) => [name, numbers.map(() => NaN)]));
+  const none = Object.fromEntries(Object.entries(NUMBERS).map(([name, numbers]) => [name, numbers.map(() => NaN)]));
   for (const facts of [{}, bare]) {
     for (const numbers of [{}, none])
-      assert.ok(push_lines(sample_of(numbers, facts), { name: 'none' }).every(([, text]) => text === ''));
+      assert.ok(pushLines(sampleOf(numbers, facts), { name: 'none' }).every(([, text]) => text === ''));
   }
 });
 
 test('strips of force and push are there for fields that are', () => {
-  const names = (fields: string[]) => groups_of(kMicro, (field) => fields.includes(field)).map((group) => group.name);
+  const names = (fields: string[]) => groupsOf(MICRO, (field) => fields.includes(field)).map((group) => group.name);
   assert.deepEqual(names(['measured_js_deg']), ['angles']);
   const fields = ['push.felt.force_N', 'push.set_N', 'adapter.depth_m', 'servo.error_m'];
   assert.deepEqual(names(fields), ['wrist force', 'push', 'insertion', 'servo']);
@@ -59,52 +59,52 @@ test('a push is told by its phase, set force, way and whether it touches; the ad
 
 test('numbers that a run of an older version lacks are left out of the words, whether null or missing', () => {
   const facts = { push: pressing, adapter: open, servo: servoing };
-  const named = (name: string) => Object.fromEntries(Object.entries(kNumbers).filter(([each]) => each !== name));
-  const nulls = Object.fromEntries(Object.entries(kNumbers).map(([name, numbers]) => [name, numbers.map(() => NaN)]));
+  const named = (name: string) => Object.fromEntries(Object.entries(NUMBERS).filter(([each]) => each !== name));
+  const nulls = Object.fromEntries(Object.entries(NUMBERS).map(([name, numbers]) => [name, numbers.map(() => NaN)]));
   for (const numbers of [{}, nulls]) {
     const { push, adapter, wrist, servo } = lines(facts, numbers);
     assert.deepEqual([push, adapter, wrist, servo], ['1 pressing, touches', '', '', 'to the adapter: approaching']);
   }
-  for (const name of Object.keys(kNumbers)) {
-    for (const numbers of [named(name), { ...kNumbers, [name]: nulls[name] }])
+  for (const name of Object.keys(NUMBERS)) {
+    for (const numbers of [named(name), { ...NUMBERS, [name]: nulls[name] }])
       assert.ok(!/NaN|undefined|\?/.test(Object.values(lines(facts, numbers)).join('\n')), name);
   }
   assert.equal(lines(facts, named('push.set_N')).push, '1 pressing, gives 20.0 N, 12.0 mm on, 0.4 mm aside, touches');
-  assert.match(lines(facts, { ...kNumbers, 'adapter.depth_m': [0.0015, NaN, 0.0021] }).adapter, /pins 1.5, \u2013, 2.1 mm in/);
+  assert.match(lines(facts, { ...NUMBERS, 'adapter.depth_m': [0.0015, NaN, 0.0021] }).adapter, /pins 1.5, \u2013, 2.1 mm in/);
 });
 
 test('the payload is in the mechanism, then on the tip, then in the adapter', () => {
   const carried = { payload: { mass_kg: 500 } };
   assert.equal(lines(bare).payload, 'in the transfer mechanism');
-  assert.equal(payload_place({ ...bare, tool: { command: 'grapple', phase: 'acting' } }, scene), 'mechanism');
-  assert.equal(payload_place({ ...bare, tool: { command: 'grapple', phase: 'done' } }, scene), 'tip');
+  assert.equal(payloadPlace({ ...bare, tool: { command: 'grapple', phase: 'acting' } }, scene), 'mechanism');
+  assert.equal(payloadPlace({ ...bare, tool: { command: 'grapple', phase: 'done' } }, scene), 'tip');
   assert.equal(lines(carried).payload, 'on the tip, the arm carries 500 kg');
   const locked = lines({ ...carried, adapter: { ...open, captured: true, lock: 'closed' } });
   assert.equal(locked.payload, 'on the tip, locked in the adapter, the arm carries 500 kg');
   assert.equal(lines({ tool: { command: 'release', phase: 'done' } }).payload, 'in the adapter, released');
-  assert.equal(payload_place({}, { ...scene, payload: { ...scene.payload!, start: 'arm' } }), 'tip');
+  assert.equal(payloadPlace({}, { ...scene, payload: { ...scene.payload!, start: 'arm' } }), 'tip');
 });
 
 test('the adapter is there once the large arm has carried the small one to it', () => {
   const fetched: Scene = { ...scene, payload: { ...scene.payload!, fetch_pose: 'fetch' } };
-  const on_large = { ...kMicro, base: { pose: 'install' } };
-  assert.ok(is_at_site(bare, scene, on_large));
-  assert.ok(is_at_site(bare, fetched, kMicro), 'it stands firm');
-  assert.ok(!is_at_site({ ...bare, tool: { command: 'grapple', phase: 'done' } }, fetched, on_large));
-  assert.ok(!is_at_site({ ...bare, tool: { command: 'carry', phase: 'acting' } }, fetched, on_large));
-  assert.ok(is_at_site({ ...bare, tool: { command: 'carry', phase: 'done' } }, fetched, on_large));
+  const onLarge = { ...MICRO, base: { pose: 'install' } };
+  assert.ok(isAtSite(bare, scene, onLarge));
+  assert.ok(isAtSite(bare, fetched, MICRO), 'it stands firm');
+  assert.ok(!isAtSite({ ...bare, tool: { command: 'grapple', phase: 'done' } }, fetched, onLarge));
+  assert.ok(!isAtSite({ ...bare, tool: { command: 'carry', phase: 'acting' } }, fetched, onLarge));
+  assert.ok(isAtSite({ ...bare, tool: { command: 'carry', phase: 'done' } }, fetched, onLarge));
 });
 
 function told(before: Facts, now: Facts): string[] {
-  return derived_events(before, now, 7, 3).map((e) => `${e.kind}: ${e.text}${weight_of(e) === 'note' ? '' : '!'}`);
+  return derivedEvents(before, now, 7, 3).map((e) => `${e.kind}: ${e.text}${weightOf(e) === 'note' ? '' : '!'}`);
 }
 
 test('what changes of servo, push and adapter are events, and those that went wrong are warnings', () => {
   const captured: Push = { ...pressing, phase: 'unloading', end: 'captured' };
   assert.deepEqual(told({ push: { ...pressing, touched: false } }, { push: pressing }), ['push: push 1: touches']);
   assert.deepEqual(told({ push: pressing }, { push: { ...pressing } }), []);
-  const has_it = { ...open, captured: true, latch: 'closing' };
-  assert.deepEqual(told({ push: pressing, adapter: open }, { push: captured, adapter: has_it }),
+  const hasIt = { ...open, captured: true, latch: 'closing' };
+  assert.deepEqual(told({ push: pressing, adapter: open }, { push: captured, adapter: hasIt }),
     ['push: push 1 ended: captured', 'push: push 1: unloading', 'adapter: captured', 'adapter: latch closing']);
   const failed: Push = { ...pressing, phase: 'yielding', end: 'aside', wrist: 'failed' };
   assert.deepEqual(told({ push: pressing }, { push: failed }),
@@ -122,9 +122,9 @@ test('nothing has changed where the state before is not known', () => {
 
 test('events made of facts stand between the others by their ticks', () => {
   const event = { sequence: 1, tick: 20, kind: 'step', number: 1, subject: '', values: {}, text: 'step 1' };
-  const pushes = [no_push, pressing, { ...pressing, phase: 'unloading' }];
+  const pushes = [noPush, pressing, { ...pressing, phase: 'unloading' }];
   const facts = pushes.map((push, i) => ({ tick: 10 + 15 * i, state: { push } }));
-  const all = with_told_changes([event], facts).map((e) => [e.tick, e.kind]);
+  const all = withToldChanges([event], facts).map((e) => [e.tick, e.kind]);
   assert.deepEqual(all, [[20, 'step'], [25, 'push'], [25, 'push'], [25, 'wrist'], [40, 'push']]);
 });
 
@@ -139,12 +139,12 @@ function record(tick: number, set_N: number): ArrayBuffer {
 test('live, a number is known from its first value on, and changes of facts are events', () => {
   const live = new Live();
   const fields = [{ name: 'push.set_N', unit: 'N', offset: 24, count: 1 }];
-  live.take_welcome({ robot: kArm, scene, layout: { version: 1, bytes: 28, fields } } as unknown as Welcome);
+  live.takeWelcome({ robot: ARM, scene, layout: { version: 1, bytes: 28, fields } } as unknown as Welcome);
   live.take({ op: 'facts', facts: 1, state: bare });
-  live.take_record(record(5, NaN), 0.02);
+  live.takeRecord(record(5, NaN), 0.02);
   assert.equal(live.history!.known.size, 0);
   live.take({ op: 'facts', facts: 2, state: { ...bare, push: pressing } });
-  live.take_record(record(10, 30), 0.04);
+  live.takeRecord(record(10, 30), 0.04);
   assert.ok(live.history!.known.has('push.set_N'));
   assert.deepEqual(live.events.map((e) => [e.kind, e.tick]), [['push', 5], ['push', 5], ['wrist', 5]]);
 });

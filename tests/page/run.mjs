@@ -1,4 +1,4 @@
-// Runs the tests of the page: type check, plain modules, and end to end in Chromium against the real system.
+// Runs the tests of the page: types, style, plain modules, and end to end in Chromium against the real system.
 //   node tests/page/run.mjs [unit|console|run_page|frames|vr ...] [--judge-times]; all without a name. Needs `npm ci` in
 //   host/apps/web. --judge-times: frames must hold their figures, not only their ratio
 // (docs/getting-started/tour-of-the-console.md).
@@ -18,8 +18,8 @@ function run(what, program, args, cwd = root) {
   return status === 0;
 }
 
-if (!existsSync(join(page, 'node_modules', 'playwright-core'))) {
-  console.error('tests/page: npm ci in host/apps/web first (about 80 MB)');
+if (!existsSync(join(page, 'node_modules', 'eslint'))) {
+  console.error('tests/page: npm ci in host/apps/web first (about 110 MB)');
   process.exit(2);
 }
 const suites = readdirSync(join(here, 'e2e')).filter((file) => file.endsWith('_test.mjs')).map((file) => file.replace('_test.mjs', ''));
@@ -30,13 +30,14 @@ if (unknown.length > 0) {
   console.error(`tests/page: no tests ${unknown.join(', ')}; there are unit, ${suites.join(', ')}`);
   process.exit(2);
 }
-const is_wanted = (name) => wanted.length === 0 || wanted.includes(name);
+const isWanted = (name) => wanted.length === 0 || wanted.includes(name);
 
-const is_built = run('build', process.execPath, ['build.mjs'], page);
-if (is_built && is_wanted('unit')) {
+const isBuilt = run('build', process.execPath, ['build.mjs'], page);
+if (isBuilt && isWanted('unit')) {
   run('types', process.execPath, [join('node_modules', 'typescript', 'bin', 'tsc'), '--noEmit', '-p', '.'], page);
+  run('style', 'npm', ['run', '--silent', 'lint'], page);
   const built = join(root, 'build', 'page', 'tests');
   if (run('unit tests', process.execPath, ['build.mjs', '--tests'], page))
     run('unit tests', process.execPath, ['--test', ...readdirSync(built).filter((file) => file.endsWith('.mjs')).map((file) => join(built, file))]);
 }
-if (is_built) for (const suite of suites.filter(is_wanted)) run(suite, process.execPath, [join(here, 'e2e', `${suite}_test.mjs`), ...options]);
+if (isBuilt) for (const suite of suites.filter(isWanted)) run(suite, process.execPath, [join(here, 'e2e', `${suite}_test.mjs`), ...options]);

@@ -1,52 +1,52 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { pitch_budget } from '../../host/apps/web/src/model/pitch_budget';
-import { length_text, sentence_of } from '../../host/apps/web/src/model/sentence';
-import { scale_of, tension_colour } from '../../host/apps/web/src/model/tension_colour';
-import { moved, rotated, turn_between } from '../../host/apps/web/src/model/vector';
+import { pitchBudget } from '../../host/apps/web/src/model/pitch_budget';
+import { lengthText, sentenceOf } from '../../host/apps/web/src/model/sentence';
+import { scaleOf, tensionColour } from '../../host/apps/web/src/model/tension_colour';
+import { moved, rotated, turnBetween } from '../../host/apps/web/src/model/vector';
 import { FramePace, FrameTurns } from '../../host/apps/web/src/scene/frame_pace';
-import { write_camera_frame } from '../../host/apps/web/src/scene/tip_camera';
-import { spread_labels } from '../../host/apps/web/src/scene/spread_labels';
-import { kArm, near, sample_of } from './support';
+import { writeCameraFrame } from '../../host/apps/web/src/scene/tip_camera';
+import { spreadLabels } from '../../host/apps/web/src/scene/spread_labels';
+import { ARM, near, sampleOf } from './support';
 
 const scene = { name: 'x', rod: { position_m: [3, 0, 0] as [number, number, number], radius_m: 0.01 } };
 
 test('one sentence says step, clearance and way to the goal', () => {
-  const sample = sample_of(
+  const sample = sampleOf(
     { measured_cp: [2.14, 0, 0, 1, 0, 0, 0], 'clearance.distance_m': [0.041] },
     { state: 'ENABLED', step: { index: 4, name: 'segment 5 into the slit', device: 'hand' }, clearance: { body: 'panel', sure: 'camera', camera: 'none', level: 'free' } },
   );
-  assert.equal(sentence_of(sample, kArm, scene, 6), 'step 4 of 6: segment 5 into the slit, 41 mm from the panel, 0.86 m to the rod');
+  assert.equal(sentenceOf(sample, ARM, scene, 6), 'step 4 of 6: segment 5 into the slit, 41 mm from the panel, 0.86 m to the rod');
 });
 
 test('a stop and a fault come before the step in the sentence', () => {
   const step = { index: 1, name: 'x', device: 'none' };
-  assert.match(sentence_of(sample_of({}, { state: 'FAULT', step }), kArm, scene, null), /^stopped by a fault/);
+  assert.match(sentenceOf(sampleOf({}, { state: 'FAULT', step }), ARM, scene, null), /^stopped by a fault/);
   const stop = { by: 'anna', reason: '', tick: 1 };
-  assert.match(sentence_of(sample_of({}, { state: 'DISABLED', step, stop }), kArm, scene, null), /^emergency stop by anna/);
+  assert.match(sentenceOf(sampleOf({}, { state: 'DISABLED', step, stop }), ARM, scene, null), /^emergency stop by anna/);
 });
 
 test('lengths are said in the unit that people use', () => {
-  assert.deepEqual([0.0134, 0.041, 0.86, NaN, -0.002].map(length_text), ['13.4 mm', '41 mm', '0.86 m', '?', '-2.0 mm']);
+  assert.deepEqual([0.0134, 0.041, 0.86, NaN, -0.002].map(lengthText), ['13.4 mm', '41 mm', '0.86 m', '?', '-2.0 mm']);
 });
 
 test('a cable is blue at the floor, pale as planned, red at the ceiling, grey when not known', () => {
-  const scale = scale_of(kArm.tension);
-  const [low, plan, high] = [15, 40, 150].map((tension_N) => tension_colour(tension_N, scale));
+  const scale = scaleOf(ARM.tension);
+  const [low, plan, high] = [15, 40, 150].map((tension_N) => tensionColour(tension_N, scale));
   assert.ok(low[2] > low[0] && high[0] > high[2]);
   assert.ok(Math.max(...plan) - Math.min(...plan) < 0.1);
-  assert.deepEqual(tension_colour(600, scale), high);
-  assert.deepEqual(tension_colour(NaN, scale), [0.5, 0.5, 0.5]);
+  assert.deepEqual(tensionColour(600, scale), high);
+  assert.deepEqual(tensionColour(NaN, scale), [0.5, 0.5, 0.5]);
 });
 
 // req:A47
 test('the pitch budget is 0.32 deg with one segment in the slit and 0.084 deg with two', () => {
   const setpoint = new Float32Array(10);
   const measured = Float32Array.of(5, 0, 0, 0, 0, 0, 0.021, 0, -0.042, 0);
-  assert.equal(pitch_budget([], measured, setpoint), null);
-  assert.equal(pitch_budget([10], measured, setpoint), null); // a yaw is no pitch
-  const one = pitch_budget([9], measured, setpoint)!;
-  const two = pitch_budget([7, 9], measured, setpoint)!;
+  assert.equal(pitchBudget([], measured, setpoint), null);
+  assert.equal(pitchBudget([10], measured, setpoint), null); // a yaw is no pitch
+  const one = pitchBudget([9], measured, setpoint)!;
+  const two = pitchBudget([7, 9], measured, setpoint)!;
   assert.deepEqual([one.allowed_deg, one.segments], [0.32, [5]]);
   assert.deepEqual([two.allowed_deg, two.segments], [0.084, [4, 5]]);
   assert.ok(near(two.share, 0.5, 1e-4) && near(two.used_deg, 0.042, 1e-5));
@@ -54,7 +54,7 @@ test('the pitch budget is 0.32 deg with one segment in the slit and 0.084 deg wi
 
 test('labels are pushed apart, the first stays, all are inside the picture and beside what is taken', () => {
   const areas = [0, 1, 2, 3].map((i) => ({ x: 100 + i, y: 100, width: 80, height: 18 }));
-  spread_labels(areas, 300, 200, [{ x: 90, y: 125, width: 100, height: 20 }]);
+  spreadLabels(areas, 300, 200, [{ x: 90, y: 125, width: 100, height: 20 }]);
   assert.deepEqual([areas[0].x, areas[0].y], [100, 100]);
   const all = [...areas, { x: 90, y: 125, width: 100, height: 20 }];
   for (const a of all)
@@ -70,36 +70,36 @@ test('the picture becomes coarser while states wait long, and finer again only a
     while (now_ms < end_ms) pace.drawn((now_ms += 40), waited_ms);
   };
   frames(15, 5);
-  assert.equal(pace.pixel_ratio, 1);
+  assert.equal(pace.pixelRatio, 1);
   frames(80, 5);
-  assert.ok(pace.pixel_ratio < 1);
-  const coarse = pace.pixel_ratio;
+  assert.ok(pace.pixelRatio < 1);
+  const coarse = pace.pixelRatio;
   frames(15, 5);
-  assert.equal(pace.pixel_ratio, coarse);
+  assert.equal(pace.pixelRatio, coarse);
   frames(15, 30);
-  assert.equal(pace.pixel_ratio, 1);
+  assert.equal(pace.pixelRatio, 1);
 });
 
 test('every turn of the screen is drawn, every second one for a minute after states were in no frame', () => {
   const turns = new FrameTurns();
-  const kTurn_ms = 1000 / 60;
+  const turn_ms = 1000 / 60;
   let now_ms = 0;
-  const share_drawn = (misses: boolean, seconds: number) => {
+  const shareDrawn = (misses: boolean, seconds: number) => {
     let drawn = 0;
-    const all = Math.round((1000 * seconds) / kTurn_ms);
+    const all = Math.round((1000 * seconds) / turn_ms);
     for (let i = 0; i < all; ++i) {
-      now_ms += kTurn_ms;
+      now_ms += turn_ms;
       if (!turns.takes(now_ms)) continue;
       ++drawn;
       turns.drawn(now_ms, misses);
     }
     return drawn / all;
   };
-  assert.equal(share_drawn(false, 10), 1);
-  share_drawn(true, 3);
-  assert.ok(near(share_drawn(true, 50), 0.5, 0.02));
-  share_drawn(false, 10);
-  assert.equal(share_drawn(false, 10), 1);
+  assert.equal(shareDrawn(false, 10), 1);
+  shareDrawn(true, 3);
+  assert.ok(near(shareDrawn(true, 50), 0.5, 0.02));
+  shareDrawn(false, 10);
+  assert.equal(shareDrawn(false, 10), 1);
 });
 
 test('the camera looks ahead along the x of the tip of an arm, and along z where it carries a payload', () => {
@@ -109,7 +109,7 @@ test('the camera looks ahead along the x of the tip of an arm, and along z where
   const column = (m: number[], i: number) => m.slice(4 * i, 4 * i + 3);
   for (const [ahead, forward, up] of [['x', 0, 2], ['z', 2, 0]] as const) {
     const camera = new Array<number>(16).fill(0);
-    write_camera_frame(tip, ahead, camera);
+    writeCameraFrame(tip, ahead, camera);
     const [right, upright, back] = [0, 1, 2].map((i) => column(camera, i));
     back.forEach((x, r) => assert.ok(near(x, -column(tip, forward)[r], 1e-12)));
     assert.deepEqual([upright, column(camera, 3)], [column(tip, up), [1, 2, 3]]);
@@ -122,6 +122,6 @@ test('a pose moves along the axes of base or tip and turns about them', () => {
   const turned = moved([1, 0, 0, 1, 0, 0, 0], [0, 0, 0], [0, 0, Math.PI / 2], false);
   const on = moved(turned, [0.5, 0, 0], [0, 0, 0], true);
   assert.ok(near(on[0], 1, 1e-9) && near(on[1], 0.5, 1e-9));
-  assert.ok(near(turn_between([0, 0, 0, 1, 0, 0, 0], turned), Math.PI / 2, 1e-9));
+  assert.ok(near(turnBetween([0, 0, 0, 1, 0, 0, 0], turned), Math.PI / 2, 1e-9));
   assert.ok(near(rotated([turned[3], turned[4], turned[5], turned[6]], [1, 0, 0])[1], 1, 1e-9));
 });

@@ -6,7 +6,7 @@ import type { Facts, Sample } from '../../host/apps/web/src/data/sample';
 
 const root = process.env.LIANA_ROOT ?? process.cwd();
 
-export function json_file(path: string): any {
+export function jsonFile(path: string): any {
   return JSON.parse(readFileSync(join(root, path), 'utf8'));
 }
 
@@ -16,7 +16,7 @@ export function near(actual: number, expected: number, by: number): boolean {
 
 const segment = { modules: 8, module_length_m: 0.1, theta_limit_deg: 20 };
 
-export const kArm: CableRobot = {
+export const ARM: CableRobot = {
   name: 'zhu2022',
   kind: 'robot',
   segments: Array.from({ length: 5 }, () => segment),
@@ -31,7 +31,7 @@ function joint(alpha_deg: number, a_m: number, d_m: number) {
   return { alpha_deg, a_m, d_m, low_deg: -270, high_deg: 270, rate_deg_s: 4 };
 }
 
-export const kMicro: SerialRobot = {
+export const MICRO: SerialRobot = {
   name: 'micro',
   kind: 'serial',
   joints: [joint(90, 0, 0.28), joint(90, 0, 0.22), joint(0, 2.1, 0.2), joint(0, 2.1, 0), joint(90, 0, 0.2), joint(-90, 0, 0.22), joint(0, 0, 0.28)],
@@ -39,7 +39,7 @@ export const kMicro: SerialRobot = {
   named_poses_deg: {},
 };
 
-export function sample_of(numbers: Record<string, number[]>, facts: Facts): Sample {
+export function sampleOf(numbers: Record<string, number[]>, facts: Facts): Sample {
   const map = new Map(Object.entries(numbers).map(([name, values]) => [name, Float32Array.from(values)]));
   return { tick: 0, time_s: 0, numbers: map, facts };
 }

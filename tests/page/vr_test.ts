@@ -1,47 +1,47 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { rotated } from '../../host/apps/web/src/model/vector';
-import { next_node, next_scale, VrButtons } from '../../host/apps/web/src/vr/buttons';
-import { device_from_headset, HandleSamples, kUpright, type Handle } from '../../host/apps/web/src/vr/handles';
+import { nextNode, nextScale, VrButtons } from '../../host/apps/web/src/vr/buttons';
+import { deviceFromHeadset, HandleSamples, UPRIGHT, type Handle } from '../../host/apps/web/src/vr/handles';
 import { IntervalLog } from '../../host/apps/web/src/vr/interval_log';
 import { near } from './support';
 
-const handle = (position_m: [number, number, number], changes: Partial<Handle> = {}): Handle => ({ position_m, attitude: [1, 0, 0, 0], is_tracked: true, deadman: 0, ...changes });
+const handle = (position_m: [number, number, number], changes: Partial<Handle> = {}): Handle => ({ position_m, attitude: [1, 0, 0, 0], isTracked: true, deadman: 0, ...changes });
 
-function is_vector(actual: ArrayLike<number>, expected: number[]): void {
+function isVector(actual: ArrayLike<number>, expected: number[]): void {
   expected.forEach((e, i) => assert.ok(near(actual[i], e, 1e-9), `${Array.from(actual)} is not ${expected}`));
 }
 
 test('what is before the person is along the base\u2019s x, what is to the right is along minus y, up is z', () => {
-  is_vector(rotated(kUpright, [0, 0, -1]), [1, 0, 0]);
-  is_vector(rotated(kUpright, [1, 0, 0]), [0, -1, 0]);
-  is_vector(rotated(kUpright, [0, 1, 0]), [0, 0, 1]);
+  isVector(rotated(UPRIGHT, [0, 0, -1]), [1, 0, 0]);
+  isVector(rotated(UPRIGHT, [1, 0, 0]), [0, -1, 0]);
+  isVector(rotated(UPRIGHT, [0, 1, 0]), [0, 0, 1]);
 });
 
 test('a hand that moves forward moves forward in the base as the person sees it after turning the world', () => {
-  const device = device_from_headset(Math.PI / 2); // looks along y now
-  is_vector(rotated(device, [0, 0, -1]), [0, 1, 0]);
+  const device = deviceFromHeadset(Math.PI / 2); // looks along y now
+  isVector(rotated(device, [0, 0, -1]), [0, 1, 0]);
   const samples = new HandleSamples();
   const first = samples.next(0, handle([0, 0, 0]), null, device).right.pose;
   const second = samples.next(11, handle([0, 0, -0.1]), null, device).right.pose;
-  is_vector(second.map((x, i) => x - first[i]).slice(0, 3), [0, 0.1, 0]);
+  isVector(second.map((x, i) => x - first[i]).slice(0, 3), [0, 0.1, 0]);
 });
 
 test('a handle that is not tracked repeats its last pose and is not valid', () => {
   const samples = new HandleSamples();
-  const seen = samples.next(0, handle([0, 1, 0], { deadman: 0.9 }), null, kUpright);
-  const lost = samples.next(11, handle([5, 5, 5], { is_tracked: false, deadman: 0.9 }), null, kUpright);
+  const seen = samples.next(0, handle([0, 1, 0], { deadman: 0.9 }), null, UPRIGHT);
+  const lost = samples.next(11, handle([5, 5, 5], { isTracked: false, deadman: 0.9 }), null, UPRIGHT);
   assert.deepEqual([seen.right.valid, lost.right.valid, lost.left.valid], [true, false, false]);
   assert.deepEqual(lost.right.pose, seen.right.pose);
   assert.equal(lost.right.trigger, 0.9);
-  assert.deepEqual(samples.next(22, null, null, kUpright).right.pose, seen.right.pose);
+  assert.deepEqual(samples.next(22, null, null, UPRIGHT).right.pose, seen.right.pose);
 });
 
 // req:A32
 test('after the headset was re-centred a handle is let go, and steers again after its trigger was open', () => {
   const samples = new HandleSamples();
   const held = (now_ms: number, right: number, left: number) =>
-    samples.next(now_ms, handle([0, 1, 0], { deadman: right }), handle([0, 1, 0], { deadman: left }), kUpright);
+    samples.next(now_ms, handle([0, 1, 0], { deadman: right }), handle([0, 1, 0], { deadman: left }), UPRIGHT);
   held(0, 1, 1);
   samples.reset();
   const after = held(11, 1, 0.2);
@@ -53,7 +53,7 @@ test('after the headset was re-centred a handle is let go, and steers again afte
 
 test('times of samples strictly increase, in microseconds', () => {
   const samples = new HandleSamples();
-  const times = [1.5, 1.5, 1.4, 20].map((now_ms) => samples.next(now_ms, null, null, kUpright).t_us);
+  const times = [1.5, 1.5, 1.4, 20].map((now_ms) => samples.next(now_ms, null, null, UPRIGHT).t_us);
   assert.deepEqual(times, [1500, 1501, 1502, 20000]);
 });
 
@@ -65,7 +65,7 @@ test('below 50 samples a second there is an alarm, not at 90, and not before a s
   const slow = new IntervalLog();
   for (let i = 0; i < 90; ++i) slow.sampled(25 * i);
   assert.match(slow.conditions(2225)[0].title, /only 40 times/);
-  assert.deepEqual([quick.frames_per_picture(1989), slow.frames_per_picture(2225)], [1, 3]); // handles before pictures
+  assert.deepEqual([quick.framesPerPicture(1989), slow.framesPerPicture(2225)], [1, 3]); // handles before pictures
   const fresh = new IntervalLog();
   fresh.sampled(0);
   assert.deepEqual(fresh.conditions(500), []);
@@ -89,6 +89,6 @@ test('a button acts once when it goes down', () => {
 });
 
 test('scales and nodes go around', () => {
-  assert.deepEqual([0.5, 1, 2, 4].map(next_scale), [1, 2, 4, 0.5]);
-  assert.deepEqual([0, 1, 2, 3, 4].map((n) => next_node(n, 4)), [1, 2, 3, 4, 0]);
+  assert.deepEqual([0.5, 1, 2, 4].map(nextScale), [1, 2, 4, 0.5]);
+  assert.deepEqual([0, 1, 2, 3, 4].map((n) => nextNode(n, 4)), [1, 2, 3, 4, 0]);
 });

@@ -9,10 +9,10 @@ import { deflateRawSync } from 'node:zlib';
 const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, '..', '..', '..');
 const out = join(root, 'build', 'page');
-const kMaxBundle_kB = 700;
+const MAX_BUNDLE_KB = 700;
 
 // The rows of a table in docs/ that begin with a number, as arrays of cells.
-function table_rows(file) {
+function tableRows(file) {
   const lines = readFileSync(join(root, 'docs', file), 'utf8').split('\n');
   const rows = lines.filter((line) => /^\| \d+ \|/.test(line)).map((line) => line.split('|').slice(1, -1).map((c) => c.trim()));
   const width = Math.max(...rows.map((row) => row.length));
@@ -20,11 +20,11 @@ function table_rows(file) {
 }
 
 // What faults and refusals mean and what to do: written by the code's own tables into docs/.
-function fault_tables() {
-  const faults = table_rows('reference/faults.md').map(([number, name, , , , retreat, text, remedy]) => ({
+function faultTables() {
+  const faults = tableRows('reference/faults.md').map(([number, name, , , , retreat, text, remedy]) => ({
     number: Number(number), name, retreat: retreat === 'yes', text, remedy,
   }));
-  const refusals = table_rows('reference/refusals.md').map(([number, name, text, , action, remedy]) => ({
+  const refusals = tableRows('reference/refusals.md').map(([number, name, text, , action, remedy]) => ({
     number: Number(number), name, text, action, remedy,
   }));
   if (faults.length < 20 || refusals.length < 20) {
@@ -37,7 +37,7 @@ const tables = {
   name: 'tables',
   setup(hook) {
     hook.onResolve({ filter: /^liana:tables$/ }, () => ({ path: 'tables', namespace: 'liana' }));
-    hook.onLoad({ filter: /.*/, namespace: 'liana' }, () => ({ contents: JSON.stringify(fault_tables()), loader: 'json' }));
+    hook.onLoad({ filter: /.*/, namespace: 'liana' }, () => ({ contents: JSON.stringify(faultTables()), loader: 'json' }));
   },
 };
 
@@ -51,7 +51,7 @@ async function bundle(entry, options) {
 // Inside an HTML file no script may contain its own end.
 const inlined = (script) => script.replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
 
-const kInflate = `(async()=>{try{const p=Uint8Array.from(atob(document.getElementById('liana-page').textContent),c=>c.charCodeAt(0));
+const INFLATE = `(async()=>{try{const p=Uint8Array.from(atob(document.getElementById('liana-page').textContent),c=>c.charCodeAt(0));
 const s=document.createElement('script');s.textContent=await new Response(new Blob([p]).stream().pipeThrough(new DecompressionStream('deflate-raw'))).text();
 document.head.append(s)}catch(e){document.body.textContent='This page needs a browser of 2023 or newer (Chromium 103, Firefox 113, Safari 16.4): '+e}})()`;
 
@@ -63,10 +63,10 @@ async function pages() {
   const fill = (text) => shell.replace('<!-- script -->', () => text);
   mkdirSync(out, { recursive: true });
   writeFileSync(join(out, 'console.html'), fill(`<script>${inlined(script)}</script>`).replace('<!-- liana-run -->\n', ''));
-  writeFileSync(join(out, 'view.html'), fill(`<script type="text/plain" id="liana-page">${packed}</script>\n<script>${kInflate}</script>`));
-  const kB = Math.ceil(script.length / 1000);
-  console.log(`build/page: script ${kB} kB, packed ${Math.ceil(packed.length / 1000)} kB`);
-  if (kB > kMaxBundle_kB) throw new Error(`the script has ${kB} kB, at most ${kMaxBundle_kB} are allowed`);
+  writeFileSync(join(out, 'view.html'), fill(`<script type="text/plain" id="liana-page">${packed}</script>\n<script>${INFLATE}</script>`));
+  const size_kB = Math.ceil(script.length / 1000);
+  console.log(`build/page: script ${size_kB} kB, packed ${Math.ceil(packed.length / 1000)} kB`);
+  if (size_kB > MAX_BUNDLE_KB) throw new Error(`the script has ${size_kB} kB, at most ${MAX_BUNDLE_KB} are allowed`);
 }
 
 async function tests() {

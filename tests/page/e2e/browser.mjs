@@ -5,20 +5,20 @@ import { root, screens } from './system.mjs';
 
 const require = createRequire(join(root, 'host', 'apps', 'web', 'package.json'));
 const { chromium } = require('playwright-core');
-const axe_file = require.resolve('axe-core/axe.min.js');
+const axeFile = require.resolve('axe-core/axe.min.js');
 
 // What a person without a graphics card gets: WebGL by SwiftShader, the page put together on the processor. Forcing the
 // page's layers through SwiftShader, too (--use-angle=swiftshader), is what nobody has, and costs half as much again.
-const kFlags = ['--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader'];
+const FLAGS = ['--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader'];
 
-export async function open_browser() {
-  const server = await chromium.launchServer({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: kFlags });
+export async function openBrowser() {
+  const server = await chromium.launchServer({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: FLAGS });
   const browser = await chromium.connect(server.wsEndpoint());
   return { browser, pid: server.process().pid, close: async () => { await browser.close(); await server.close(); } };
 }
 
 // A page whose errors fail the test that looks at `errors`.
-export async function open_page(browser, address, options = {}) {
+export async function openPage(browser, address, options = {}) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 720 }, colorScheme: 'dark', ...options });
   page.errors = [];
   page.on('pageerror', (error) => page.errors.push(String(error)));
@@ -33,8 +33,8 @@ export async function picture(page, name) {
 }
 
 // What axe finds that is serious, or worse.
-export async function serious_findings(page) {
-  await page.addScriptTag({ path: axe_file });
+export async function seriousFindings(page) {
+  await page.addScriptTag({ path: axeFile });
   const found = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
   return found.violations
     .filter((v) => v.impact === 'serious' || v.impact === 'critical')
@@ -50,11 +50,11 @@ export function state(page) {
   });
 }
 
-const kPatience_ms = 90000; // paced time on a busy machine; nothing is judged by it
+const PATIENCE_MS = 90000; // paced time on a busy machine; nothing is judged by it
 
 // Waits until `holds` is true of the console's state.
 export async function until(page, what, holds) {
-  const end_ms = Date.now() + kPatience_ms;
+  const end_ms = Date.now() + PATIENCE_MS;
   for (;;) {
     const now = await state(page);
     if (holds(now)) return now;

@@ -3,15 +3,15 @@ import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { open_browser, open_page, picture, serious_findings, until } from './browser.mjs';
-import { process_called, screens, start_console } from './system.mjs';
+import { openBrowser, openPage, picture, seriousFindings, until } from './browser.mjs';
+import { processCalled, screens, startConsole } from './system.mjs';
 
-let system, chromium, page, display_name;
+let system, chromium, page, displayName;
 
 before(async () => {
-  system = await start_console();
-  chromium = await open_browser();
-  page = await open_page(chromium.browser, system.address);
+  system = await startConsole();
+  chromium = await openBrowser();
+  page = await openPage(chromium.browser, system.address);
 });
 
 after(async () => {
@@ -23,7 +23,7 @@ const text = (selector) => page.textContent(selector);
 const press = (name) => page.click(`[data-action="${name}"]`);
 const height = (now) => now.setpoint_cp[2];
 
-async function is_at_rest(what) {
+async function isAtRest(what) {
   return until(page, `${what}: at rest`, (now) => now.facts.at_rest === true && now.facts.state === 'ENABLED');
 }
 
@@ -39,36 +39,36 @@ test('the page shows the running arm, says what it does in one sentence, and loa
 
 test('two clicks bring the arm to where the mouse can move it: take motion, enable', async () => {
   await press('take motion');
-  ({ name: display_name } = await until(page, 'motion is ours', (now) => now.facts.owner === now.name));
+  ({ name: displayName } = await until(page, 'motion is ours', (now) => now.facts.owner === now.name));
   await press('enable');
   await page.waitForFunction(() => document.querySelector('.answer').textContent === 'enable: taken');
   await until(page, 'enabled', (now) => now.facts.state === 'ENABLED');
-  await is_at_rest('enabling');
+  await isAtRest('enabling');
   await page.waitForFunction(() => document.querySelector('.answer').textContent === 'enable: done');
 });
 
 test('a held key moves the tip up through verification, and letting go brings it to rest', async () => {
-  const from = await is_at_rest('before');
+  const from = await isAtRest('before');
   await page.focus('canvas.scene');
   await page.keyboard.down('KeyE');
   await until(page, '15 mm higher', (now) => height(now) > height(from) + 0.015);
   await picture(page, 'console_jog');
   await page.keyboard.up('KeyE');
-  const to = await is_at_rest('after');
+  const to = await isAtRest('after');
   assert.ok(height(to) < height(from) + 0.3);
 });
 
 test('goals go out more than 50 times a second while a key is held, and the time from key to setpoint is measured', async () => {
-  await is_at_rest('before');
+  await isAtRest('before');
   const from = await page.evaluate(() => {
     const { live, jogger } = window.liana;
     const z = () => live.sample.numbers.get('setpoint_cp')[2];
-    const from_z = z();
-    const take = live.take_record.bind(live);
+    const fromZ = z();
+    const take = live.takeRecord.bind(live);
     window.moved_ms = null;
-    live.take_record = (bytes, now_s) => {
+    live.takeRecord = (bytes, now_s) => {
       const sequence = take(bytes, now_s);
-      if (window.moved_ms === null && Math.abs(z() - from_z) > 2e-5) window.moved_ms = performance.now();
+      if (window.moved_ms === null && Math.abs(z() - fromZ) > 2e-5) window.moved_ms = performance.now();
       return sequence;
     };
     window.addEventListener('keydown', (event) => (window.pressed_ms ??= event.timeStamp), { capture: true });
@@ -79,7 +79,7 @@ test('goals go out more than 50 times a second while a key is held, and the time
   await page.waitForTimeout(3000);
   const measured = await page.evaluate(() => ({ sent: window.liana.jogger.sent, time_s: window.liana.live.sample.time_s, latency_ms: window.moved_ms - window.pressed_ms, passed_ms: performance.now() - window.pressed_ms }));
   await page.keyboard.up('KeyQ');
-  await is_at_rest('after');
+  await isAtRest('after');
   const table = { goals_per_s: (1000 * (measured.sent - from.sent)) / measured.passed_ms, key_to_setpoint_ms: measured.latency_ms, arm_time_per_time: (1000 * (measured.time_s - from.time_s)) / measured.passed_ms };
   writeFileSync(join(screens, 'input.json'), JSON.stringify(table, null, 1));
   console.log(table);
@@ -88,12 +88,12 @@ test('goals go out more than 50 times a second while a key is held, and the time
 
 // req:A15 req:A26
 test('the mouse drags the ball at the tip, and dropping it brings the arm to rest', async () => {
-  const from = await is_at_rest('before');
+  const from = await isAtRest('before');
   await page.waitForFunction(() => window.liana.handle.ball.visible);
   const [x, y] = await page.evaluate(() => {
     const { stage } = window.liana.scene;
     const box = stage.canvas.getBoundingClientRect();
-    const at = stage.pixel_of(window.liana.handle.ball.position.toArray());
+    const at = stage.pixelOf(window.liana.handle.ball.position.toArray());
     return [at[0] + box.left, at[1] + box.top];
   });
   await page.mouse.move(x, y);
@@ -101,14 +101,14 @@ test('the mouse drags the ball at the tip, and dropping it brings the arm to res
   await page.mouse.move(x + 15, y - 30, { steps: 4 });
   await until(page, '15 mm higher', (now) => height(now) > height(from) + 0.015);
   await page.mouse.up();
-  await is_at_rest('after');
+  await isAtRest('after');
 });
 
 test('a short press of a button is a step of 20 mm along a line', async () => {
-  const from = await is_at_rest('before');
+  const from = await isAtRest('before');
   await page.click('[data-jog="z+"]');
   await until(page, '20 mm higher', (now) => Math.abs(height(now) - height(from) - 0.02) < 0.0005);
-  await is_at_rest('after');
+  await isAtRest('after');
 });
 
 test('what lianad refuses is shown with its own words', async () => {
@@ -119,21 +119,21 @@ test('what lianad refuses is shown with its own words', async () => {
 });
 
 test('somebody else sees the same arm, and cannot take motion from its owner', async () => {
-  const other = await open_page(chromium.browser, system.address);
-  await until(other, 'the same owner', (now) => now.facts.owner === display_name);
+  const other = await openPage(chromium.browser, system.address);
+  await until(other, 'the same owner', (now) => now.facts.owner === displayName);
   await other.click('[data-action="take motion"]');
   await other.waitForFunction(() => document.querySelector('.answer').classList.contains('bad'));
-  assert.match(await other.textContent('.answer'), new RegExp(`take motion: not_owner: '${display_name}' owns motion`));
+  assert.match(await other.textContent('.answer'), new RegExp(`take motion: not_owner: '${displayName}' owns motion`));
   await other.click('[data-jog="z+"]');
   await other.waitForFunction(() => /step z\+: not_owner/.test(document.querySelector('.answer').textContent));
   await other.close();
 });
 
 test('every browser has a name of its own, and a person gives it another once, also after loading the page again', async () => {
-  assert.match(display_name, /^browser-[0-9a-f]{4}$/);
-  const other = await open_page(chromium.browser, system.address);
+  assert.match(displayName, /^browser-[0-9a-f]{4}$/);
+  const other = await openPage(chromium.browser, system.address);
   const first = await until(other, 'a name', (now) => now.name !== undefined);
-  assert.notEqual(first.name, display_name);
+  assert.notEqual(first.name, displayName);
   await other.fill('[aria-label="your name"]', 'anna');
   await other.click('button:has-text("call me so")');
   await until(other, 'the new name', (now) => now.name === 'anna');
@@ -149,7 +149,7 @@ test('retract goes back along the verified path, hold ends it', async () => {
   await press('retract');
   await until(page, 'on the way back', (now) => ['joining', 'back', 'done'].includes(now.facts.retract?.phase));
   await press('hold');
-  await is_at_rest('hold');
+  await isAtRest('hold');
 });
 
 test('recorded runs are listed, each with its page', async () => {
@@ -171,13 +171,13 @@ test('a click on an event takes the scene to its moment, and "now" back', async 
 test('nothing serious is found by axe in any tab, dark and light', async () => {
   for (const tab of ['Steer', 'Plots', 'Events', 'Runs']) {
     await page.click(`#tab-${tab}`);
-    assert.deepEqual(await serious_findings(page), [], tab);
+    assert.deepEqual(await seriousFindings(page), [], tab);
   }
   await page.click('#tab-Plots');
   await picture(page, 'console_plots');
   await page.click('.top [aria-label^="switch"]');
   await page.click('#tab-Steer');
-  assert.deepEqual(await serious_findings(page), [], 'light');
+  assert.deepEqual(await seriousFindings(page), [], 'light');
   await picture(page, 'console_light');
   await page.click('.top [aria-label^="switch"]');
 });
@@ -186,9 +186,9 @@ test('Escape stops the arm wherever the focus is, and the controller acknowledge
   await page.click('#tab-Steer');
   await page.focus('input.metres');
   await page.keyboard.press('Escape');
-  await until(page, 'the stop in the state', (now) => now.facts.stop?.by === display_name && now.facts.state === 'DISABLED');
+  await until(page, 'the stop in the state', (now) => now.facts.stop?.by === displayName && now.facts.state === 'DISABLED');
   await page.waitForFunction(() => /stop answered after \d+ ms, in force since tick \d+/.test(document.querySelector('.stop-report').textContent));
-  await page.waitForSelector(`.alarm:has-text("emergency stop by ${display_name}")`);
+  await page.waitForSelector(`.alarm:has-text("emergency stop by ${displayName}")`);
   await picture(page, 'console_stopped');
 });
 
@@ -208,15 +208,15 @@ test('the stop button works in every tab and in a narrow window', async () => {
 });
 
 test('an alarm is acknowledged by name and stays as long as its cause', async () => {
-  const alarm = `.alarm:has-text("emergency stop by ${display_name}")`;
+  const alarm = `.alarm:has-text("emergency stop by ${displayName}")`;
   await page.waitForSelector('.alarm-count:has-text("1 alarm")');
   await page.click(`${alarm} button`);
-  await page.waitForSelector(`${alarm}:has-text("seen by ${display_name}")`);
+  await page.waitForSelector(`${alarm}:has-text("seen by ${displayName}")`);
   assert.equal(await page.isVisible('.alarm-count'), false);
 });
 
 test('when the gateway dies the page says so, and goes on by itself when it is back', async () => {
-  const gateway = process_called(system.child.pid, 'liana-gateway');
+  const gateway = processCalled(system.child.pid, 'liana-gateway');
   assert.ok(gateway, 'the gateway is found');
   process.kill(gateway, 'SIGKILL');
   await page.waitForFunction(() => document.querySelector('.status .badge:last-child').textContent === 'NOT LIVE');

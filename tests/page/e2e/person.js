@@ -17,28 +17,28 @@ window.person = (() => {
     return [Math.cos(half), ...[1, 2, 3].map((i) => (sign * Math.sin(half) * q[i]) / s)];
   };
   const offset = {}; // of the grip from the pose that the emulator is told
-  let mapping = { scale: 1, rotation_scale: 1 };
+  let mapping = { scale: 1, rotationScale: 1 };
   let last_s = NaN;
-  let open_until_s = -1;
-  let not_followed_s = 0;
+  let openUntil_s = -1;
+  let notFollowed_s = 0;
   let samples = 0;
 
   const live = () => window.liana.live;
   const now_s = () => live().sample.time_s;
   const commanded = () => [...live().sample.numbers.get('setpoint_cp')];
-  const headset_to_base = () => {
+  const headsetToBase = () => {
     const half = window.liana.vr.rig.turn_rad / 2;
     return multiply([Math.cos(half), 0, 0, Math.sin(half)], [0.5, 0.5, -0.5, -0.5]);
   };
 
-  async function find_grips() {
+  async function findGrips() {
     for (const side of ['right', 'left']) {
       window.headset.controllers[side].position.set(0, 0, 0);
       window.headset.controllers[side].quaternion.set(0, 0, 0, 1);
     }
     const sent = window.liana.vr.sent;
     while (window.liana.vr.sent < sent + 3) await new Promise((next) => setTimeout(next, 20));
-    const device = headset_to_base();
+    const device = headsetToBase();
     for (const side of ['right', 'left']) {
       const pose = window.liana.vr.samples.last[side];
       offset[side] = { place: turned(back(device), pose.slice(0, 3)), turn: multiply(back(device), pose.slice(3)) };
@@ -48,11 +48,11 @@ window.person = (() => {
   // Tells the arm how the handles steer.
   async function use(wanted) {
     mapping = wanted;
-    await find_grips();
+    await findGrips();
     Object.assign(window.liana.vr, wanted);
-    window.liana.vr.use_device();
+    window.liana.vr.useDevice();
     last_s = now_s();
-    open_until_s = -1;
+    openUntil_s = -1;
   }
 
   // No hand stands still to the last digit: one that does is taken for a tracker whose values are stuck.
@@ -60,7 +60,7 @@ window.person = (() => {
 
   // Puts a handle where it has this pose in the base frame, its trigger held by so much.
   function put(side, pose, held) {
-    const device = headset_to_base();
+    const device = headsetToBase();
     const q = multiply(multiply(back(device), pose.slice(3)), back(offset[side].turn));
     const place = turned(back(device), pose.slice(0, 3));
     const shift = turned(q, offset[side].place);
@@ -70,12 +70,12 @@ window.person = (() => {
     hand.updateButtonValue('trigger', held);
   }
 
-  function let_go() {
+  function letGo() {
     for (const side of ['right', 'left']) window.headset.controllers[side].updateButtonValue('trigger', 0);
   }
 
   // The next frame; what of the arm's time has passed [s].
-  async function next_frame() {
+  async function nextFrame() {
     await new Promise((next) => requestAnimationFrame(next));
     const passed_s = Math.min(0.1, now_s() - last_s);
     last_s = now_s();
@@ -83,28 +83,28 @@ window.person = (() => {
   }
 
   // Holds the trigger where it is wanted; opens it for half a second when the arm has not followed for 0.8 s.
-  function grip(is_wanted, passed_s) {
+  function grip(isWanted, passed_s) {
     const follows = live().facts.device_engaged;
-    const is_closed = is_wanted && now_s() >= open_until_s;
-    not_followed_s = is_closed && !follows ? not_followed_s + passed_s : 0;
-    if (not_followed_s > 0.8) open_until_s = now_s() + 0.5;
-    return { is_closed, follows, goes_on: now_s() >= open_until_s && (!is_wanted || follows) };
+    const isClosed = isWanted && now_s() >= openUntil_s;
+    notFollowed_s = isClosed && !follows ? notFollowed_s + passed_s : 0;
+    if (notFollowed_s > 0.8) openUntil_s = now_s() + 0.5;
+    return { isClosed, follows, goesOn: now_s() >= openUntil_s && (!isWanted || follows) };
   }
 
   // Leads the tip through these poses with the right hand, each at its speed; waits for an arm that falls behind.
   async function lead(way, speeds) {
     let from = commanded();
     let nearest_m = Infinity;
-    const stop_at = performance.now() + 240000;
+    const stopAt = performance.now() + 240000;
     for (const [leg, to] of way.entries()) {
       const long_m = Math.hypot(...[0, 1, 2].map((i) => to[i] - from[i]));
       const turn = multiply(to.slice(3), back(from.slice(3)));
-      const pose_at = (share) => [...[0, 1, 2].map((i) => from[i] + share * (to[i] - from[i])), ...multiply(power(turn, share), from.slice(3))];
+      const poseAt = (share) => [...[0, 1, 2].map((i) => from[i] + share * (to[i] - from[i])), ...multiply(power(turn, share), from.slice(3))];
       let share = 0;
       let anchor = null; // where hand and tip were when the clutch closed, and the share then
-      while (performance.now() < stop_at) {
-        const passed_s = await next_frame();
-        const { is_closed, follows } = grip(true, passed_s);
+      while (performance.now() < stopAt) {
+        const passed_s = await nextFrame();
+        const { isClosed, follows } = grip(true, passed_s);
         nearest_m = Math.min(nearest_m, live().sample.numbers.get('clearance.distance_m')?.[0] ?? Infinity);
         const tip = commanded();
         if (!follows) anchor = null;
@@ -112,26 +112,26 @@ window.person = (() => {
           anchor = { hand: [0, 0, 1.2, 1, 0, 0, 0], tip };
           let best = Infinity;
           for (let s = 0; s <= 1; s += 0.002) {
-            const m = Math.hypot(...[0, 1, 2].map((i) => pose_at(s)[i] - tip[i]));
+            const m = Math.hypot(...[0, 1, 2].map((i) => poseAt(s)[i] - tip[i]));
             if (m < best) [best, share] = [m, s];
           }
         }
         let hand = [0, 0, 1.2, 1, 0, 0, 0];
         if (anchor) {
-          const goal = pose_at(share);
+          const goal = poseAt(share);
           const behind_m = Math.hypot(...[0, 1, 2].map((i) => goal[i] - tip[i]));
           if (behind_m < 0.05) share = Math.min(1, share + (speeds[leg] * passed_s) / long_m);
-          const hand_turn = power(multiply(goal.slice(3), back(anchor.tip.slice(3))), 1 / mapping.rotation_scale);
-          hand = [...[0, 1, 2].map((i) => anchor.hand[i] + (goal[i] - anchor.tip[i]) / mapping.scale), ...hand_turn];
+          const handTurn = power(multiply(goal.slice(3), back(anchor.tip.slice(3))), 1 / mapping.rotationScale);
+          hand = [...[0, 1, 2].map((i) => anchor.hand[i] + (goal[i] - anchor.tip[i]) / mapping.scale), ...handTurn];
           if (share >= 1 && behind_m < 0.004) break;
         }
-        put('right', hand, is_closed ? 1 : 0);
+        put('right', hand, isClosed ? 1 : 0);
       }
       from = to;
     }
-    let_go();
+    letGo();
     return { nearest_m, tip: commanded() };
   }
 
-  return { use, put, let_go, next_frame, grip, lead };
+  return { use, put, letGo, nextFrame, grip, lead };
 })();

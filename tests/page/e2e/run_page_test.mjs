@@ -6,16 +6,16 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { writeFileSync } from 'node:fs';
-import { open_browser, open_page, picture, serious_findings } from './browser.mjs';
+import { openBrowser, openPage, picture, seriousFindings } from './browser.mjs';
 import { liana, start } from './system.mjs';
 
-const kMaxBytes = 750000;
+const MAX_BYTES = 750000;
 
 let folder, chromium;
 
 before(async () => {
   folder = mkdtempSync(join(tmpdir(), 'liana-page-'));
-  chromium = await open_browser();
+  chromium = await openBrowser();
 });
 
 after(async () => {
@@ -33,8 +33,8 @@ const text = (page, selector) => page.textContent(selector);
 
 test('a crossing leaves one file that shows it from the disk, without any request', async () => {
   const file = await run('crossing', 'slit_crossing');
-  assert.ok(statSync(file).size <= kMaxBytes, `${statSync(file).size} bytes`);
-  const page = await open_page(chromium.browser, pathToFileURL(file).href);
+  assert.ok(statSync(file).size <= MAX_BYTES, `${statSync(file).size} bytes`);
+  const page = await openPage(chromium.browser, pathToFileURL(file).href);
   await page.waitForSelector('.page.run');
   await page.waitForFunction(() => /step 4 of 6/.test(document.querySelector('.sentence').textContent));
   assert.match(await text(page, '.finding'), /^Success: \d+\.\d s, at least [\d.]+ mm clear/);
@@ -69,7 +69,7 @@ test('a crossing leaves one file that shows it from the disk, without any reques
   assert.match(download.suggestedFilename(), /slit_crossing.*\.csv/);
   for (const tab of ['Plots', 'Events', 'Commands', 'Report']) {
     await page.click(`#tab-${tab}`);
-    assert.deepEqual(await serious_findings(page), [], tab);
+    assert.deepEqual(await seriousFindings(page), [], tab);
   }
   assert.deepEqual(page.errors, []);
   await page.close();
@@ -78,7 +78,7 @@ test('a crossing leaves one file that shows it from the disk, without any reques
 test('the page of a run that failed says what failed, where, why and what to do, and stands at that moment', async () => {
   const faults = join(folder, 'faults.json');
   writeFileSync(faults, JSON.stringify([{ drive: 7, kind: 'cable_break', at_slot: 3500 }]));
-  const page = await open_page(chromium.browser, pathToFileURL(await run('broken', 'slit_crossing', '--faults', faults)).href);
+  const page = await openPage(chromium.browser, pathToFileURL(await run('broken', 'slit_crossing', '--faults', faults)).href);
   await page.waitForSelector('.finding.bad');
   const finding = await text(page, '.finding');
   assert.match(finding, /slit_crossing failed in "around the obstacle to the panel edge"/);
@@ -92,7 +92,7 @@ test('the page of a run that failed says what failed, where, why and what to do,
 
 test('the page of a push shows what the wrist feels, how the push went, and where the payload is', async () => {
   const file = await run('push', 'payload_install', '--scene', 'payload_at_adapter');
-  const page = await open_page(chromium.browser, pathToFileURL(file).href);
+  const page = await openPage(chromium.browser, pathToFileURL(file).href);
   await page.waitForSelector('.push dl');
   await page.click('#tab-Events');
   assert.match(await text(page, '.events ol'), /push 1: pressing.*push 1: touches.*push 1 ended: captured.*lock closed/s);
@@ -105,7 +105,7 @@ test('the page of a push shows what the wrist feels, how the push went, and wher
   await page.focus('canvas.scene');
   await page.keyboard.press('End');
   assert.match(await text(page, '.push'), /locked in the adapter/);
-  assert.deepEqual(await serious_findings(page), []);
+  assert.deepEqual(await seriousFindings(page), []);
   assert.deepEqual(page.errors, []);
   await page.close();
 });

@@ -46,15 +46,15 @@ export function start(program, args) {
 }
 
 // A simulated arm without a mission, and its console.
-export async function start_console(...args) {
-  const system = start(liana, ['console', '--simulate', '--listen', `127.0.0.1:${free_port()}`, '--json', ...args]);
+export async function startConsole(...args) {
+  const system = start(liana, ['console', '--simulate', '--listen', `127.0.0.1:${freePort()}`, '--json', ...args]);
   const { address } = JSON.parse(await system.line(/"address"/));
   return { ...system, address };
 }
 
-let next_port = 20000 + (process.pid % 20000);
-function free_port() {
-  return next_port++;
+let nextPort = 20000 + (process.pid % 20000);
+function freePort() {
+  return nextPort++;
 }
 
 // Process numbers of a process and everything that it started.
@@ -75,7 +75,7 @@ export function family(pid) {
 }
 
 // The member of the family whose program is called so; undefined when there is none.
-export function process_called(pid, name) {
+export function processCalled(pid, name) {
   return family(pid).find((each) => {
     try {
       return readFileSync(`/proc/${each}/cmdline`, 'utf8').split('\0')[0].endsWith(`/${name}`);
@@ -85,9 +85,9 @@ export function process_called(pid, name) {
   });
 }
 
-const kTick_ms = 10; // USER_HZ
+const TICK_MS = 10; // USER_HZ
 
-function ticks_of(pid) {
+function ticksOf(pid) {
   try {
     const stat = readFileSync(`/proc/${pid}/stat`, 'utf8');
     const fields = stat.slice(stat.lastIndexOf(')') + 2).split(' ');
@@ -99,11 +99,11 @@ function ticks_of(pid) {
 
 // CPU time of a family [ms].
 export function cpu_ms(pid) {
-  return kTick_ms * family(pid).reduce((sum, each) => sum + ticks_of(each), 0);
+  return TICK_MS * family(pid).reduce((sum, each) => sum + ticksOf(each), 0);
 }
 
 // CPU time of the whole machine that was not idle [ms].
 export function machine_ms() {
   const [user, nice, system, , , irq, soft] = readFileSync('/proc/stat', 'utf8').split('\n')[0].split(/\s+/).slice(1).map(Number);
-  return kTick_ms * (user + nice + system + irq + soft);
+  return TICK_MS * (user + nice + system + irq + soft);
 }

@@ -5,8 +5,8 @@ import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { open_browser, open_page, until } from './browser.mjs';
-import { process_called, start_console } from './system.mjs';
+import { openBrowser, openPage, until } from './browser.mjs';
+import { processCalled, startConsole } from './system.mjs';
 
 const folder = mkdtempSync(join(tmpdir(), 'liana-tls-'));
 const [cert, key] = ['cert.pem', 'key.pem'].map((name) => join(folder, name));
@@ -15,9 +15,9 @@ let system, chromium, page;
 before(async () => {
   execFileSync('openssl', ['req', '-x509', '-newkey', 'ec', '-pkeyopt', 'ec_paramgen_curve:prime256v1', '-nodes', '-days', '2',
     '-subj', '/CN=localhost', '-addext', 'subjectAltName=IP:127.0.0.1', '-out', cert, '-keyout', key], { stdio: 'ignore' });
-  system = await start_console('--cert', cert, '--key', key);
-  chromium = await open_browser();
-  page = await open_page(chromium.browser, system.address, { ignoreHTTPSErrors: true });
+  system = await startConsole('--cert', cert, '--key', key);
+  chromium = await openBrowser();
+  page = await openPage(chromium.browser, system.address, { ignoreHTTPSErrors: true });
 });
 
 after(async () => {
@@ -34,7 +34,7 @@ test('a browser that offers HTTP/2 is served the page by HTTP/1.1, and shows the
 });
 
 test('when the gateway dies the page says that the arm holds, and goes on with the one that is started', async () => {
-  process.kill(process_called(system.child.pid, 'liana-gateway'), 'SIGKILL');
+  process.kill(processCalled(system.child.pid, 'liana-gateway'), 'SIGKILL');
   await page.waitForFunction(() => /an arm that was steered from here holds/.test(document.body.textContent));
   await page.waitForFunction(() => document.querySelector('.status .badge:last-child').textContent === 'live', null, { timeout: 60000 });
 });

@@ -4,16 +4,16 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { open_browser, picture, state, until } from './browser.mjs';
-import { root, screens, start_console } from './system.mjs';
+import { openBrowser, picture, state, until } from './browser.mjs';
+import { root, screens, startConsole } from './system.mjs';
 
 const iwer = createRequire(join(root, 'host', 'apps', 'web', 'package.json')).resolve('iwer/build/iwer.min.js');
 
 let system, chromium, page;
 
 before(async () => {
-  system = await start_console();
-  chromium = await open_browser();
+  system = await startConsole();
+  chromium = await openBrowser();
   page = await chromium.browser.newPage({ viewport: { width: 400, height: 260 }, colorScheme: 'dark' });
   page.errors = [];
   page.on('pageerror', (error) => page.errors.push(String(error)));
@@ -22,8 +22,8 @@ before(async () => {
     window.headset = new window.IWER.XRDevice(window.IWER.metaQuest3);
     window.headset.installRuntime({ forceInstall: true });
     // The emulator calls every position estimated; a headset does so only while it does not see a handle.
-    window.is_seen = true;
-    Object.defineProperty(window.XRPose.prototype, 'emulatedPosition', { get: () => !window.is_seen });
+    window.isSeen = true;
+    Object.defineProperty(window.XRPose.prototype, 'emulatedPosition', { get: () => !window.isSeen });
     window.headset.position.set(0, 1.6, 0);
     for (const [side, x] of [['right', 0.2], ['left', -0.2]]) window.headset.controllers[side].position.set(x, 1.2, -0.4);
   });
@@ -45,7 +45,7 @@ const tap = async (side, id) => {
 };
 
 // Moves a handle by `way` (x right, y up, z back) within about a second.
-async function move_hand(side, way) {
+async function moveHand(side, way) {
   for (let i = 0; i < 20; ++i) {
     await page.evaluate(([s, [x, y, z]]) => {
       const p = window.headset.controllers[s].position;
@@ -55,7 +55,7 @@ async function move_hand(side, way) {
   }
 }
 
-const is_resting = (now) => now.facts.at_rest === true && now.facts.state === 'ENABLED';
+const isResting = (now) => now.facts.at_rest === true && now.facts.state === 'ENABLED';
 const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 
 // Closes the clutch of a handle: a person who sees that the arm does not follow lets go and grips again.
@@ -77,7 +77,7 @@ test('the button VR appears with a headset and begins a session whose handles ar
   await press('take motion');
   await until(page, 'motion is ours', (now) => now.facts.owner === now.name);
   await press('enable');
-  await until(page, 'at rest', is_resting);
+  await until(page, 'at rest', isResting);
   await page.click('button:has-text("VR")');
   await until(page, 'handles are the device', (now) => now.facts.device === 'vr');
   await page.waitForFunction(() => window.liana.vr.sent > 20);
@@ -90,12 +90,12 @@ test('the tip follows the right handle while its trigger is held, and rests when
   // On a busy machine the clutch may open on the way, as samples come too late: then a person grips again.
   for (let tries = 0; tries < 8 && (await risen()) < 0.04; ++tries) {
     await grip('right');
-    await move_hand('right', [0, 0.06, 0]);
+    await moveHand('right', [0, 0.06, 0]);
     await page.waitForTimeout(1000);
     if (tries === 0) await picture(page, 'vr_steer');
     await trigger('right', 0);
-    await until(page, 'at rest', is_resting);
-    await move_hand('right', [0, -0.06, 0]);
+    await until(page, 'at rest', isResting);
+    await moveHand('right', [0, -0.06, 0]);
   }
   assert.ok((await risen()) > 0.04, `${await risen()} m`);
   const rested = await state(page);
@@ -112,12 +112,12 @@ test('the left handle moves a node while the tip stays', async () => {
     await grip('right');
     await trigger('left', 1);
     await page.waitForTimeout(500);
-    await move_hand('left', [0, 0.1, 0]);
+    await moveHand('left', [0, 0.1, 0]);
     await page.waitForTimeout(1500);
     await trigger('left', 0);
     await trigger('right', 0);
-    await until(page, 'at rest', is_resting);
-    await move_hand('left', [0, -0.1, 0]);
+    await until(page, 'at rest', isResting);
+    await moveHand('left', [0, -0.1, 0]);
   }
   assert.ok((await moved()) > 0.02, `${await moved()} m`);
   const to = await state(page);
@@ -127,17 +127,17 @@ test('the left handle moves a node while the tip stays', async () => {
 // req:A32
 test('a handle that is lost holds the arm, and steers again only after it was let go', async () => {
   await grip('right');
-  await page.evaluate(() => (window.is_seen = false));
-  const lost = await until(page, 'let go', (now) => now.facts.device_engaged === false && is_resting(now));
+  await page.evaluate(() => (window.isSeen = false));
+  const lost = await until(page, 'let go', (now) => now.facts.device_engaged === false && isResting(now));
   assert.notEqual(lost.facts.device_reason, '');
-  await page.evaluate(() => (window.is_seen = true));
+  await page.evaluate(() => (window.isSeen = true));
   await page.waitForTimeout(1000);
   assert.equal((await state(page)).facts.device_engaged, false);
   await trigger('right', 0);
   await page.waitForTimeout(500);
   await grip('right');
   await trigger('right', 0);
-  await until(page, 'at rest', is_resting);
+  await until(page, 'at rest', isResting);
 });
 
 test('buttons of the handles: X changes the node, Y the scale, A holds', async () => {
@@ -148,7 +148,7 @@ test('buttons of the handles: X changes the node, Y the scale, A holds', async (
   await tap('left', 'x-button');
   await page.waitForFunction((n) => window.liana.vr.node !== n, node);
   await tap('right', 'a-button');
-  await until(page, 'at rest', is_resting);
+  await until(page, 'at rest', isResting);
 });
 
 // The recording that the mission's VR step is made for: device frame, scale 4, turns 2, left hand on node 3.
@@ -161,32 +161,32 @@ function recording() {
 test('two handles steer the arm past the obstacle to the edge of the panel', async () => {
   await page.evaluate(() => window.liana.connection.request({ op: 'move_jp', goal_deg: window.liana.live.welcome.robot.named_poses_deg.prepare }));
   await page.waitForTimeout(1000);
-  await until(page, 'in the prepare pose', (now) => is_resting(now) && Math.abs(now.setpoint_cp[0] - 0.6466) < 0.005);
-  await page.evaluate(() => window.person.use({ scale: 4, rotation_scale: 2, node: 3 }));
+  await until(page, 'in the prepare pose', (now) => isResting(now) && Math.abs(now.setpoint_cp[0] - 0.6466) < 0.005);
+  await page.evaluate(() => window.person.use({ scale: 4, rotationScale: 2, node: 3 }));
   const end = await page.evaluate(async (rows) => {
     const { live } = window.liana;
     const { person } = window;
-    const stop_at = performance.now() + 240000;
-    const rows_end_s = rows[rows.length - 1][0] / 1e6;
+    const stopAt = performance.now() + 240000;
+    const rowsEnd_s = rows[rows.length - 1][0] / 1e6;
     let played_s = 0;
     let nearest_m = Infinity;
-    while (played_s < rows_end_s && performance.now() < stop_at) {
-      const passed_s = await person.next_frame();
+    while (played_s < rowsEnd_s && performance.now() < stopAt) {
+      const passed_s = await person.nextFrame();
       const row = rows[Math.min(rows.length - 1, Math.floor(played_s * 90))];
       const grip = person.grip(row[2] >= 0.5, passed_s);
-      if (grip.goes_on) played_s += passed_s; // the arm's time is the person's
-      person.put('right', row.slice(3, 10), grip.is_closed ? row[2] : 0);
-      person.put('left', row.slice(12, 19), grip.is_closed ? row[11] : 0);
+      if (grip.goesOn) played_s += passed_s; // the arm's time is the person's
+      person.put('right', row.slice(3, 10), grip.isClosed ? row[2] : 0);
+      person.put('left', row.slice(12, 19), grip.isClosed ? row[11] : 0);
       nearest_m = Math.min(nearest_m, live.sample.numbers.get('clearance.distance_m')?.[0] ?? Infinity);
     }
-    person.let_go();
+    person.letGo();
     return { played_s, nearest_m, refusals: live.sample.numbers.get('refusals')?.[0] };
   }, recording());
-  const at_edge = await until(page, 'at rest', is_resting);
+  const atEdge = await until(page, 'at rest', isResting);
   await picture(page, 'vr_panel_edge');
-  console.log(end, at_edge.measured_cp.slice(0, 3));
+  console.log(end, atEdge.measured_cp.slice(0, 3));
   assert.ok(end.nearest_m > 0.02, `${end.nearest_m} m`);
-  assert.ok(distance(at_edge.measured_cp, [0.2446, -0.2711, 0.5819]) < 0.15, `${at_edge.measured_cp}`);
+  assert.ok(distance(atEdge.measured_cp, [0.2446, -0.2711, 0.5819]) < 0.15, `${atEdge.measured_cp}`);
 });
 
 // req:A40 req:A41
@@ -195,19 +195,19 @@ test('with segment 5 held planar the handles steer the tip through the mouth of 
   const ask = (request) => page.evaluate((r) => window.liana.connection.request(r), request);
   await ask({ op: 'use_device', device: 'none' });
   await ask({ op: 'shape', nodes: [] });
-  await until(page, 'at rest', is_resting);
+  await until(page, 'at rest', isResting);
   await ask({ op: 'hold_theta', held: [{ theta: 9, target_deg: 0 }] });
-  await until(page, 'the pitch of segment 5 is held', (now) => now.facts.held?.includes(9) && now.facts.held_at_target && is_resting(now));
-  await page.evaluate(() => window.person.use({ scale: 4, rotation_scale: 2, node: 0, anywhere: true }));
+  await until(page, 'the pitch of segment 5 is held', (now) => now.facts.held?.includes(9) && now.facts.held_at_target && isResting(now));
+  await page.evaluate(() => window.person.use({ scale: 4, rotationScale: 2, node: 0, anywhere: true }));
   const { normal, offset_m, u_axis } = scene.slit;
   const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  const onto_plane = (p) => p.map((x, i) => x + (offset_m - dot(normal, p)) * normal[i]);
+  const ontoPlane = (p) => p.map((x, i) => x + (offset_m - dot(normal, p)) * normal[i]);
   const attitude = [0.9654, -0.0574, 0.254, -0.0162]; // the tip's y along the plane's normal, as the mission's operator has it
-  const before_mouth = [...onto_plane([1.3373, -0.7178, 0.591]), ...attitude];
-  const inside = [...onto_plane([1.87, -0.728, 0.55]), ...attitude];
-  const end = await page.evaluate(([way, speeds]) => window.person.lead(way, speeds), [[before_mouth, inside], [0.05, 0.02]]);
+  const beforeMouth = [...ontoPlane([1.3373, -0.7178, 0.591]), ...attitude];
+  const inside = [...ontoPlane([1.87, -0.728, 0.55]), ...attitude];
+  const end = await page.evaluate(([way, speeds]) => window.person.lead(way, speeds), [[beforeMouth, inside], [0.05, 0.02]]);
   await picture(page, 'vr_in_slit');
-  const now = await until(page, 'at rest', is_resting);
+  const now = await until(page, 'at rest', isResting);
   const depth_m = dot(u_axis, now.measured_cp) - scene.slit.mouth_u_m;
   console.log(end, { depth_m });
   assert.ok(depth_m > 0.05, `${depth_m} m`);
@@ -227,6 +227,6 @@ test('the session ends, and the log of intervals says how regular it was', async
   writeFileSync(join(screens, 'vr_intervals.json'), JSON.stringify(table, null, 1));
   console.log(table);
   await page.evaluate(() => window.liana.vr.end());
-  await page.waitForFunction(() => !window.liana.vr.is_on);
+  await page.waitForFunction(() => !window.liana.vr.isOn);
   assert.deepEqual(page.errors, []);
 });

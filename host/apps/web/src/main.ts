@@ -1,17 +1,17 @@
 // The page begins here: a run that is in it is shown; else it is the console.
-import { run_in } from './data/run';
+import { runIn } from './data/run';
 import { LivePage } from './live/live_page';
-import { use_software_canvas } from './plots/strip';
+import { useSoftwareCanvas } from './plots/strip';
 import { RunPage } from './run/run_page';
 import { h } from './ui/dom';
-import { apply, theme_now } from './ui/theme';
+import { apply, themeNow } from './ui/theme';
 
 async function begin(): Promise<void> {
   const place = document.getElementById('page')!;
   try {
-    apply(theme_now());
-    use_software_canvas();
-    const run = await run_in(document);
+    apply(themeNow());
+    useSoftwareCanvas();
+    const run = await runIn(document);
     if (!run) {
       const page = new LivePage(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/ws`);
       place.append(page.element);

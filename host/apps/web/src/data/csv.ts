@@ -7,11 +7,11 @@ function cell(text: string): string {
 
 // One line for each row of the run between two arm times, a column for each field and index; numbers that are not there
 // stay empty.
-export function csv_of(run: Run, from_s: number, to_s: number): string {
+export function csvOf(run: Run, from_s: number, to_s: number): string {
   const { columns } = run.head.telemetry;
   const names = columns.map((c) => cell(`${c.name}[${c.index}] [${c.unit}]`));
   const lines = [['tick', 'time_s [s]', ...names].join(',')];
-  for (let row = run.row_at(from_s); row <= run.row_at(to_s); ++row) {
+  for (let row = run.rowAt(from_s); row <= run.rowAt(to_s); ++row) {
     const numbers = columns.map((c) => {
       const value = run.telemetry.columns.get(c.name)![c.index][row];
       return Number.isFinite(value) ? String(Number(value.toPrecision(7))) : '';
@@ -22,7 +22,7 @@ export function csv_of(run: Run, from_s: number, to_s: number): string {
 }
 
 // Lets the person keep a text as a file.
-export function save_as(name: string, text: string): void {
+export function saveAs(name: string, text: string): void {
   const link = document.createElement('a');
   link.href = URL.createObjectURL(new Blob([text], { type: 'text/csv' }));
   link.download = name;

@@ -2,31 +2,31 @@
 // changed.
 import type { Facts, LianaEvent } from './sample';
 
-export const kTrouble = 1; // an event's number when somebody should look at it
+export const TROUBLE = 1; // an event's number when somebody should look at it
 
 type Change = Pick<LianaEvent, 'kind' | 'number' | 'text'>;
 
-const kGoodEnds = ['none', 'captured', 'stopped'];
+const GOOD_ENDS = ['none', 'captured', 'stopped'];
 
-function change(kind: string, text: string, is_trouble = false): Change {
-  return { kind, number: is_trouble ? kTrouble : 0, text };
+function change(kind: string, text: string, isTrouble = false): Change {
+  return { kind, number: isTrouble ? TROUBLE : 0, text };
 }
 
-function of_push({ push: before }: Facts, { push: now }: Facts): Change[] {
+function ofPush({ push: before }: Facts, { push: now }: Facts): Change[] {
   if (!before || !now) return [];
   const changes: Change[] = [];
-  const is_new = before.number !== now.number;
-  if (now.end !== 'none' && (is_new || before.end !== now.end))
-    changes.push(change('push', `push ${now.number} ended: ${now.end}`, !kGoodEnds.includes(now.end)));
-  if (now.phase !== 'none' && (is_new || before.phase !== now.phase))
+  const isNew = before.number !== now.number;
+  if (now.end !== 'none' && (isNew || before.end !== now.end))
+    changes.push(change('push', `push ${now.number} ended: ${now.end}`, !GOOD_ENDS.includes(now.end)));
+  if (now.phase !== 'none' && (isNew || before.phase !== now.phase))
     changes.push(change('push', `push ${now.number}: ${now.phase}`));
-  if (now.touched && (is_new || !before.touched)) changes.push(change('push', `push ${now.number}: touches`));
+  if (now.touched && (isNew || !before.touched)) changes.push(change('push', `push ${now.number}: touches`));
   if (before.wrist !== now.wrist)
     changes.push(change('wrist', `wrist sensor: ${now.wrist}`, !['good', 'not_at_rest'].includes(now.wrist)));
   return changes;
 }
 
-function of_adapter({ adapter: before }: Facts, { adapter: now }: Facts): Change[] {
+function ofAdapter({ adapter: before }: Facts, { adapter: now }: Facts): Change[] {
   if (!before || !now) return [];
   const changes: Change[] = [];
   if (before.captured !== now.captured)
@@ -37,29 +37,29 @@ function of_adapter({ adapter: before }: Facts, { adapter: now }: Facts): Change
   return changes;
 }
 
-function of_servo({ servo: before }: Facts, { servo: now }: Facts): Change[] {
+function ofServo({ servo: before }: Facts, { servo: now }: Facts): Change[] {
   if (!before || !now || (before.phase === now.phase && before.target === now.target)) return [];
   const why = now.reason ? `: ${now.reason}` : '';
   const text = `servo to ${now.target || 'nothing'}: ${now.phase.replaceAll('_', ' ')}${why}`;
   return [change('servo', text, ['lost', 'timed_out'].includes(now.phase))];
 }
 
-function of_payload({ payload: before }: Facts, { payload: now }: Facts): Change[] {
+function ofPayload({ payload: before }: Facts, { payload: now }: Facts): Change[] {
   if (!before || !now || before.mass_kg === now.mass_kg) return [];
   return [change('payload', now.mass_kg > 0 ? `carries ${now.mass_kg} kg` : 'carries nothing')];
 }
 
 // Between two states; none where one of them does not tell of it.
-export function derived_events(before: Facts, now: Facts, tick: number, sequence: number): LianaEvent[] {
-  const all = [of_payload, of_servo, of_push, of_adapter].flatMap((changes_of) => changes_of(before, now));
+export function derivedEvents(before: Facts, now: Facts, tick: number, sequence: number): LianaEvent[] {
+  const all = [ofPayload, ofServo, ofPush, ofAdapter].flatMap((changesOf) => changesOf(before, now));
   return all.map((each) => ({ ...each, sequence, tick, subject: '', values: {} }));
 }
 
 // The events of a run with those made of its facts between them.
-export function with_told_changes(
+export function withToldChanges(
   events: readonly LianaEvent[],
   facts: readonly { tick: number; state: Facts }[],
 ): LianaEvent[] {
-  const told = facts.slice(1).flatMap(({ tick, state }, i) => derived_events(facts[i].state, state, tick, 0));
+  const told = facts.slice(1).flatMap(({ tick, state }, i) => derivedEvents(facts[i].state, state, tick, 0));
   return [...events, ...told].sort((a, b) => a.tick - b.tick);
 }

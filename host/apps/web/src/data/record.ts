@@ -6,8 +6,8 @@ export interface Layout {
   fields: { name: string; unit: string; offset: number; count: number }[];
 }
 
-export const kHeaderBytes = 24;
-const kLayoutVersion = 1;
+export const HEADER_BYTES = 24;
+const LAYOUT_VERSION = 1;
 
 // Reads records of one layout; its numbers are views that the next record overwrites.
 export class RecordReader {
@@ -21,16 +21,16 @@ export class RecordReader {
 
   // Throws when the layout is of another version or its fields are not within the record.
   constructor(readonly layout: Layout) {
-    if (layout.version !== kLayoutVersion)
-      throw new Error(`layout.version = ${layout.version}: this page reads ${kLayoutVersion}: reload it from the gateway`);
-    if (!(layout.bytes >= kHeaderBytes && layout.bytes % 4 === 0))
-      throw new Error(`layout.bytes = ${layout.bytes}: at least ${kHeaderBytes}, a multiple of 4`);
+    if (layout.version !== LAYOUT_VERSION)
+      throw new Error(`layout.version = ${layout.version}: this page reads ${LAYOUT_VERSION}: reload it from the gateway`);
+    if (!(layout.bytes >= HEADER_BYTES && layout.bytes % 4 === 0))
+      throw new Error(`layout.bytes = ${layout.bytes}: at least ${HEADER_BYTES}, a multiple of 4`);
     const buffer = new ArrayBuffer(layout.bytes);
     this.bytes = new Uint8Array(buffer);
     this.head = new DataView(buffer);
     for (const field of layout.fields) {
       const end = field.offset + 4 * field.count;
-      if (field.offset < kHeaderBytes || field.offset % 4 !== 0 || end > layout.bytes)
+      if (field.offset < HEADER_BYTES || field.offset % 4 !== 0 || end > layout.bytes)
         throw new Error(`layout field ${field.name} at ${field.offset}: not within ${layout.bytes} bytes`);
       this.numbers.set(field.name, new Float32Array(buffer, field.offset, field.count));
     }

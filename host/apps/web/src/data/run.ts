@@ -1,9 +1,9 @@
 // A recorded run: what `liana view` wrote into its page.
-import { chain_of, type ArmChain } from '../model/arm_chain';
+import { chainOf, type ArmChain } from '../model/arm_chain';
 import type { Robot, Scene } from '../model/robot';
 import type { Facts, LianaEvent, Sample } from './sample';
-import { inflated, telemetry_of, type Telemetry, type TelemetryHead } from './telemetry';
-import { with_told_changes } from './derived_events';
+import { inflated, telemetryOf, type Telemetry, type TelemetryHead } from './telemetry';
+import { withToldChanges } from './derived_events';
 
 export interface Judged {
   code: number; // M_e; 0: passed
@@ -48,10 +48,10 @@ export interface RunHead {
   telemetry: TelemetryHead;
 }
 
-const kFormat = 1;
+const FORMAT = 1;
 
 // The last of `list` (ascending ticks) at or before `tick`; -1: none.
-export function last_before(list: readonly { tick: number }[], tick: number): number {
+export function lastBefore(list: readonly { tick: number }[], tick: number): number {
   let low = 0;
   let high = list.length;
   while (low < high) {
@@ -63,7 +63,7 @@ export function last_before(list: readonly { tick: number }[], tick: number): nu
 }
 
 // All facts at each change.
-function whole_facts(changes: RunHead['facts']): RunHead['facts'] {
+function wholeFacts(changes: RunHead['facts']): RunHead['facts'] {
   let state: Facts = {};
   return changes.map((change) => ({ tick: change.tick, state: (state = { ...state, ...change.state }) }));
 }
@@ -77,13 +77,13 @@ export class Run {
 
   // Throws when the head is of another format or does not fit the telemetry.
   constructor(readonly head: RunHead, planes: Uint8Array) {
-    if (head.format !== kFormat) throw new Error(`format = ${head.format}: this page reads ${kFormat}`);
-    this.telemetry = telemetry_of(head.telemetry, planes);
-    this.facts = whole_facts(head.facts);
-    this.events = with_told_changes(head.events, this.facts);
+    if (head.format !== FORMAT) throw new Error(`format = ${head.format}: this page reads ${FORMAT}`);
+    this.telemetry = telemetryOf(head.telemetry, planes);
+    this.facts = wholeFacts(head.facts);
+    this.events = withToldChanges(head.events, this.facts);
     const numbers = new Map<string, Float32Array>();
     for (const [name, columns] of this.telemetry.columns) numbers.set(name, new Float32Array(columns.length));
-    this.chain = chain_of(head.robot);
+    this.chain = chainOf(head.robot);
     if (!numbers.has('measured_cp')) numbers.set('measured_cp', new Float32Array(7).fill(NaN)); // from the angles, below
     this.sample = { tick: 0, time_s: 0, numbers, facts: {} };
   }
@@ -97,12 +97,12 @@ export class Run {
   }
 
   tick(row: number): number {
-    return this.telemetry.first_tick + row * this.telemetry.ticks_per_row;
+    return this.telemetry.firstTick + row * this.telemetry.ticksPerRow;
   }
 
   // The row nearest to this arm time, within the run.
-  row_at(time_s: number): number {
-    const row = Math.round((time_s / this.head.period_s - this.telemetry.first_tick) / this.telemetry.ticks_per_row);
+  rowAt(time_s: number): number {
+    const row = Math.round((time_s / this.head.period_s - this.telemetry.firstTick) / this.telemetry.ticksPerRow);
     return Math.max(0, Math.min(this.rows - 1, row));
   }
 
@@ -115,14 +115,14 @@ export class Run {
       const values = sample.numbers.get(name)!;
       for (let i = 0; i < columns.length; ++i) values[i] = columns[i]?.[row] ?? NaN;
     }
-    this.place_tip(sample.numbers);
-    const facts = last_before(this.facts, sample.tick);
+    this.placeTip(sample.numbers);
+    const facts = lastBefore(this.facts, sample.tick);
     sample.facts = facts < 0 ? {} : this.facts[facts].state;
     return sample;
   }
 
   // Where the tip is, which the page does not hold: the angles say it. Its attitude is left out.
-  private place_tip(numbers: Map<string, Float32Array>): void {
+  private placeTip(numbers: Map<string, Float32Array>): void {
     const angles_deg = numbers.get('measured_js_deg');
     if (this.telemetry.columns.has('measured_cp') || !angles_deg) return;
     this.chain.set(angles_deg);
@@ -132,7 +132,7 @@ export class Run {
 }
 
 // The run in this page; null when there is none, which is the console.
-export async function run_in(page: Document): Promise<Run | null> {
+export async function runIn(page: Document): Promise<Run | null> {
   const head = page.getElementById('liana-run')?.textContent;
   const packed = page.getElementById('liana-telemetry')?.textContent;
   if (!head || !packed) return null;

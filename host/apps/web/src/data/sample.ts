@@ -63,11 +63,11 @@ export interface Sample {
   facts: Facts;
 }
 
-const kNone = new Float32Array(0);
+const NONE = new Float32Array(0);
 
 // Values of a field; empty when this arm has no such field.
 export function values(sample: Sample, name: string): Float32Array {
-  return sample.numbers.get(name) ?? kNone;
+  return sample.numbers.get(name) ?? NONE;
 }
 
 // The only value of a field; NaN when it is not there.
@@ -76,7 +76,7 @@ export function value(sample: Sample, name: string): number {
 }
 
 // Is there a number in it?
-export function is_known(numbers: ArrayLike<number>): boolean {
+export function isKnown(numbers: ArrayLike<number>): boolean {
   return numbers.length > 0 && Number.isFinite(numbers[0]);
 }
 

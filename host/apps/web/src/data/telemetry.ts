@@ -9,12 +9,12 @@ export interface TelemetryHead {
 
 export interface Telemetry {
   rows: number;
-  first_tick: number;
-  ticks_per_row: number;
+  firstTick: number;
+  ticksPerRow: number;
   columns: Map<string, Float32Array[]>; // by field and index; NaN: not there
 }
 
-const kNotThere = -32768;
+const NOT_THERE = -32768;
 
 export async function inflated(base64: string): Promise<Uint8Array> {
   const packed = Uint8Array.from(atob(base64.trim()), (c) => c.charCodeAt(0));
@@ -28,21 +28,21 @@ function column(planes: Uint8Array, at: number, rows: number, scale: number): Fl
   let whole = 0;
   for (let i = 0; i < rows; ++i) {
     whole = ((whole + (planes[at + i] | (planes[at + rows + i] << 8))) << 16) >> 16;
-    values[i] = whole === kNotThere ? NaN : whole * scale;
+    values[i] = whole === NOT_THERE ? NaN : whole * scale;
   }
   return values;
 }
 
 // Throws when there are not as many bytes as the head says.
-export function telemetry_of(head: TelemetryHead, planes: Uint8Array): Telemetry {
+export function telemetryOf(head: TelemetryHead, planes: Uint8Array): Telemetry {
   const expected = 2 * head.rows * head.columns.length;
   if (planes.length !== expected)
     throw new Error(`telemetry has ${planes.length} bytes, ${expected} belong to its rows and columns: the file is damaged`);
   const columns = new Map<string, Float32Array[]>();
   head.columns.forEach((c, k) => {
-    const of_field = columns.get(c.name) ?? [];
-    of_field[c.index] = column(planes, 2 * head.rows * k, head.rows, c.scale);
-    columns.set(c.name, of_field);
+    const ofField = columns.get(c.name) ?? [];
+    ofField[c.index] = column(planes, 2 * head.rows * k, head.rows, c.scale);
+    columns.set(c.name, ofField);
   });
-  return { rows: head.rows, first_tick: head.ticks.first, ticks_per_row: head.ticks.every, columns };
+  return { rows: head.rows, firstTick: head.ticks.first, ticksPerRow: head.ticks.every, columns };
 }

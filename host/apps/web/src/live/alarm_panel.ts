@@ -1,9 +1,9 @@
 // Alarms with cause and next step; each is acknowledged by the name of who has seen it.
 import { h } from '../ui/dom';
 import type { Live } from './live';
-import { display_name } from './display_name';
+import { displayName } from './display_name';
 
-const kPriorities = ['', 'act now', 'act soon', 'know'];
+const PRIORITIES = ['', 'act now', 'act soon', 'know'];
 
 export class AlarmPanel {
   readonly element = h('section', { class: 'alarms', 'aria-label': 'Alarms', 'aria-live': 'polite' });
@@ -15,15 +15,15 @@ export class AlarmPanel {
     const alarms = this.live.alarms.list();
     this.element.hidden = alarms.length === 0;
     this.element.replaceChildren(...alarms.map((alarm) => {
-      const seen = alarm.acknowledged_by !== '';
-      const name = this.live.welcome?.name ?? display_name();
+      const seen = alarm.acknowledgedBy !== '';
+      const name = this.live.welcome?.name ?? displayName();
       const button = h('button', { type: 'button', onclick: () => {
         this.live.alarms.acknowledge(alarm.key, name);
         this.changed();
       } }, 'seen');
-      const state = `${kPriorities[alarm.priority]}${alarm.is_active ? '' : ', over now'}`;
-      return h('article', { class: `alarm priority-${alarm.priority} ${seen || !alarm.is_active ? 'quiet' : ''}` },
-        h('strong', {}, alarm.title), h('span', { class: 'hint' }, state), seen ? h('span', { class: 'hint' }, `seen by ${alarm.acknowledged_by}`) : button,
+      const state = `${PRIORITIES[alarm.priority]}${alarm.isActive ? '' : ', over now'}`;
+      return h('article', { class: `alarm priority-${alarm.priority} ${seen || !alarm.isActive ? 'quiet' : ''}` },
+        h('strong', {}, alarm.title), h('span', { class: 'hint' }, state), seen ? h('span', { class: 'hint' }, `seen by ${alarm.acknowledgedBy}`) : button,
         h('p', {}, alarm.cause), h('p', { class: 'todo' }, alarm.todo));
     }));
   }

@@ -1,21 +1,21 @@
 // How the person at this browser is called, so that owners of motion can be told apart: given once, kept in this browser.
-import { h, set_text } from '../ui/dom';
+import { h, setText } from '../ui/dom';
 import type { Connection } from './connection';
 import type { Live } from './live';
 
-const kKey = 'liana-name';
-const kMaxBytes = 32;
+const KEY = 'liana-name';
+const MAX_BYTES = 32;
 
 // Why nobody can be called so; empty: it is a name.
-export function name_problem(name: string): string {
+export function nameProblem(name: string): string {
   const bytes = new TextEncoder().encode(name).length;
-  if (bytes >= 1 && bytes <= kMaxBytes && !/[\u0000-\u001f\u007f]/.test(name)) return '';
-  return `A name has 1 to ${kMaxBytes} bytes without control characters; this one has ${bytes}.`;
+  if (bytes >= 1 && bytes <= MAX_BYTES && !/[\u0000-\u001f\u007f]/.test(name)) return '';
+  return `A name has 1 to ${MAX_BYTES} bytes without control characters; this one has ${bytes}.`;
 }
 
 function keep(name: string): void {
   try {
-    localStorage.setItem(kKey, name);
+    localStorage.setItem(KEY, name);
   } catch {
     // Storage is switched off: the name lasts as long as the page.
   }
@@ -23,21 +23,21 @@ function keep(name: string): void {
 
 function kept(): string | null {
   try {
-    return localStorage.getItem(kKey);
+    return localStorage.getItem(KEY);
   } catch {
     return null;
   }
 }
 
-function invented_name(): string {
+function inventedName(): string {
   return `browser-${crypto.getRandomValues(new Uint16Array(1))[0].toString(16).padStart(4, '0')}`;
 }
 
 // The name that was given in this browser; until then one like browser-3f2a, which is kept, too.
 let name = '';
-export function display_name(): string {
+export function displayName(): string {
   name ||= kept() ?? '';
-  if (name_problem(name) !== '') keep((name = invented_name()));
+  if (nameProblem(name) !== '') keep((name = inventedName()));
   return name;
 }
 
@@ -47,7 +47,7 @@ export class NameForm {
   private readonly hint = h('span', { class: 'hint' });
 
   constructor(private readonly live: Live, private readonly connection: Connection) {
-    this.field.value = display_name();
+    this.field.value = displayName();
     this.element = h('form', { class: 'filter', 'aria-label': 'Your name', onsubmit: (event: SubmitEvent) => this.submit(event) },
       h('label', {}, 'your name ', this.field), h('button', { type: 'submit' }, 'call me so'), this.hint);
     this.element.hidden = live.welcome?.ticket !== undefined; // whoever has proven a token is called by its name
@@ -56,9 +56,9 @@ export class NameForm {
   private submit(event: SubmitEvent): void {
     event.preventDefault();
     const wanted = this.field.value.trim();
-    const why = name_problem(wanted) || (this.live.is_mine ? 'Give back motion first: a new name is a new connection.' : '');
-    set_text(this.hint, why);
-    if (why || wanted === display_name()) return;
+    const why = nameProblem(wanted) || (this.live.isMine ? 'Give back motion first: a new name is a new connection.' : '');
+    setText(this.hint, why);
+    if (why || wanted === displayName()) return;
     keep((name = wanted));
     this.connection.again();
   }

@@ -1,16 +1,16 @@
 // The last minute of records, for strips and to look back.
 import type { Layout } from '../data/record';
-import { is_known } from '../data/sample';
+import { isKnown } from '../data/sample';
 
-const kRows = 3000; // a minute at 50 Hz
+const ROWS = 3000; // a minute at 50 Hz
 
 export class History {
   readonly numbers = new Map<string, { at: number; count: number }>(); // where a field is in a row
   readonly known = new Set<string>(); // fields that ever had a number
   private readonly width: number;
   private readonly cells: Float32Array;
-  private readonly ticks = new Float64Array(kRows);
-  private readonly times_s = new Float64Array(kRows);
+  private readonly ticks = new Float64Array(ROWS);
+  private readonly times_s = new Float64Array(ROWS);
   private written = 0;
 
   constructor(layout: Layout) {
@@ -20,21 +20,21 @@ export class History {
       at += field.count;
     }
     this.width = at;
-    this.cells = new Float32Array(kRows * at);
+    this.cells = new Float32Array(ROWS * at);
   }
 
   get rows(): number {
-    return Math.min(kRows, this.written);
+    return Math.min(ROWS, this.written);
   }
 
   add(tick: number, time_s: number, numbers: ReadonlyMap<string, Float32Array>): void {
-    const row = this.written % kRows;
+    const row = this.written % ROWS;
     this.ticks[row] = tick;
     this.times_s[row] = time_s;
     for (const [name, place] of this.numbers) {
       const values = numbers.get(name)!;
       this.cells.set(values, row * this.width + place.at);
-      if (is_known(values)) this.known.add(name);
+      if (isKnown(values)) this.known.add(name);
     }
     ++this.written;
   }
@@ -62,6 +62,6 @@ export class History {
   }
 
   private place(i: number): number {
-    return (Math.max(0, this.written - kRows) + i) % kRows;
+    return (Math.max(0, this.written - ROWS) + i) % ROWS;
   }
 }

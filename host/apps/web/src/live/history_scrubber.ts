@@ -1,6 +1,6 @@
 // Looking back: the scene shows a moment of the last minute instead of now.
 import type { Sample } from '../data/sample';
-import { h, set_text } from '../ui/dom';
+import { h, setText } from '../ui/dom';
 import type { Live } from './live';
 
 export class LookBack {
@@ -12,11 +12,11 @@ export class LookBack {
 
   constructor(private readonly live: Live, private readonly changed: () => void) {
     this.slider = h('input', { type: 'range', min: -60, max: 0, step: 0.1, value: 0, 'aria-label': 'how far back the scene is [s]', oninput: () => this.slid() });
-    this.element = h('footer', { class: 'time-line', 'aria-label': 'time' }, h('button', { type: 'button', onclick: () => this.go_to(null) }, 'now'), this.slider, this.clock);
+    this.element = h('footer', { class: 'time-line', 'aria-label': 'time' }, h('button', { type: 'button', onclick: () => this.goTo(null) }, 'now'), this.slider, this.clock);
   }
 
   // To this arm time; now when it is null or no longer kept.
-  go_to(time_s: number | null): void {
+  goTo(time_s: number | null): void {
     const { history, sample } = this.live;
     const kept = history && sample && time_s !== null && history.rows > 0 && time_s >= history.time_s(0) && time_s < sample.time_s;
     this.time_s = kept ? time_s : null;
@@ -44,12 +44,12 @@ export class LookBack {
     const { sample } = this.live;
     const back_s = this.time_s === null || !sample ? 0 : this.time_s - sample.time_s;
     if (document.activeElement !== this.slider || this.time_s === null) this.slider.value = String(back_s);
-    set_text(this.clock, this.time_s === null ? `${sample?.time_s.toFixed(1) ?? '0.0'} s` : `${back_s.toFixed(1)} s: NOT NOW`);
+    setText(this.clock, this.time_s === null ? `${sample?.time_s.toFixed(1) ?? '0.0'} s` : `${back_s.toFixed(1)} s: NOT NOW`);
   }
 
   private slid(): void {
     const { sample } = this.live;
     const back_s = Number(this.slider.value);
-    this.go_to(sample && back_s < 0 ? sample.time_s + back_s : null);
+    this.goTo(sample && back_s < 0 ? sample.time_s + back_s : null);
   }
 }

@@ -3,37 +3,37 @@ import type { Sample } from '../data/sample';
 import { value, values } from '../data/sample';
 import type { Condition } from '../model/alarms';
 import type { CableRobot } from '../model/robot';
-import { sentence_of } from '../model/sentence';
+import { sentenceOf } from '../model/sentence';
 import { SceneView } from '../scene/scene_view';
-import { scene_colours, type Theme } from '../scene/palette';
+import { sceneColours, type Theme } from '../scene/palette';
 import { DevicePanel } from '../steer/device_panel';
 import { Vr } from '../vr/vr';
 import { TipHandle } from '../steer/handle';
 import { Jogger } from '../steer/jogger';
 import { JogPanel } from '../steer/jog_panel';
 import { JointPanel } from '../steer/joint_panel';
-import { action_of, is_field } from '../steer/keyboard';
+import { actionOf, isField } from '../steer/keyboard';
 import { MotionPanel } from '../steer/motion_panel';
 import { ShapePanel } from '../steer/shape_panel';
-import { h, set_text } from '../ui/dom';
+import { h, setText } from '../ui/dom';
 import { PushCard } from '../ui/push_card';
 import { Tabs } from '../ui/tabs';
-import { theme_button, theme_now } from '../ui/theme';
+import { themeButton, themeNow } from '../ui/theme';
 import { AlarmPanel } from './alarm_panel';
 import { Connection } from './connection';
 import { Live } from './live';
 import { LiveEvents } from './live_events';
 import { LivePlots } from './live_plots';
 import { LookBack } from './history_scrubber';
-import { display_name } from './display_name';
-import { kProtocol, type FromGateway, type Welcome } from './protocol';
+import { displayName } from './display_name';
+import { PROTOCOL, type FromGateway, type Welcome } from './protocol';
 import { RunList } from './run_list';
 import { StatusBar } from './status_bar';
 import { StopButton } from './stop_button';
 import { Told } from './pending_command';
-import { kept_token, token_form } from './token_form';
+import { keptToken, tokenForm } from './token_form';
 
-const kWords_ms = 250; // texts are written anew at most so often
+const WORDS_MS = 250; // texts are written anew at most so often
 
 // Of each frame that was drawn.
 interface Measured {
@@ -49,27 +49,27 @@ export class LivePage {
   private readonly stop: StopButton;
   private readonly status: StatusBar;
   private readonly alarms: AlarmPanel;
-  private readonly history_scrubber: LookBack;
+  private readonly historyScrubber: LookBack;
   private readonly sentence = h('p', { class: 'sentence' });
   private readonly told: Told;
   private readonly middle = h('div', { class: 'middle' }, h('p', { class: 'no-scene' }, 'waiting for the arm'));
   private panels: { update(now_s: number): void }[] = [];
-  private push_card: PushCard | null = null;
+  private pushCard: PushCard | null = null;
   private scene: SceneView | null = null;
   private plots: LivePlots | null = null;
   private handle: TipHandle | null = null;
   vr: Vr | null = null;
-  private readonly vr_button = h('button', { type: 'button', hidden: true, title: 'steer with the handles of a headset', onclick: () => void this.toggle_vr() }, 'VR');
-  private robot_shown = '';
-  private shown_age_s = NaN;
+  private readonly vrButton = h('button', { type: 'button', hidden: true, title: 'steer with the handles of a headset', onclick: () => void this.toggleVr() }, 'VR');
+  private robotShown = '';
+  private shownAge_s = NaN;
   private measured: Measured | null = null;
-  private last_frame_ms = NaN;
+  private lastFrame_ms = NaN;
 
   constructor(url: string) {
     this.connection = new Connection(url, {
-      name: display_name,
-      token: kept_token,
-      wants_token: (why) => this.middle.replaceChildren(token_form(why, () => this.connection.open())),
+      name: displayName,
+      token: keptToken,
+      wantsToken: (why) => this.middle.replaceChildren(tokenForm(why, () => this.connection.open())),
       status: (text) => (this.live.status = text),
       welcome: (message) => this.welcome(message),
       message: (message) => this.message(message),
@@ -77,55 +77,55 @@ export class LivePage {
     });
     this.told = new Told(this.live, this.connection);
     this.jogger = new Jogger(this.live, this.connection);
-    this.jogger.on_error = (answer) => this.told.error('jog', answer);
+    this.jogger.onError = (answer) => this.told.error('jog', answer);
     this.stop = new StopButton(this.live, this.connection);
-    this.stop.on_press = () => this.jogger.let_go();
+    this.stop.onPress = () => this.jogger.letGo();
     this.status = new StatusBar(this.live);
     this.alarms = new AlarmPanel(this.live, () => {
       this.alarms.update();
       this.words();
     });
-    this.history_scrubber = new LookBack(this.live, () => this.draw());
-    const header = h('header', { class: 'top' }, h('h1', {}, 'Liana'), this.sentence, this.status.element, this.vr_button, theme_button((theme) => this.build(theme)), this.stop.element);
+    this.historyScrubber = new LookBack(this.live, () => this.draw());
+    const header = h('header', { class: 'top' }, h('h1', {}, 'Liana'), this.sentence, this.status.element, this.vrButton, themeButton((theme) => this.build(theme)), this.stop.element);
     const told = h('div', { class: 'told' }, this.told.element, this.stop.report);
-    this.element = h('div', { class: 'page live' }, header, told, this.alarms.element, this.middle, this.history_scrubber.element);
-    document.addEventListener('keydown', (event) => this.key_down(event), { capture: true });
+    this.element = h('div', { class: 'page live' }, header, told, this.alarms.element, this.middle, this.historyScrubber.element);
+    document.addEventListener('keydown', (event) => this.keyDown(event), { capture: true });
     document.addEventListener('keyup', (event) => this.jogger.release(event.code));
-    window.addEventListener('blur', () => this.jogger.let_go());
-    document.addEventListener('visibilitychange', () => document.hidden && this.jogger.let_go());
-    window.setInterval(() => this.words(), kWords_ms);
+    window.addEventListener('blur', () => this.jogger.letGo());
+    document.addEventListener('visibilitychange', () => document.hidden && this.jogger.letGo());
+    window.setInterval(() => this.words(), WORDS_MS);
     this.connection.open();
   }
 
-  // From here on every frame is kept, for end_measurement().
-  begin_measurement(): void {
+  // From here on every frame is kept, for endMeasurement().
+  beginMeasurement(): void {
     this.measured = { intervals_ms: [], ages_ms: [] };
-    this.last_frame_ms = NaN;
+    this.lastFrame_ms = NaN;
   }
 
-  end_measurement(): Measured & { pixel_ratio: number } {
+  endMeasurement(): Measured & { pixelRatio: number } {
     const measured = this.measured ?? { intervals_ms: [], ages_ms: [] };
     this.measured = null;
-    return { ...measured, pixel_ratio: this.scene?.stage.pace.pixel_ratio ?? 0 };
+    return { ...measured, pixelRatio: this.scene?.stage.pace.pixelRatio ?? 0 };
   }
 
   // More that a person should act on: of parts that are not the arm.
-  private more_conditions(): Condition[] {
+  private moreConditions(): Condition[] {
     return this.vr?.conditions() ?? [];
   }
 
   private welcome(welcome: Welcome): void {
-    if (welcome.protocol !== kProtocol) {
-      this.live.status = `the gateway speaks protocol ${welcome.protocol}, this page ${kProtocol}: load the page again`;
+    if (welcome.protocol !== PROTOCOL) {
+      this.live.status = `the gateway speaks protocol ${welcome.protocol}, this page ${PROTOCOL}: load the page again`;
       return;
     }
-    this.jogger.let_go();
+    this.jogger.letGo();
     this.told.forget();
-    this.live.take_welcome(welcome);
-    this.history_scrubber.go_to(null);
+    this.live.takeWelcome(welcome);
+    this.historyScrubber.goTo(null);
     const robot = JSON.stringify([welcome.robot, welcome.scene, welcome.layout]);
-    if (robot !== this.robot_shown || !this.plots) this.build(theme_now());
-    this.robot_shown = robot;
+    if (robot !== this.robotShown || !this.plots) this.build(themeNow());
+    this.robotShown = robot;
   }
 
   // Everything that depends on the robot, the scene or the colours.
@@ -140,12 +140,12 @@ export class LivePage {
     const jog = new JogPanel(this.live, this.jogger, ask);
     const shape = welcome.robot.kind === 'serial' ? null : new ShapePanel(this.live, welcome.robot, ask);
     this.panels = [motion, device, joints, ...(shape ? [shape] : [])];
-    this.push_card = new PushCard(welcome.scene);
-    const cards = [motion, this.push_card, device, jog, joints, ...(shape ? [shape] : [])];
+    this.pushCard = new PushCard(welcome.scene);
+    const cards = [motion, this.pushCard, device, jog, joints, ...(shape ? [shape] : [])];
     const steer = h('div', { class: 'panel' }, ...cards.map(({ element }) => element));
-    const go_to = (time_s: number) => this.history_scrubber.go_to(time_s);
-    this.plots = new LivePlots(this.live, welcome, theme, go_to);
-    const events = new LiveEvents(this.live, go_to);
+    const goTo = (time_s: number) => this.historyScrubber.goTo(time_s);
+    this.plots = new LivePlots(this.live, welcome, theme, goTo);
+    const events = new LiveEvents(this.live, goTo);
     this.panels.push(events);
     const runs = new RunList(welcome.ticket);
     const tabs = new Tabs([
@@ -154,33 +154,33 @@ export class LivePage {
       { name: 'Events', panel: h('div', { class: 'panel' }, events.element) },
       { name: 'Runs', panel: runs.element, shown: () => void runs.load() },
     ], 'Steering and information');
-    this.middle.replaceChildren(this.scene_of(welcome, theme), tabs.element);
+    this.middle.replaceChildren(this.sceneOf(welcome, theme), tabs.element);
   }
 
-  private scene_of(welcome: Welcome, theme: Theme): HTMLElement {
+  private sceneOf(welcome: Welcome, theme: Theme): HTMLElement {
     try {
       this.scene = new SceneView(welcome.robot, welcome.scene, theme);
     } catch (error) {
       this.scene = null;
       return h('p', { class: 'no-scene' }, `No 3-D here: ${String(error)}. Everything else works.`);
     }
-    this.scene.on_drawn = (now_ms) => this.drawn(now_ms);
-    if (welcome.robot.kind !== 'serial') this.add_vr(welcome.robot, this.scene);
-    this.handle = new TipHandle(this.scene.stage, scene_colours(theme).ghost);
-    this.handle.on_drag = (place_m) => this.jogger.drag_to(place_m);
-    this.handle.on_drop = () => this.jogger.drop();
-    this.scene.add_helper(this.handle.ball);
+    this.scene.onDrawn = (now_ms) => this.drawn(now_ms);
+    if (welcome.robot.kind !== 'serial') this.addVr(welcome.robot, this.scene);
+    this.handle = new TipHandle(this.scene.stage, sceneColours(theme).ghost);
+    this.handle.onDrag = (place_m) => this.jogger.dragTo(place_m);
+    this.handle.onDrop = () => this.jogger.drop();
+    this.scene.addHelper(this.handle.ball);
     return h('div', { class: 'scene-place' }, this.scene.element);
   }
 
-  private add_vr(robot: CableRobot, scene: SceneView): void {
+  private addVr(robot: CableRobot, scene: SceneView): void {
     this.vr?.end();
     this.vr = new Vr(robot, this.live, this.connection, scene, () => void this.stop.press());
-    void Vr.is_there().then((is_there) => (this.vr_button.hidden = !is_there));
+    void Vr.isThere().then((isThere) => (this.vrButton.hidden = !isThere));
   }
 
-  private async toggle_vr(): Promise<void> {
-    if (this.vr?.is_on) return this.vr.end();
+  private async toggleVr(): Promise<void> {
+    if (this.vr?.isOn) return this.vr.end();
     try {
       await this.vr?.begin();
     } catch (error) {
@@ -189,70 +189,70 @@ export class LivePage {
   }
 
   private message(message: FromGateway): void {
-    const newest = this.live.newest_event;
+    const newest = this.live.newestEvent;
     this.live.take(message);
     if (message.op === 'event' && message.sequence > newest && newest !== 0) this.told.event(message);
   }
 
   private record(bytes: ArrayBuffer): number | null {
-    const sequence = this.live.take_record(bytes, performance.now() / 1000);
-    if (sequence !== null && this.history_scrubber.time_s === null) this.draw();
+    const sequence = this.live.takeRecord(bytes, performance.now() / 1000);
+    if (sequence !== null && this.historyScrubber.time_s === null) this.draw();
     return sequence;
   }
 
   // The newest state, or the one that is looked back at.
   private draw(): void {
-    const sample = this.history_scrubber.sample();
+    const sample = this.historyScrubber.sample();
     if (!sample || !this.scene) return;
     if (this.handle) {
-      this.handle.is_enabled = this.live.status === '' && this.live.is_mine && sample.facts.state === 'ENABLED' && this.history_scrubber.time_s === null;
+      this.handle.isEnabled = this.live.status === '' && this.live.isMine && sample.facts.state === 'ENABLED' && this.historyScrubber.time_s === null;
       this.handle.place(values(sample, 'setpoint_cp'));
-      this.scene.tip_label = this.handle.is_enabled && !this.jogger.is_jogging ? 'drag the tip' : '';
+      this.scene.tipLabel = this.handle.isEnabled && !this.jogger.isJogging ? 'drag the tip' : '';
     }
-    if (this.history_scrubber.time_s === null) this.scene.trail.add(values(sample, 'measured_cp'));
+    if (this.historyScrubber.time_s === null) this.scene.trail.add(values(sample, 'measured_cp'));
     this.scene.show(sample);
   }
 
   private drawn(now_ms: number): void {
     this.plots?.update(now_ms);
-    this.shown_age_s = this.live.age.age_s(performance.now() / 1000);
-    if (!this.measured || this.history_scrubber.time_s !== null) return;
-    if (Number.isFinite(this.last_frame_ms)) this.measured.intervals_ms.push(now_ms - this.last_frame_ms);
-    this.last_frame_ms = now_ms;
-    this.measured.ages_ms.push(1000 * this.shown_age_s);
+    this.shownAge_s = this.live.age.age_s(performance.now() / 1000);
+    if (!this.measured || this.historyScrubber.time_s !== null) return;
+    if (Number.isFinite(this.lastFrame_ms)) this.measured.intervals_ms.push(now_ms - this.lastFrame_ms);
+    this.lastFrame_ms = now_ms;
+    this.measured.ages_ms.push(1000 * this.shownAge_s);
   }
 
   private words(): void {
     const now_s = performance.now() / 1000;
-    if (this.live.update_alarms(now_s, this.more_conditions())) this.alarms.update();
+    if (this.live.updateAlarms(now_s, this.moreConditions())) this.alarms.update();
     this.status.update(now_s);
     this.told.update();
     this.stop.update();
-    this.history_scrubber.update();
+    this.historyScrubber.update();
     for (const panel of this.panels) panel.update(now_s);
-    const sample = this.history_scrubber.sample();
+    const sample = this.historyScrubber.sample();
     const { welcome } = this.live;
-    if (!sample || !welcome) return set_text(this.sentence, this.live.status);
-    if (this.live.sample) this.push_card?.show(this.live.sample);
-    const is_live = this.live.is_live(now_s);
-    this.sentence.classList.toggle('stale', !is_live);
-    set_text(this.sentence, `${is_live ? '' : 'last heard: '}${sentence_of(sample, welcome.robot, welcome.scene, null)}`);
-    this.scene?.say_in_corner(this.corner(sample, now_s));
+    if (!sample || !welcome) return setText(this.sentence, this.live.status);
+    if (this.live.sample) this.pushCard?.show(this.live.sample);
+    const isLive = this.live.isLive(now_s);
+    this.sentence.classList.toggle('stale', !isLive);
+    setText(this.sentence, `${isLive ? '' : 'last heard: '}${sentenceOf(sample, welcome.robot, welcome.scene, null)}`);
+    this.scene?.sayInCorner(this.corner(sample, now_s));
   }
 
   // Age of what is seen, how often states come, how fine the picture is.
   private corner(sample: Sample, now_s: number): string {
-    if (!this.live.is_live(now_s)) return 'NOT LIVE';
-    const age_ms = 1000 * this.shown_age_s;
-    const ratio = this.scene?.stage.pace.pixel_ratio ?? 1;
+    if (!this.live.isLive(now_s)) return 'NOT LIVE';
+    const age_ms = 1000 * this.shownAge_s;
+    const ratio = this.scene?.stage.pace.pixelRatio ?? 1;
     const coarse = ratio < 1 ? `, picture at ${Math.round(100 * ratio)} %` : '';
     const share = value(sample, 'path.share');
     const path = Number.isFinite(share) ? `, path ${(100 * share).toFixed(0)} %` : '';
-    return `age ${age_ms.toFixed(0)} ms, ${this.live.states.per_second(now_s)} states/s${coarse}${path}`;
+    return `age ${age_ms.toFixed(0)} ms, ${this.live.states.perSecond(now_s)} states/s${coarse}${path}`;
   }
 
-  private key_down(event: KeyboardEvent): void {
-    const action = action_of(event, is_field(event.target as HTMLElement));
+  private keyDown(event: KeyboardEvent): void {
+    const action = actionOf(event, isField(event.target as HTMLElement));
     if (!action || event.repeat) return;
     if (action.kind === 'stop') void this.stop.press();
     if (action.kind === 'hold') this.told.ask('hold', { op: 'hold' });

@@ -1,7 +1,7 @@
 // What was last asked of the arm, and what became of it: taken, until the controller says how it ended.
 import type { LianaEvent } from '../data/sample';
-import { ending_of, refusal_words, type Taken } from '../model/outcome_text';
-import { h, set_text } from '../ui/dom';
+import { endingOf, refusalWords, type Taken } from '../model/outcome_text';
+import { h, setText } from '../ui/dom';
 import type { Connection } from './connection';
 import type { Live } from './live';
 import type { Answer } from './protocol';
@@ -27,7 +27,7 @@ export class Told {
 
   // An event that has just happened: what verification refuses comes after the answer that a request was taken.
   event(event: LianaEvent): void {
-    const words = refusal_words(event);
+    const words = refusalWords(event);
     if (words && !this.taken) this.show(`verification: ${words}`, true);
   }
 
@@ -40,7 +40,7 @@ export class Told {
   update(): void {
     const { live, taken } = this;
     if (!taken || !live.sample) return;
-    const ending = ending_of(taken, { time_s: live.sample.time_s, facts: live.facts, is_mine: live.is_mine, events: live.events });
+    const ending = endingOf(taken, { time_s: live.sample.time_s, facts: live.facts, isMine: live.isMine, events: live.events });
     if (!ending) return;
     this.taken = null;
     this.show(`${this.what}: ${ending.text}`, !ending.ok);
@@ -49,18 +49,18 @@ export class Told {
   private async send(what: string, request: Parameters<Ask>[1]): Promise<void> {
     const { live } = this;
     const asked = ++this.asked;
-    const last_event = live.newest_event;
+    const lastEvent = live.newestEvent;
     const answer = await this.connection.request(request);
     if (asked !== this.asked) return; // something else was asked for meanwhile
     if (!answer.ok) return this.error(what, answer);
     const { op, command, device } = request as { op: string; command?: string; device?: string };
     this.what = what;
-    this.taken = { op, command, device, time_s: live.sample?.time_s ?? 0, last_event };
+    this.taken = { op, command, device, time_s: live.sample?.time_s ?? 0, lastEvent };
     this.show(`${what}: taken`, false);
   }
 
-  private show(text: string, is_bad: boolean): void {
-    this.element.classList.toggle('bad', is_bad);
-    set_text(this.element, text);
+  private show(text: string, isBad: boolean): void {
+    this.element.classList.toggle('bad', isBad);
+    setText(this.element, text);
   }
 }

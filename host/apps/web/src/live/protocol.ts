@@ -3,8 +3,8 @@ import type { Layout } from '../data/record';
 import type { Facts, LianaEvent } from '../data/sample';
 import type { Robot, Scene } from '../model/robot';
 
-export const kSubprotocol = 'liana-console-1';
-export const kProtocol = 1;
+export const SUBPROTOCOL = 'liana-console-1';
+export const PROTOCOL = 1;
 
 export type Role = 'watch' | 'operate' | 'administer';
 
@@ -50,14 +50,14 @@ function hex(bytes: ArrayBuffer): string {
 }
 
 // HMAC-SHA256 of the nonce's text by the token's secret, in hex: the secret itself never crosses the wire.
-export async function proof_of(secret: string, nonce: string): Promise<string> {
+export async function proofOf(secret: string, nonce: string): Promise<string> {
   const text = new TextEncoder();
   const key = await crypto.subtle.importKey('raw', text.encode(secret), { name: 'HMAC', hash: 'SHA-256' }, false, ['sign']);
   return hex(await crypto.subtle.sign('HMAC', key, text.encode(nonce)));
 }
 
 // The answer to a record: its credit comes back.
-export function credit_of(sequence: number): ArrayBuffer {
+export function creditOf(sequence: number): ArrayBuffer {
   const bytes = new ArrayBuffer(4);
   new DataView(bytes).setUint32(0, sequence, true);
   return bytes;

@@ -9,7 +9,7 @@ export class Rate {
     while (this.times_s.length > 0 && this.times_s[0] < now_s - 1) this.times_s.shift();
   }
 
-  per_second(now_s: number): number {
+  perSecond(now_s: number): number {
     return this.times_s.filter((t) => t > now_s - 1).length;
   }
 }

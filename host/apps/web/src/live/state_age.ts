@@ -1,7 +1,7 @@
 // How old what is seen is, without a clock that both sides share: of the states of the last moments the one that came
 // quickest counts as new. (Paced time may run slower than this clock for a while, so the moments are few.)
 
-const kWindow_s = 0.3;
+const WINDOW_S = 0.3;
 
 export class StateAge {
   private readonly came_s: number[] = []; // on this clock
@@ -11,7 +11,7 @@ export class StateAge {
   came(time_s: number, now_s: number): void {
     this.came_s.push(now_s);
     this.way_s.push(now_s - time_s);
-    while (this.came_s.length > 1 && this.came_s[0] < now_s - kWindow_s) {
+    while (this.came_s.length > 1 && this.came_s[0] < now_s - WINDOW_S) {
       this.came_s.shift();
       this.way_s.shift();
     }

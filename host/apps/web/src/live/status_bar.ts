@@ -1,12 +1,12 @@
 // State, owner, device and link as short words at the top.
-import { alarm_badge, owner_badge, state_badge, type Badge } from '../model/badges';
-import { h, set_class, set_text } from '../ui/dom';
+import { alarmBadge, ownerBadge, stateBadge, type Badge } from '../model/badges';
+import { h, setClass, setText } from '../ui/dom';
 import type { Live } from './live';
 
 function show(element: HTMLElement, badge: Badge): void {
   element.hidden = badge.text === '';
-  set_text(element, badge.text);
-  for (const look of ['good', 'bad', 'stale']) set_class(element, look, badge.look === look);
+  setText(element, badge.text);
+  for (const look of ['good', 'bad', 'stale']) setClass(element, look, badge.look === look);
 }
 
 export class StatusBar {
@@ -19,11 +19,11 @@ export class StatusBar {
   constructor(private readonly live: Live) {}
 
   update(now_s: number): void {
-    const { facts, alarms, is_mine } = this.live;
-    const is_live = this.live.is_live(now_s);
-    show(this.state, state_badge(facts, is_live));
-    show(this.owner, owner_badge(facts, is_mine, is_live));
-    show(this.alarms, alarm_badge(alarms.list()));
-    show(this.link, is_live ? { text: 'live', look: '' } : { text: 'NOT LIVE', look: 'bad' });
+    const { facts, alarms, isMine } = this.live;
+    const isLive = this.live.isLive(now_s);
+    show(this.state, stateBadge(facts, isLive));
+    show(this.owner, ownerBadge(facts, isMine, isLive));
+    show(this.alarms, alarmBadge(alarms.list()));
+    show(this.link, isLive ? { text: 'live', look: '' } : { text: 'NOT LIVE', look: 'bad' });
   }
 }

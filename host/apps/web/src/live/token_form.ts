@@ -2,20 +2,20 @@
 import { h } from '../ui/dom';
 import type { Token } from './protocol';
 
-const kKey = 'liana-token';
+const KEY = 'liana-token';
 
-export function kept_token(): Token | null {
-  const text = sessionStorage.getItem(kKey);
+export function keptToken(): Token | null {
+  const text = sessionStorage.getItem(KEY);
   return text ? (JSON.parse(text) as Token) : null;
 }
 
 // Asks for name and token; `done` when both are kept.
-export function token_form(why: string, done: () => void): HTMLElement {
+export function tokenForm(why: string, done: () => void): HTMLElement {
   const name = h('input', { type: 'text', autocomplete: 'username', required: true });
   const secret = h('input', { type: 'password', autocomplete: 'current-password', required: true });
   return h('form', { class: 'card token', 'aria-label': 'Access', onsubmit: (event: SubmitEvent) => {
     event.preventDefault();
-    sessionStorage.setItem(kKey, JSON.stringify({ name: name.value, secret: secret.value.trim() } satisfies Token));
+    sessionStorage.setItem(KEY, JSON.stringify({ name: name.value, secret: secret.value.trim() } satisfies Token));
     done();
   } }, h('h2', {}, why), h('label', {}, 'name ', name), h('label', {}, 'token ', secret), h('button', { type: 'submit' }, 'go on'),
     h('p', { class: 'hint' }, 'Names and tokens stand in the gateway\u2019s token file. The token itself is not sent: only the proof that you have it.'));

@@ -1,6 +1,6 @@
 // What a person should act on: one alarm for each cause, by priority, acknowledged by name, none that flickers.
 import type { Facts } from '../data/sample';
-import { fault_row } from './tables';
+import { faultRow } from './tables';
 
 export type Priority = 1 | 2 | 3; // 1: act now; 2: act soon; 3: know it
 
@@ -16,13 +16,13 @@ export interface Condition {
 
 export interface Alarm extends Condition {
   since_s: number;
-  is_active: boolean; // false: gone, and not yet acknowledged
-  acknowledged_by: string; // empty: nobody has
+  isActive: boolean; // false: gone, and not yet acknowledged
+  acknowledgedBy: string; // empty: nobody has
 }
 
 // A condition that comes has to last so long [s] by priority; one that goes has to be gone so long.
-const kOnDelay_s = [0, 0, 0.5, 1];
-const kOffDelay_s = 3;
+const ON_DELAY_S = [0, 0, 0.5, 1];
+const OFF_DELAY_S = 3;
 
 interface Entry extends Alarm {
   seen_s: number; // last time that its condition was there
@@ -37,8 +37,8 @@ export class AlarmBook {
     const before = this.mark();
     for (const condition of conditions) this.see(condition, now_s);
     for (const entry of this.entries.values()) {
-      if (entry.seen_s !== now_s && now_s - entry.seen_s >= (entry.shown ? kOffDelay_s : 0)) entry.is_active = false;
-      if (!entry.is_active && (!entry.shown || entry.passes || entry.acknowledged_by !== '')) this.entries.delete(entry.key);
+      if (entry.seen_s !== now_s && now_s - entry.seen_s >= (entry.shown ? OFF_DELAY_S : 0)) entry.isActive = false;
+      if (!entry.isActive && (!entry.shown || entry.passes || entry.acknowledgedBy !== '')) this.entries.delete(entry.key);
     }
     return this.mark() !== before;
   }
@@ -47,34 +47,34 @@ export class AlarmBook {
   acknowledge(key: string, name: string): void {
     const entry = this.entries.get(key);
     if (!entry) return;
-    entry.acknowledged_by = name;
-    if (!entry.is_active) this.entries.delete(key);
+    entry.acknowledgedBy = name;
+    if (!entry.isActive) this.entries.delete(key);
   }
 
   // By priority; of one priority those first that nobody has acknowledged, then the oldest.
   list(): Alarm[] {
-    const rank = (a: Alarm) => 2 * a.priority + (a.acknowledged_by === '' ? 0 : 1);
+    const rank = (a: Alarm) => 2 * a.priority + (a.acknowledgedBy === '' ? 0 : 1);
     return [...this.entries.values()].filter((e) => e.shown).sort((a, b) => rank(a) - rank(b) || a.since_s - b.since_s);
   }
 
   private see(condition: Condition, now_s: number): void {
     const entry = this.entries.get(condition.key);
     if (!entry) {
-      const shown = kOnDelay_s[condition.priority] === 0;
-      this.entries.set(condition.key, { ...condition, since_s: now_s, seen_s: now_s, is_active: true, acknowledged_by: '', shown });
+      const shown = ON_DELAY_S[condition.priority] === 0;
+      this.entries.set(condition.key, { ...condition, since_s: now_s, seen_s: now_s, isActive: true, acknowledgedBy: '', shown });
       return;
     }
-    if (!entry.is_active) Object.assign(entry, { since_s: now_s, acknowledged_by: '' }); // it has come back
-    Object.assign(entry, condition, { seen_s: now_s, is_active: true });
-    entry.shown ||= now_s - entry.since_s >= kOnDelay_s[entry.priority];
+    if (!entry.isActive) Object.assign(entry, { since_s: now_s, acknowledgedBy: '' }); // it has come back
+    Object.assign(entry, condition, { seen_s: now_s, isActive: true });
+    entry.shown ||= now_s - entry.since_s >= ON_DELAY_S[entry.priority];
   }
 
   private mark(): string {
-    return this.list().map((a) => `${a.key} ${a.is_active} ${a.acknowledged_by} ${a.title} ${a.cause}`).join('\n');
+    return this.list().map((a) => `${a.key} ${a.isActive} ${a.acknowledgedBy} ${a.title} ${a.cause}`).join('\n');
   }
 }
 
-function fault_conditions(facts: Facts): Condition[] {
+function faultConditions(facts: Facts): Condition[] {
   const groups = new Map<number, { name: string; text?: string; places: number[] }>();
   for (const fault of facts.faults ?? []) {
     const group = groups.get(fault.number) ?? { name: fault.name, text: fault.text, places: [] };
@@ -82,7 +82,7 @@ function fault_conditions(facts: Facts): Condition[] {
     groups.set(fault.number, group);
   }
   return [...groups].map(([number, group]) => {
-    const row = fault_row(number);
+    const row = faultRow(number);
     const where = group.places.length > 0 ? `: ${group.places.length > 1 ? 'drives or buses ' : ''}${group.places.join(', ')}` : '';
     const title = `${number} ${group.name.replaceAll('_', ' ')}${where}`;
     const todo = row?.remedy ?? 'See docs/reference/faults.md.';
@@ -90,7 +90,7 @@ function fault_conditions(facts: Facts): Condition[] {
   });
 }
 
-function bus_conditions(facts: Facts): Condition[] {
+function busConditions(facts: Facts): Condition[] {
   return (facts.buses ?? [])
     .filter((bus) => bus.lost || bus.state !== 'active')
     .map((bus) => ({
@@ -103,8 +103,8 @@ function bus_conditions(facts: Facts): Condition[] {
 }
 
 // What in these facts a person should act on.
-export function conditions_of(facts: Facts): Condition[] {
-  const conditions = [...fault_conditions(facts), ...bus_conditions(facts)];
+export function conditionsOf(facts: Facts): Condition[] {
+  const conditions = [...faultConditions(facts), ...busConditions(facts)];
   const { clearance, stop, friction } = facts;
   if (stop) {
     conditions.push({ key: 'stop', priority: 1, title: `emergency stop by ${stop.by}`, cause: stop.reason || 'No reason was given.',
@@ -119,7 +119,7 @@ export function conditions_of(facts: Facts): Condition[] {
     conditions.push({ key: 'camera', priority: 2, title: `tip camera: ${clearance.camera.replaceAll('_', ' ')}`, cause: 'Distances are claimed without it, with more margin.', todo: 'Look whether something covers the camera; go on with care.' });
   }
   if (friction?.not_as_declared) {
-    const row = fault_row(5009);
+    const row = faultRow(5009);
     conditions.push({ key: 'friction', priority: 2, title: 'friction is not as declared', cause: row?.text ?? '', todo: row?.remedy ?? '' });
   }
   return conditions;

@@ -1,7 +1,7 @@
 // Where every straight piece of an arm is for given angles, from the robot table; columns as WebGL wants them.
 import type { CableRobot, Robot, SerialRobot } from './robot';
 
-const kDeg = Math.PI / 180;
+const DEG = Math.PI / 180;
 
 // A straight piece of the arm: along the x axis of its frame, which stands at its beginning.
 export interface Piece {
@@ -21,7 +21,7 @@ export interface ArmChain {
   set(theta_deg: ArrayLike<number>): void;
 }
 
-export function chain_of(robot: Robot): ArmChain {
+export function chainOf(robot: Robot): ArmChain {
   return robot.kind === 'serial' ? new SerialChain(robot) : new CableChain(robot);
 }
 
@@ -57,7 +57,7 @@ function write(rows: Rows, out: Float32Array, at: number, first = 0, second = 1,
   out[at + 15] = 1;
 }
 
-function at_or_zero(values: ArrayLike<number>, i: number): number {
+function atOrZero(values: ArrayLike<number>, i: number): number {
   return i < values.length && Number.isFinite(values[i]) ? values[i] : 0;
 }
 
@@ -80,8 +80,8 @@ class CableChain implements ArmChain {
   set(theta_deg: ArrayLike<number>): void {
     const rows = identity();
     this.pieces.forEach((piece, k) => {
-      const pitch = at_or_zero(theta_deg, 2 * piece.segment) * kDeg;
-      const yaw = at_or_zero(theta_deg, 2 * piece.segment + 1) * kDeg;
+      const pitch = atOrZero(theta_deg, 2 * piece.segment) * DEG;
+      const yaw = atOrZero(theta_deg, 2 * piece.segment + 1) * DEG;
       if (k % 2 === 0) turn(rows, 0, 1, pitch);
       turn(rows, 2, 0, yaw);
       if (k % 2 === 1) turn(rows, 0, 1, pitch);
@@ -114,12 +114,12 @@ class SerialChain implements ArmChain {
     const rows = identity();
     let at = 0;
     this.robot.joints.forEach((joint, j) => {
-      turn(rows, 0, 1, (at_or_zero(theta_deg, j) + (joint.offset_deg ?? 0)) * kDeg);
+      turn(rows, 0, 1, (atOrZero(theta_deg, j) + (joint.offset_deg ?? 0)) * DEG);
       if (joint.d_m !== 0) write(rows, this.matrices, 16 * at++, 2, 0, 1);
       advance(rows, 2, joint.d_m);
       if (joint.a_m !== 0) write(rows, this.matrices, 16 * at++);
       advance(rows, 0, joint.a_m);
-      turn(rows, 1, 2, joint.alpha_deg * kDeg);
+      turn(rows, 1, 2, joint.alpha_deg * DEG);
       for (let r = 0; r < 3; ++r) this.nodes[3 * j + r] = rows[4 * r + 3];
     });
     write(rows, this.tip, 0);

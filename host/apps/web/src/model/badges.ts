@@ -9,24 +9,24 @@ export interface Badge {
   look: Look;
 }
 
-// The operating state; `is_live` false: it is the last that was heard, and may be another by now.
-export function state_badge(facts: Facts, is_live: boolean): Badge {
-  if (!facts.state) return { text: 'no state', look: is_live ? '' : 'stale' };
-  if (!is_live) return { text: `was ${facts.state}`, look: 'stale' };
+// The operating state; `isLive` false: it is the last that was heard, and may be another by now.
+export function stateBadge(facts: Facts, isLive: boolean): Badge {
+  if (!facts.state) return { text: 'no state', look: isLive ? '' : 'stale' };
+  if (!isLive) return { text: `was ${facts.state}`, look: 'stale' };
   return { text: facts.state, look: facts.state === 'ENABLED' ? 'good' : facts.state === 'FAULT' ? 'bad' : '' };
 }
 
 // Who may move the arm.
-export function owner_badge(facts: Facts, is_mine: boolean, is_live: boolean): Badge {
-  const owner = is_mine ? 'you' : facts.owner || 'nobody';
-  if (!is_live) return { text: `motion was: ${owner}`, look: 'stale' };
-  return { text: `motion: ${owner}`, look: is_mine ? 'good' : '' };
+export function ownerBadge(facts: Facts, isMine: boolean, isLive: boolean): Badge {
+  const owner = isMine ? 'you' : facts.owner || 'nobody';
+  if (!isLive) return { text: `motion was: ${owner}`, look: 'stale' };
+  return { text: `motion: ${owner}`, look: isMine ? 'good' : '' };
 }
 
 // Alarms whose cause is there and that nobody has seen; when there are none of these, those that are over and unseen.
-export function alarm_badge(alarms: readonly Alarm[]): Badge {
-  const unseen = alarms.filter((alarm) => alarm.acknowledged_by === '');
-  const active = unseen.filter((alarm) => alarm.is_active).length;
+export function alarmBadge(alarms: readonly Alarm[]): Badge {
+  const unseen = alarms.filter((alarm) => alarm.acknowledgedBy === '');
+  const active = unseen.filter((alarm) => alarm.isActive).length;
   if (active > 0) return { text: `${active} alarm${active === 1 ? '' : 's'}`, look: 'bad' };
   return { text: unseen.length > 0 ? `${unseen.length} over, not seen` : '', look: '' };
 }

@@ -2,7 +2,7 @@
 import { value, values, type Sample } from '../data/sample';
 
 // "Largest motor current 34 % of rated (node 8). Longest tick 143 us."; what is not told is left out.
-export function hardware_text(sample: Sample): string {
+export function hardwareText(sample: Sample): string {
   const parts: string[] = [];
   const shares = [...values(sample, 'drives.torque_permille')].map((permille) => Math.abs(permille) / 10);
   const most = shares.reduce((best, share, i) => (share > (shares[best] ?? -1) ? i : best), 0);

@@ -8,10 +8,10 @@ export interface Budget {
 }
 
 // By the number of segments inside: an error of all their joints moves the end of one by 3.6 m/rad, of two by 13.6 m/rad.
-const kAllowed_deg = [0, 0.32, 0.084];
+const ALLOWED_DEG = [0, 0.32, 0.084];
 
 // `held` numbers angles from 1, as the state has them; only pitch angles (odd) that are held count. Null: none is.
-export function pitch_budget(
+export function pitchBudget(
   held: readonly number[],
   measured_deg: ArrayLike<number>,
   setpoint_deg: ArrayLike<number>,
@@ -20,6 +20,6 @@ export function pitch_budget(
   if (pitches.length === 0) return null;
   const errors = pitches.map((theta) => Math.abs(measured_deg[theta - 1] - setpoint_deg[theta - 1]));
   const used_deg = Math.max(...errors);
-  const allowed_deg = kAllowed_deg[Math.min(pitches.length, kAllowed_deg.length - 1)];
+  const allowed_deg = ALLOWED_DEG[Math.min(pitches.length, ALLOWED_DEG.length - 1)];
   return { allowed_deg, used_deg, share: used_deg / allowed_deg, segments: pitches.map((theta) => (theta + 1) / 2) };
 }

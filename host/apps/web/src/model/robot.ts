@@ -80,19 +80,19 @@ export interface Scene {
 }
 
 // How many angles the arm has.
-export function angle_count(robot: Robot): number {
+export function angleCount(robot: Robot): number {
   return robot.kind === 'serial' ? robot.joints.length : 2 * robot.segments.length;
 }
 
 // Range of angle `i` (from 0) [deg].
-export function angle_range_deg(robot: Robot, i: number): [number, number] {
+export function angleRange_deg(robot: Robot, i: number): [number, number] {
   if (robot.kind === 'serial') return [robot.joints[i].low_deg, robot.joints[i].high_deg];
   const limit = robot.segments[i >> 1].theta_limit_deg;
   return [-limit, limit];
 }
 
 // What people call angle `i` (from 0).
-export function angle_name(robot: Robot, i: number): string {
+export function angleName(robot: Robot, i: number): string {
   if (robot.kind === 'serial') return `joint ${i + 1}`;
   return `${i % 2 === 0 ? 'pitch' : 'yaw'} ${(i >> 1) + 1}`;
 }

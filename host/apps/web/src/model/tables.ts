@@ -21,10 +21,10 @@ export interface RefusalRow {
 const faults = new Map((tables.faults as FaultRow[]).map((row) => [row.number, row]));
 const refusals = new Map((tables.refusals as RefusalRow[]).map((row) => [row.number, row]));
 
-export function fault_row(number: number): FaultRow | undefined {
+export function faultRow(number: number): FaultRow | undefined {
   return faults.get(number);
 }
 
-export function refusal_row(number: number): RefusalRow | undefined {
+export function refusalRow(number: number): RefusalRow | undefined {
   return refusals.get(number);
 }

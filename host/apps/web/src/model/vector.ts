@@ -31,7 +31,7 @@ export function about(axis: ArrayLike<number>, angle_rad: number): Quaternion {
   return [Math.cos(angle_rad / 2), s * axis[0], s * axis[1], s * axis[2]];
 }
 
-export function quaternion_of(pose: ArrayLike<number>): Quaternion {
+export function quaternionOf(pose: ArrayLike<number>): Quaternion {
   return [pose[3], pose[4], pose[5], pose[6]];
 }
 
@@ -41,19 +41,19 @@ export function normalised(q: Quaternion): Quaternion {
 }
 
 // The pose moved by `way_m` and turned by `turn_rad` (rotation vector), both along the axes of the base frame or, with
-// `in_tip`, of the pose itself.
-export function moved(pose: ArrayLike<number>, way_m: ArrayLike<number>, turn_rad: ArrayLike<number>, in_tip: boolean): Pose {
-  const q = quaternion_of(pose);
+// `inTip`, of the pose itself.
+export function moved(pose: ArrayLike<number>, way_m: ArrayLike<number>, turn_rad: ArrayLike<number>, inTip: boolean): Pose {
+  const q = quaternionOf(pose);
   const angle = Math.hypot(turn_rad[0], turn_rad[1], turn_rad[2]);
   const axis = angle > 0 ? [turn_rad[0] / angle, turn_rad[1] / angle, turn_rad[2] / angle] : [1, 0, 0];
-  const step = in_tip ? rotated(q, way_m) : way_m;
+  const step = inTip ? rotated(q, way_m) : way_m;
   const by = about(axis, angle);
-  const turned = normalised(in_tip ? multiply(q, by) : multiply(by, q));
+  const turned = normalised(inTip ? multiply(q, by) : multiply(by, q));
   return [pose[0] + step[0], pose[1] + step[1], pose[2] + step[2], ...turned];
 }
 
 // Angle between two attitudes [rad].
-export function turn_between(a: ArrayLike<number>, b: ArrayLike<number>): number {
-  const q = multiply(conjugate(quaternion_of(a)), quaternion_of(b));
+export function turnBetween(a: ArrayLike<number>, b: ArrayLike<number>): number {
+  const q = multiply(conjugate(quaternionOf(a)), quaternionOf(b));
   return 2 * Math.atan2(Math.hypot(q[1], q[2], q[3]), Math.abs(q[0]));
 }

@@ -1,17 +1,17 @@
 // How much an event matters.
 import type { LianaEvent } from '../data/sample';
-import { kTrouble } from '../data/derived_events';
+import { TROUBLE } from '../data/derived_events';
 
 export type Weight = 'bad' | 'warning' | 'note';
 
-const kBad = new Set(['fault', 'stop', 'boot_problem']);
-const kWarning = new Set(['verdict', 'refusal', 'host_trouble', 'emergency', 'left_out']);
-const kTold = new Set(['push', 'wrist', 'adapter', 'servo']);
+const BAD = new Set(['fault', 'stop', 'boot_problem']);
+const WARNING = new Set(['verdict', 'refusal', 'host_trouble', 'emergency', 'left_out']);
+const TOLD = new Set(['push', 'wrist', 'adapter', 'servo']);
 
-export function weight_of(event: LianaEvent): Weight {
-  if (kBad.has(event.kind)) return 'bad';
-  if (kWarning.has(event.kind)) return 'warning';
-  if (kTold.has(event.kind) && event.number === kTrouble) return 'warning';
+export function weightOf(event: LianaEvent): Weight {
+  if (BAD.has(event.kind)) return 'bad';
+  if (WARNING.has(event.kind)) return 'warning';
+  if (TOLD.has(event.kind) && event.number === TROUBLE) return 'warning';
   if (event.kind === 'path' && event.number === 0) return 'warning';
   if (event.kind === 'friction' && event.number !== 0) return 'warning';
   if (event.kind === 'device' && event.number === 1) return 'warning';

@@ -2,7 +2,7 @@
 import type { Theme } from '../scene/palette';
 import type { Colours } from './strip';
 
-export function chart_colours(theme: Theme): Colours {
+export function chartColours(theme: Theme): Colours {
   return theme === 'dark'
     ? { text: '#a9b7c6', grid: '#212c38', back: '#0c1117', mark: '#ffffff' }
     : { text: '#3d4b5a', grid: '#dde4eb', back: '#ffffff', mark: '#000000' };

@@ -5,17 +5,17 @@
 export function decimated(
   times_s: (row: number) => number,
   columns: readonly ArrayLike<number>[],
-  first_row: number,
-  last_row: number,
-  most_points: number,
+  firstRow: number,
+  lastRow: number,
+  mostPoints: number,
 ): Float64Array[] {
-  const rows = Math.max(0, last_row - first_row + 1);
-  const per_bucket = Math.max(1, Math.ceil((2 * rows) / most_points));
-  const buckets = Math.ceil(rows / per_bucket);
+  const rows = Math.max(0, lastRow - firstRow + 1);
+  const perBucket = Math.max(1, Math.ceil((2 * rows) / mostPoints));
+  const buckets = Math.ceil(rows / perBucket);
   const out = Array.from({ length: columns.length + 1 }, () => new Float64Array(2 * buckets));
   for (let b = 0; b < buckets; ++b) {
-    const from = first_row + b * per_bucket;
-    const to = Math.min(last_row, from + per_bucket - 1);
+    const from = firstRow + b * perBucket;
+    const to = Math.min(lastRow, from + perBucket - 1);
     out[0][2 * b] = times_s(from);
     out[0][2 * b + 1] = times_s(from + (to - from + 1) / 2);
     columns.forEach((column, c) => {

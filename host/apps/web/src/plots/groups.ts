@@ -1,6 +1,6 @@
 // Which numbers stand together on a strip, with their colours.
 import type { Robot } from '../model/robot';
-import { segment_colour } from '../scene/palette';
+import { segmentColour } from '../scene/palette';
 import type { Curve } from './strip';
 
 export interface Source extends Curve {
@@ -22,48 +22,48 @@ function source(field: string, index: number, label: string, colour: string, fac
   return { field, index, label, colour, factor, dashed };
 }
 
-function angle_groups(robot: Robot): Group[] {
+function angleGroups(robot: Robot): Group[] {
   if (robot.kind === 'serial') {
-    const joints = robot.joints.map((_, i) => source('measured_js_deg', i, String(i + 1), segment_colour(i)));
+    const joints = robot.joints.map((_, i) => source('measured_js_deg', i, String(i + 1), segmentColour(i)));
     return [{ name: 'angles', title: 'joints [deg]', sources: joints }];
   }
-  const of_axis = (axis: number) => robot.segments.map((_, m) => source('measured_js_deg', 2 * m + axis, String(m + 1), segment_colour(m)));
+  const ofAxis = (axis: number) => robot.segments.map((_, m) => source('measured_js_deg', 2 * m + axis, String(m + 1), segmentColour(m)));
   return [
-    { name: 'pitch', title: 'pitch of segments [deg]', sources: of_axis(0) },
-    { name: 'yaw', title: 'yaw of segments [deg]', sources: of_axis(1) },
+    { name: 'pitch', title: 'pitch of segments [deg]', sources: ofAxis(0) },
+    { name: 'yaw', title: 'yaw of segments [deg]', sources: ofAxis(1) },
   ];
 }
 
 // What the drives report: share of the rated torque, which is that of the rated current.
-function current_group(robot: Robot): Group {
+function currentGroup(robot: Robot): Group {
   const serial = robot.kind === 'serial';
   const count = serial ? robot.joints.length : 3 * robot.segments.length;
   const sources = Array.from({ length: count }, (_, i) => {
     const segment = serial ? i : Math.floor(i / 3);
-    return source('drives.torque_permille', i, serial ? String(i + 1) : `${segment + 1}.${(i % 3) + 1}`, segment_colour(segment), 0.1);
+    return source('drives.torque_permille', i, serial ? String(i + 1) : `${segment + 1}.${(i % 3) + 1}`, segmentColour(segment), 0.1);
   });
   return { name: 'current', title: 'motor current, of rated [%]', sources };
 }
 
-function force_groups(robot: Robot): Group[] {
+function forceGroups(robot: Robot): Group[] {
   if (robot.kind === 'serial') {
-    const joints = robot.joints.map((_, i) => source('torque_Nm', i, String(i + 1), segment_colour(i)));
+    const joints = robot.joints.map((_, i) => source('torque_Nm', i, String(i + 1), segmentColour(i)));
     return [{ name: 'torque', title: 'joint torque [N m]', sources: joints }];
   }
-  const cables = robot.segments.flatMap((_, m) => [0, 1, 2].map((c) => source('tension_N', 3 * m + c, `${m + 1}.${c + 1}`, segment_colour(m))));
+  const cables = robot.segments.flatMap((_, m) => [0, 1, 2].map((c) => source('tension_N', 3 * m + c, `${m + 1}.${c + 1}`, segmentColour(m))));
   return [{ name: 'tension', title: 'cable tension, in the colours of the segments [N]', sources: cables }];
 }
 
-const kAxisColours = ['#e0564a', '#57b894', '#4e9bd6']; // x, y, z, as in the scene
+const AXIS_COLOURS = ['#e0564a', '#57b894', '#4e9bd6']; // x, y, z, as in the scene
 
 function axes(field: string, factor = 1): Source[] {
-  return ['x', 'y', 'z'].map((axis, i) => source(field, i, axis, kAxisColours[i], factor));
+  return ['x', 'y', 'z'].map((axis, i) => source(field, i, axis, AXIS_COLOURS[i], factor));
 }
 
 // Of an arm with a wrist sensor, an adapter or a servo; forces and torques in the tip's frame.
-function push_groups(): Group[] {
+function pushGroups(): Group[] {
   const set = source('push.set_N', 0, 'set', '#f0a030', 1, true);
-  const depths = [0, 1, 2].map((i) => source('adapter.depth_m', i, `pin ${i + 1}`, segment_colour(i), 1000));
+  const depths = [0, 1, 2].map((i) => source('adapter.depth_m', i, `pin ${i + 1}`, segmentColour(i), 1000));
   const way = source('push.travel_m', 0, 'way', '#c96bb0', 1000, true);
   const aside = source('push.aside_m', 0, 'aside', '#8f9aa6', 1000, true);
   return [
@@ -77,7 +77,7 @@ function push_groups(): Group[] {
 }
 
 // The strips of this arm; fields that are not there are left out, and strips without any.
-export function groups_of(robot: Robot, has: Has): Group[] {
+export function groupsOf(robot: Robot, has: Has): Group[] {
   const clearance: Group = {
     name: 'clearance',
     title: 'clearance up to 150 mm [mm]',
@@ -96,7 +96,7 @@ export function groups_of(robot: Robot, has: Has): Group[] {
   const bus: Group = {
     name: 'bus',
     title: 'bus load [%]',
-    sources: [0, 1, 2, 3].map((b) => source('buses.measured_load', b, `bus ${b + 1}`, segment_colour(b), 100)),
+    sources: [0, 1, 2, 3].map((b) => source('buses.measured_load', b, `bus ${b + 1}`, segmentColour(b), 100)),
   };
   const verdict: Group = {
     name: 'verdict',
@@ -104,8 +104,8 @@ export function groups_of(robot: Robot, has: Has): Group[] {
     sources: [source('verdict.share', 0, 'verdict', '#c96bb0', 100)],
   };
   const tick: Group = { name: 'tick', title: 'longest tick in real time [us]', sources: [source('tick_us', 0, 'tick', '#4e9bd6')] };
-  const of_arm = [...angle_groups(robot), ...push_groups(), ...force_groups(robot), current_group(robot)];
-  return [...of_arm, clearance, verdict, bus, tick, error]
+  const ofArm = [...angleGroups(robot), ...pushGroups(), ...forceGroups(robot), currentGroup(robot)];
+  return [...ofArm, clearance, verdict, bus, tick, error]
     .map((group) => ({ ...group, sources: group.sources.filter((s) => has(s.field, s.index)) }))
     .filter((group) => group.sources.length > 0);
 }

@@ -16,17 +16,17 @@ export interface Colours {
 }
 
 // All 2D canvases of the page are uPlot's.
-export function use_software_canvas(): void {
+export function useSoftwareCanvas(): void {
   const original = HTMLCanvasElement.prototype.getContext as (type: string, options?: object) => RenderingContext | null;
   HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, type: string, options?: object) {
     return original.call(this, type, type === '2d' ? { ...options, willReadFrequently: true, alpha: false } : options);
   } as typeof HTMLCanvasElement.prototype.getContext;
 }
 
-const kTitle_px = 18;
+const TITLE_PX = 18;
 
 // A little more than the values; nothing beyond `most`.
-function y_range(low: number | null, high: number | null, most: number): [number, number] {
+function yRange(low: number | null, high: number | null, most: number): [number, number] {
   if (low === null || high === null) return [0, 1];
   const top = Math.min(high, most);
   const bottom = Math.min(low, top);
@@ -44,12 +44,12 @@ export class Strip {
     this.plot = new uPlot(
       {
         width,
-        height: height - kTitle_px,
+        height: height - TITLE_PX,
         pxAlign: false,
         legend: { show: false },
         cursor: { y: false, points: { show: false }, drag: { x: false, y: false } },
         padding: [4, 8, 0, 0],
-        scales: { x: { time: false }, y: { range: (_u, low, high) => y_range(low, high, most) } },
+        scales: { x: { time: false }, y: { range: (_u, low, high) => yRange(low, high, most) } },
         axes: [{ ...axis, size: 22 }, { ...axis, size: 36 }],
         series: [{}, ...curves.map((c) => ({ label: c.label, stroke: c.colour, width: 1, dash: c.dashed ? [4, 3] : undefined, points: { show: false } }))],
         hooks: { drawClear: [(u) => this.clear(u, colours.back)] },
@@ -66,7 +66,7 @@ export class Strip {
   }
 
   resize(width: number, height: number): void {
-    this.plot.setSize({ width, height: height - kTitle_px });
+    this.plot.setSize({ width, height: height - TITLE_PX });
   }
 
   // NaN is a value that is not there; uPlot calls it null, and knows no scale where it finds one.

@@ -1,22 +1,22 @@
 // Commands with both verdicts and their margins: those that were refused, and samples of the others.
 import type { Command, Judged, Run } from '../data/run';
-import { length_text } from '../model/sentence';
+import { lengthText } from '../model/sentence';
 import { h } from '../ui/dom';
 
-const kAtMost = 400; // rows in the page at a time
+const AT_MOST = 400; // rows in the page at a time
 
-function judged_text(judged: Judged | null): string {
+function judgedText(judged: Judged | null): string {
   if (!judged) return 'not asked';
   return judged.code !== 0 ? `refused, ${judged.code}` : `${(100 * judged.share).toFixed(0)} %`;
 }
 
-function margins_text(margins: Record<string, number | null> | undefined): string {
+function marginsText(margins: Record<string, number | null> | undefined): string {
   if (!margins) return '';
   return Object.entries(margins)
     .filter((entry): entry is [string, number] => entry[1] !== null)
     .map(([name, value]) => {
       const [, what, unit] = /^(.*?)(?:_(m|deg|deg_s|N|us))?$/.exec(name) ?? [];
-      return unit === 'm' ? `${what} ${length_text(value)}` : `${what.replaceAll('_', ' ')} ${Number(value.toPrecision(3))} ${(unit ?? '').replace('_', '/')}`;
+      return unit === 'm' ? `${what} ${lengthText(value)}` : `${what.replaceAll('_', ' ')} ${Number(value.toPrecision(3))} ${(unit ?? '').replace('_', '/')}`;
     })
     .join(', ');
 }
@@ -24,12 +24,12 @@ function margins_text(margins: Record<string, number | null> | undefined): strin
 export class CommandList {
   readonly element: HTMLElement;
   private readonly body = h('tbody');
-  private refused_only = false;
+  private refusedOnly = false;
 
-  constructor(private readonly run: Run, private readonly go_to: (time_s: number) => void) {
+  constructor(private readonly run: Run, private readonly goTo: (time_s: number) => void) {
     const box = h('input', { type: 'checkbox' });
     box.addEventListener('change', () => {
-      this.refused_only = box.checked;
+      this.refusedOnly = box.checked;
       this.fill();
     });
     const heads = ['time', 'command', 'controller', 'simulation', 'margins'];
@@ -41,17 +41,17 @@ export class CommandList {
   }
 
   private fill(): void {
-    const shown = this.run.head.commands.filter((c) => !this.refused_only || c.refusal);
-    const every = Math.max(1, Math.ceil(shown.length / kAtMost));
+    const shown = this.run.head.commands.filter((c) => !this.refusedOnly || c.refusal);
+    const every = Math.max(1, Math.ceil(shown.length / AT_MOST));
     this.body.replaceChildren(...shown.filter((c, i) => c.refusal || i % every === 0).map((c) => this.row(c)));
   }
 
   private row(command: Command): HTMLElement {
     const time_s = command.tick * this.run.head.period_s;
-    const link = h('button', { type: 'button', class: 'link', onclick: () => this.go_to(time_s) }, `${time_s.toFixed(2)} s`);
+    const link = h('button', { type: 'button', class: 'link', onclick: () => this.goTo(time_s) }, `${time_s.toFixed(2)} s`);
     const { refusal } = command;
-    const last = refusal ? h('td', {}, h('strong', {}, `${refusal.code ?? ''} ${refusal.name ?? ''}`), ` ${refusal.text} `, h('em', {}, refusal.remedy ?? '')) : h('td', {}, margins_text(command.simulation?.margins));
+    const last = refusal ? h('td', {}, h('strong', {}, `${refusal.code ?? ''} ${refusal.name ?? ''}`), ` ${refusal.text} `, h('em', {}, refusal.remedy ?? '')) : h('td', {}, marginsText(command.simulation?.margins));
     return h('tr', { class: refusal ? 'bad' : '' }, h('td', {}, link), h('td', {}, `${command.command || ''} ${command.kind} (${command.owner})`),
-      h('td', {}, judged_text(command.execution)), h('td', {}, judged_text(command.simulation)), last);
+      h('td', {}, judgedText(command.execution)), h('td', {}, judgedText(command.simulation)), last);
   }
 }

@@ -1,21 +1,21 @@
 // The events of a run, by kind; a click takes the scene there.
 import type { Run } from '../data/run';
-import { last_before } from '../data/run';
-import { weight_of } from '../model/weight';
-import { h, set_class } from '../ui/dom';
+import { lastBefore } from '../data/run';
+import { weightOf } from '../model/weight';
+import { h, setClass } from '../ui/dom';
 
 export class EventList {
   readonly element: HTMLElement;
   private readonly rows: HTMLElement[];
   private now = -1;
 
-  constructor(private readonly run: Run, go_to: (time_s: number) => void) {
+  constructor(private readonly run: Run, goTo: (time_s: number) => void) {
     const { events } = run;
     const { period_s } = run.head;
     this.rows = events.map((event) => {
       const time_s = event.tick * period_s;
-      return h('li', { class: weight_of(event), 'data-kind': event.kind },
-        h('button', { type: 'button', onclick: () => go_to(time_s) },
+      return h('li', { class: weightOf(event), 'data-kind': event.kind },
+        h('button', { type: 'button', onclick: () => goTo(time_s) },
           h('span', { class: 'when' }, `${time_s.toFixed(2)} s`), h('span', { class: 'kind' }, event.kind), h('span', { class: 'text' }, event.text)));
     });
     const kinds = [...new Set(events.map((event) => event.kind))];
@@ -25,10 +25,10 @@ export class EventList {
 
   // Marks the last event before this tick.
   at(tick: number): void {
-    const now = last_before(this.run.events, tick);
+    const now = lastBefore(this.run.events, tick);
     if (now === this.now) return;
-    if (this.now >= 0) set_class(this.rows[this.now], 'now', false);
-    if (now >= 0) set_class(this.rows[now], 'now', true);
+    if (this.now >= 0) setClass(this.rows[this.now], 'now', false);
+    if (now >= 0) setClass(this.rows[now], 'now', true);
     this.now = now;
   }
 

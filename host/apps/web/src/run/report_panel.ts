@@ -10,7 +10,7 @@ function figure(value: number): string {
   return String(Number(value.toPrecision(4)));
 }
 
-export function report_panel(head: RunHead): HTMLElement {
+export function reportPanel(head: RunHead): HTMLElement {
   const { report } = head;
   if (!report) return h('div', { class: 'panel report' }, h('p', {}, 'The run left no report.'));
   const steps = (report.steps ?? []).map((s, i) => row(`${i + 1} ${s.name}`, s.device, `${s.duration_s.toFixed(1)} s`, s.outcome, s.reason));

@@ -1,17 +1,17 @@
 // Strips of a recorded run: all of it or a part, with a needle at the time of the scene.
 import type uPlot from 'uplot';
-import { csv_of, save_as } from '../data/csv';
+import { csvOf, saveAs } from '../data/csv';
 import type { Run } from '../data/run';
-import { chart_colours } from '../plots/chart_colours';
+import { chartColours } from '../plots/chart_colours';
 import { decimated } from '../plots/decimate';
-import { groups_of, type Group } from '../plots/groups';
+import { groupsOf, type Group } from '../plots/groups';
 import { Strip } from '../plots/strip';
 import type { Theme } from '../scene/palette';
 import { h } from '../ui/dom';
 
-const kPoints = 800;
-const kStrip_px = 122;
-const kWindows_s = [0, 60, 20, 5]; // 0: everything
+const POINTS = 800;
+const STRIP_PX = 122;
+const WINDOWS_S = [0, 60, 20, 5]; // 0: everything
 
 interface Shown {
   group: Group;
@@ -29,11 +29,11 @@ export class RunPlots {
   private range: [number, number];
   private width = 400;
 
-  constructor(private readonly run: Run, private theme: Theme, private readonly go_to: (time_s: number) => void) {
+  constructor(private readonly run: Run, private theme: Theme, private readonly goTo: (time_s: number) => void) {
     this.range = [run.time_s(0), run.time_s(run.rows - 1)];
-    const span = h('select', { 'aria-label': 'how much time', onchange: () => this.set_window(Number(span.value)) },
-      ...kWindows_s.map((s) => h('option', { value: s }, s === 0 ? 'whole run' : `${s} s`)));
-    const save = h('button', { type: 'button', onclick: () => save_as(`${run.head.title.replace(/\W+/g, '_')}.csv`, csv_of(run, ...this.range)) }, 'CSV');
+    const span = h('select', { 'aria-label': 'how much time', onchange: () => this.setWindow(Number(span.value)) },
+      ...WINDOWS_S.map((s) => h('option', { value: s }, s === 0 ? 'whole run' : `${s} s`)));
+    const save = h('button', { type: 'button', onclick: () => saveAs(`${run.head.title.replace(/\W+/g, '_')}.csv`, csvOf(run, ...this.range)) }, 'CSV');
     save.title = 'keep the numbers of this time as a table';
     const filter = h('div', { class: 'filter', role: 'group', 'aria-label': 'strips' }, span, save);
     this.element = h('div', { class: 'panel plots' }, filter, this.list);
@@ -45,11 +45,11 @@ export class RunPlots {
   // Moves the needles; with a window that has gone, the curves, too.
   at(time_s: number): void {
     this.time_s = time_s;
-    if (this.window_s > 0 && (time_s < this.range[0] || time_s > this.range[1])) this.set_window(this.window_s);
-    this.place_needles();
+    if (this.window_s > 0 && (time_s < this.range[0] || time_s > this.range[1])) this.setWindow(this.window_s);
+    this.placeNeedles();
   }
 
-  set_theme(theme: Theme): void {
+  setTheme(theme: Theme): void {
     this.theme = theme;
     this.build();
   }
@@ -58,9 +58,9 @@ export class RunPlots {
     const { telemetry } = this.run;
     // What never had a number has no curve: runs of older versions lack some.
     const has = (field: string, index: number) => telemetry.columns.get(field)?.[index]?.some(Number.isFinite) ?? false;
-    const groups = groups_of(this.run.head.robot, has);
+    const groups = groupsOf(this.run.head.robot, has);
     this.shown = groups.map((group) => {
-      const strip = new Strip(group.title, group.sources, chart_colours(this.theme), this.width, kStrip_px, this.go_to, group.most);
+      const strip = new Strip(group.title, group.sources, chartColours(this.theme), this.width, STRIP_PX, this.goTo, group.most);
       const needle = h('div', { class: 'plot-needle' });
       strip.plot.over.append(needle);
       const columns = group.sources.map((s) => telemetry.columns.get(s.field)![s.index].map((v) => v * s.factor));
@@ -71,15 +71,15 @@ export class RunPlots {
   }
 
   private fill(): void {
-    const first = this.run.row_at(this.range[0]);
-    const last = this.run.row_at(this.range[1]);
+    const first = this.run.rowAt(this.range[0]);
+    const last = this.run.rowAt(this.range[1]);
     for (const { strip, columns } of this.shown) {
-      strip.set(decimated((row) => this.run.time_s(row), columns, first, last, kPoints) as unknown as uPlot.AlignedData);
+      strip.set(decimated((row) => this.run.time_s(row), columns, first, last, POINTS) as unknown as uPlot.AlignedData);
     }
-    this.place_needles();
+    this.placeNeedles();
   }
 
-  private set_window(window_s: number): void {
+  private setWindow(window_s: number): void {
     this.window_s = window_s;
     const begin = this.run.time_s(0);
     const end = this.run.time_s(this.run.rows - 1);
@@ -89,11 +89,11 @@ export class RunPlots {
   }
 
   // uPlot takes its new scales over in a microtask of its own.
-  private place_needles(): void {
-    queueMicrotask(() => this.place_needles_now());
+  private placeNeedles(): void {
+    queueMicrotask(() => this.placeNeedlesNow());
   }
 
-  private place_needles_now(): void {
+  private placeNeedlesNow(): void {
     for (const { strip, needle } of this.shown) {
       needle.style.transform = `translateX(${Math.round(strip.plot.valToPos(this.time_s, 'x'))}px)`;
     }
@@ -103,8 +103,8 @@ export class RunPlots {
     const width = this.list.clientWidth;
     if (width === 0 || width === this.width) return;
     this.width = width;
-    for (const { strip } of this.shown) strip.resize(width, kStrip_px);
-    this.place_needles();
+    for (const { strip } of this.shown) strip.resize(width, STRIP_PX);
+    this.placeNeedles();
   }
 
   private choice(name: string, strip: Strip): HTMLElement {

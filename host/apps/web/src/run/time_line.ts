@@ -1,12 +1,12 @@
 // The time of a run as a line: steps as blocks, events as marks, play, speed, and where the scene is.
 import type { Run } from '../data/run';
-import { weight_of } from '../model/weight';
-import { h, set_text } from '../ui/dom';
+import { weightOf } from '../model/weight';
+import { h, setText } from '../ui/dom';
 
-const kSpeeds = [0.5, 1, 2, 4, 8, 16];
-const kFirstSpeed = 3;
-const kKeyStep_s = 1;
-const kShiftStep_s = 10;
+const SPEEDS = [0.5, 1, 2, 4, 8, 16];
+const FIRST_SPEED = 3;
+const KEY_STEP_S = 1;
+const SHIFT_STEP_S = 10;
 
 export class TimeLine {
   readonly element: HTMLElement;
@@ -16,7 +16,7 @@ export class TimeLine {
   private readonly from_s: number;
   private readonly to_s: number;
   private readonly button = h('button', { type: 'button', class: 'play', onclick: () => this.play(!this.playing) });
-  private readonly speed = h('select', { 'aria-label': 'speed' }, ...kSpeeds.map((s, i) => h('option', { value: s, selected: i === kFirstSpeed }, `${s}\u00d7`)));
+  private readonly speed = h('select', { 'aria-label': 'speed' }, ...SPEEDS.map((s, i) => h('option', { value: s, selected: i === FIRST_SPEED }, `${s}\u00d7`)));
   private readonly clock = h('output', { class: 'clock', 'aria-live': 'off' });
   private readonly slider: HTMLInputElement;
   private readonly needle = h('div', { class: 'needle' });
@@ -27,14 +27,14 @@ export class TimeLine {
     this.time_s = this.from_s;
     this.slider = h('input', {
       type: 'range', min: this.from_s, max: this.to_s, step: 0.04, value: this.from_s, 'aria-label': 'time of the run',
-      oninput: () => this.go_to(Number(this.slider.value)), onkeydown: (event: KeyboardEvent) => this.key(event),
+      oninput: () => this.goTo(Number(this.slider.value)), onkeydown: (event: KeyboardEvent) => this.key(event),
     });
     const track = h('div', { class: 'track' }, ...this.steps(), ...this.marks(), this.needle, this.slider);
     this.element = h('footer', { class: 'time-line', 'aria-label': 'time' }, this.button, this.speed, this.clock, track);
     this.say();
   }
 
-  go_to(time_s: number): void {
+  goTo(time_s: number): void {
     this.time_s = Math.max(this.from_s, Math.min(this.to_s, time_s));
     this.say();
     this.moved(this.time_s);
@@ -50,12 +50,12 @@ export class TimeLine {
 
   // Keys that work wherever the focus is; true when the key was one of them.
   key(event: KeyboardEvent): boolean {
-    const step_s = event.shiftKey ? kShiftStep_s : kKeyStep_s;
+    const step_s = event.shiftKey ? SHIFT_STEP_S : KEY_STEP_S;
     if (event.key === ' ') this.play(!this.playing);
-    else if (event.key === 'ArrowRight') this.go_to(this.time_s + step_s);
-    else if (event.key === 'ArrowLeft') this.go_to(this.time_s - step_s);
-    else if (event.key === 'Home') this.go_to(this.from_s);
-    else if (event.key === 'End') this.go_to(this.to_s);
+    else if (event.key === 'ArrowRight') this.goTo(this.time_s + step_s);
+    else if (event.key === 'ArrowLeft') this.goTo(this.time_s - step_s);
+    else if (event.key === 'Home') this.goTo(this.from_s);
+    else if (event.key === 'End') this.goTo(this.to_s);
     else return false;
     event.preventDefault();
     event.stopPropagation();
@@ -69,19 +69,19 @@ export class TimeLine {
 
   private next(now_ms: number): void {
     if (!this.playing) return;
-    this.go_to(this.time_s + ((now_ms - this.last_ms) / 1000) * Number(this.speed.value));
+    this.goTo(this.time_s + ((now_ms - this.last_ms) / 1000) * Number(this.speed.value));
     this.last_ms = now_ms;
     if (this.time_s >= this.to_s) this.play(false);
     else requestAnimationFrame((next_ms) => this.next(next_ms));
   }
 
   private say(): void {
-    set_text(this.button, this.playing ? '\u275a\u275a' : '\u25b6');
+    setText(this.button, this.playing ? '\u275a\u275a' : '\u25b6');
     this.button.setAttribute('aria-label', this.playing ? 'pause' : 'play');
     this.button.title = this.playing ? 'pause (space)' : 'play (space)';
     this.slider.value = String(this.time_s);
     this.slider.setAttribute('aria-valuetext', `${this.time_s.toFixed(1)} seconds`);
-    set_text(this.clock, `${this.time_s.toFixed(1)} / ${this.to_s.toFixed(1)} s`);
+    setText(this.clock, `${this.time_s.toFixed(1)} / ${this.to_s.toFixed(1)} s`);
     this.needle.style.left = `${this.percent(this.time_s)}%`;
   }
 
@@ -102,6 +102,6 @@ export class TimeLine {
   private marks(): HTMLElement[] {
     return this.run.events
       .filter((event) => event.kind !== 'step')
-      .map((event) => h('div', { class: `mark ${weight_of(event)}`, style: `left:${this.percent(event.tick * this.run.head.period_s)}%` }));
+      .map((event) => h('div', { class: `mark ${weightOf(event)}`, style: `left:${this.percent(event.tick * this.run.head.period_s)}%` }));
   }
 }

@@ -1,24 +1,24 @@
 // The arm as it is: links, discs in the colours of their segments, cables in the colour of their tension.
 import * as THREE from 'three';
-import { chain_of, type ArmChain } from '../model/arm_chain';
+import { chainOf, type ArmChain } from '../model/arm_chain';
 import type { CableRobot, Robot } from '../model/robot';
-import { scale_of, tension_colour, type TensionScale } from '../model/tension_colour';
-import { segment_colour } from './palette';
+import { scaleOf, tensionColour, type TensionScale } from '../model/tension_colour';
+import { segmentColour } from './palette';
 import { paint, shaded } from './shade';
 
-const kSides = 8;
-const kDiscThickness_m = 0.008;
-const kLinkRadius_m = 0.013; // of the core between the discs, thinner than the module so that cables are seen
-const kSerialRadius_m = 0.08;
+const SIDES = 8;
+const DISC_THICKNESS_M = 0.008;
+const LINK_RADIUS_M = 0.013; // of the core between the discs, thinner than the module so that cables are seen
+const SERIAL_RADIUS_M = 0.08;
 
 // A cylinder along x from 0 to 1, to be scaled and placed.
-export function rod_geometry(radius_m: number, sides = kSides, open = false): THREE.BufferGeometry {
+export function rodGeometry(radius_m: number, sides = SIDES, open = false): THREE.BufferGeometry {
   const geometry = new THREE.CylinderGeometry(radius_m, radius_m, 1, sides, 1, open);
   return geometry.rotateZ(-Math.PI / 2).translate(0.5, 0, 0);
 }
 
-export function module_radius_m(robot: Robot): number {
-  return robot.kind === 'serial' ? kSerialRadius_m : robot.module.radius_m;
+export function moduleRadius_m(robot: Robot): number {
+  return robot.kind === 'serial' ? SERIAL_RADIUS_M : robot.module.radius_m;
 }
 
 // Copies frame `from` of `frames` to matrix `to` of `mesh`, moved along its x by `shift_m`, its x stretched.
@@ -44,19 +44,19 @@ export class ArmBody {
   private readonly cables: Cables | null;
   private held = '';
 
-  constructor(robot: Robot, private held_colour: string) {
-    this.chain = chain_of(robot);
+  constructor(robot: Robot, private heldColour: string) {
+    this.chain = chainOf(robot);
     const { pieces } = this.chain;
-    const is_cable = robot.kind !== 'serial';
-    const core = is_cable ? kLinkRadius_m : 0.7 * kSerialRadius_m;
-    this.links = new THREE.InstancedMesh(shaded(rod_geometry(core, kSides, true)), paint(), pieces.length);
-    this.discs = new THREE.InstancedMesh(shaded(rod_geometry(module_radius_m(robot))), paint(), 2 * pieces.length);
-    this.cables = is_cable ? new Cables(robot, this.chain) : null;
+    const isCable = robot.kind !== 'serial';
+    const core = isCable ? LINK_RADIUS_M : 0.7 * SERIAL_RADIUS_M;
+    this.links = new THREE.InstancedMesh(shaded(rodGeometry(core, SIDES, true)), paint(), pieces.length);
+    this.discs = new THREE.InstancedMesh(shaded(rodGeometry(moduleRadius_m(robot))), paint(), 2 * pieces.length);
+    this.cables = isCable ? new Cables(robot, this.chain) : null;
     for (const mesh of [this.links, this.discs]) mesh.frustumCulled = false;
     this.group.add(this.links, this.discs);
     if (this.cables) this.group.add(this.cables.lines);
     this.details = [this.discs, ...(this.cables ? [this.cables.lines] : [])];
-    this.face_m = is_cable ? robot.cables.face_offset_m : 0;
+    this.face_m = isCable ? robot.cables.face_offset_m : 0;
     this.paint(new Set());
   }
 
@@ -68,8 +68,8 @@ export class ArmBody {
     const { pieces, matrices } = this.chain;
     pieces.forEach((piece, k) => {
       place(this.links, k, matrices, k, this.face_m, piece.length_m - 2 * this.face_m);
-      place(this.discs, 2 * k, matrices, k, this.face_m, kDiscThickness_m);
-      place(this.discs, 2 * k + 1, matrices, k, piece.length_m - this.face_m - kDiscThickness_m, kDiscThickness_m);
+      place(this.discs, 2 * k, matrices, k, this.face_m, DISC_THICKNESS_M);
+      place(this.discs, 2 * k + 1, matrices, k, piece.length_m - this.face_m - DISC_THICKNESS_M, DISC_THICKNESS_M);
     });
     this.links.instanceMatrix.needsUpdate = true;
     this.discs.instanceMatrix.needsUpdate = true;
@@ -77,24 +77,24 @@ export class ArmBody {
   }
 
   // Segments (from 0) whose pitch is held: their discs are white (S2 of the paper).
-  mark_held(segments: ReadonlySet<number>): void {
+  markHeld(segments: ReadonlySet<number>): void {
     const key = [...segments].join();
     if (key === this.held) return;
     this.held = key;
     this.paint(segments);
   }
 
-  set_held_colour(colour: string): void {
-    this.held_colour = colour;
+  setHeldColour(colour: string): void {
+    this.heldColour = colour;
     this.held = '?';
   }
 
   private paint(held: ReadonlySet<number>): void {
     const colour = new THREE.Color();
     this.chain.pieces.forEach(({ segment }, k) => {
-      colour.set(segment_colour(segment));
+      colour.set(segmentColour(segment));
       this.links.setColorAt(k, colour);
-      if (held.has(segment)) colour.set(this.held_colour);
+      if (held.has(segment)) colour.set(this.heldColour);
       this.discs.setColorAt(2 * k, colour);
       this.discs.setColorAt(2 * k + 1, colour);
     });
@@ -105,14 +105,14 @@ export class ArmBody {
 // One line set for all cables: cable c of segment m goes from the base through all discs to the end of segment m.
 class Cables {
   readonly lines: THREE.LineSegments;
-  private readonly runs: { hole_y_m: number; hole_z_m: number; pieces: number; at: number }[] = [];
+  private readonly runs: { holeY_m: number; holeZ_m: number; pieces: number; at: number }[] = [];
   private readonly places: Float32Array;
   private readonly colours: Float32Array;
   private readonly scale: TensionScale;
   private readonly face_m: number;
 
   constructor(robot: CableRobot, private readonly chain: ArmChain) {
-    this.scale = scale_of(robot.tension);
+    this.scale = scaleOf(robot.tension);
     this.face_m = robot.cables.face_offset_m;
     let at = 0;
     let pieces = 0;
@@ -121,7 +121,7 @@ class Cables {
       for (const phase_deg of robot.cables.phase_deg[m]) {
         const phase = (phase_deg * Math.PI) / 180;
         const r = robot.cables.hole_radius_m;
-        this.runs.push({ hole_y_m: r * Math.cos(phase), hole_z_m: r * Math.sin(phase), pieces, at });
+        this.runs.push({ holeY_m: r * Math.cos(phase), holeZ_m: r * Math.sin(phase), pieces, at });
         at += 2 * (2 * pieces - 1);
       }
     });
@@ -137,7 +137,7 @@ class Cables {
   set(tension_N: ArrayLike<number>): void {
     const { matrices, pieces } = this.chain;
     this.runs.forEach((run, cable) => {
-      const colour = tension_colour(tension_N[cable] ?? NaN, this.scale);
+      const colour = tensionColour(tension_N[cable] ?? NaN, this.scale);
       const points = 2 * run.pieces;
       let vertex = run.at;
       for (let p = 0; p < points; ++p) {
@@ -147,7 +147,7 @@ class Cables {
           for (let r = 0; r < 3; ++r) {
             const m = 16 * k + r;
             this.places[3 * vertex + r] =
-              matrices[m + 12] + matrices[m] * x_m + matrices[m + 4] * run.hole_y_m + matrices[m + 8] * run.hole_z_m;
+              matrices[m + 12] + matrices[m] * x_m + matrices[m + 4] * run.holeY_m + matrices[m + 8] * run.holeZ_m;
             this.colours[3 * vertex + r] = colour[r];
           }
           ++vertex;
@@ -165,9 +165,9 @@ export class GhostArm {
   readonly chain: ArmChain;
 
   constructor(robot: Robot, colour: string, opacity: number) {
-    this.chain = chain_of(robot);
+    this.chain = chainOf(robot);
     const material = new THREE.MeshBasicMaterial({ color: colour, transparent: true, opacity, depthWrite: false });
-    this.mesh = new THREE.InstancedMesh(rod_geometry(module_radius_m(robot), kSides, true), material, this.chain.pieces.length);
+    this.mesh = new THREE.InstancedMesh(rodGeometry(moduleRadius_m(robot), SIDES, true), material, this.chain.pieces.length);
     this.mesh.frustumCulled = false;
   }
 

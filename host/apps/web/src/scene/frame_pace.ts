@@ -1,11 +1,11 @@
 // How fine and how often the picture is drawn: coarser while a state waits long before it is in the picture, finer again slowly.
 
-const kPixelRatios = [1, 0.75]; // still coarser ones save less than 2 ms of CPU a frame and look bad
-const kWindow_ms = 2000;
-const kSlow_ms = 35; // mean wait of a state before its frame was drawn
-const kQuick_ms = 20;
-const kCalmWindows = 5; // before it becomes finer again
-const kFewest = 5; // frames that say anything
+const PIXEL_RATIOS = [1, 0.75]; // still coarser ones save less than 2 ms of CPU a frame and look bad
+const WINDOW_MS = 2000;
+const SLOW_MS = 35; // mean wait of a state before its frame was drawn
+const QUICK_MS = 20;
+const CALM_WINDOWS = 5; // before it becomes finer again
+const FEWEST = 5; // frames that say anything
 
 export class FramePace {
   private step = 0;
@@ -14,8 +14,8 @@ export class FramePace {
   private frames = 0;
   private calm = 0;
 
-  get pixel_ratio(): number {
-    return kPixelRatios[this.step];
+  get pixelRatio(): number {
+    return PIXEL_RATIOS[this.step];
   }
 
   // A frame was drawn at `now_ms`, for a state that came `waited_ms` before. True when the pixel ratio changed.
@@ -23,31 +23,31 @@ export class FramePace {
     this.sum_ms += waited_ms;
     ++this.frames;
     if (Number.isNaN(this.since_ms)) this.since_ms = now_ms;
-    if (now_ms - this.since_ms < kWindow_ms) return false;
-    const mean_ms = this.frames < kFewest ? NaN : this.sum_ms / this.frames;
+    if (now_ms - this.since_ms < WINDOW_MS) return false;
+    const mean_ms = this.frames < FEWEST ? NaN : this.sum_ms / this.frames;
     this.since_ms = now_ms;
     this.sum_ms = this.frames = 0;
     return this.judge(mean_ms);
   }
 
   private judge(mean_ms: number): boolean {
-    if (mean_ms > kSlow_ms) {
+    if (mean_ms > SLOW_MS) {
       this.calm = 0;
-      if (this.step + 1 >= kPixelRatios.length) return false;
+      if (this.step + 1 >= PIXEL_RATIOS.length) return false;
       ++this.step;
       return true;
     }
-    this.calm = mean_ms < kQuick_ms ? this.calm + 1 : 0;
-    if (this.calm < kCalmWindows || this.step === 0) return false;
+    this.calm = mean_ms < QUICK_MS ? this.calm + 1 : 0;
+    if (this.calm < CALM_WINDOWS || this.step === 0) return false;
     this.calm = 0;
     --this.step;
     return true;
   }
 }
 
-const kMaxLate = 0.03; // share of a window's frames whose state was overtaken by a newer one: 50 states come a second
-const kEverySecond_ms = 25; // between two frames, to leave out every second turn
-const kSteady_ms = 60000; // then every turn is tried again
+const MAX_LATE = 0.03; // share of a window's frames whose state was overtaken by a newer one: 50 states come a second
+const EVERY_SECOND_MS = 25; // between two frames, to leave out every second turn
+const STEADY_MS = 60000; // then every turn is tried again
 
 // Which turns of the screen are drawn: all, or every second one while this machine cannot keep up with all of them. Steady
 // 30 pictures a second look calmer than 40 that come after one, two or three turns.
@@ -56,23 +56,23 @@ export class FrameTurns {
   private since_ms = NaN;
   private frames = 0;
   private late = 0;
-  private steady_until_ms = -Infinity;
+  private steadyUntil_ms = -Infinity;
 
   // Whether this turn is drawn.
   takes(now_ms: number): boolean {
-    if (now_ms < this.steady_until_ms && now_ms - this.drawn_ms < kEverySecond_ms) return false;
+    if (now_ms < this.steadyUntil_ms && now_ms - this.drawn_ms < EVERY_SECOND_MS) return false;
     this.drawn_ms = now_ms;
     return true;
   }
 
   // A frame was drawn at `now_ms`; a state had come before the one that it shows, and was in no frame.
-  drawn(now_ms: number, has_missed_one: boolean): void {
-    if (now_ms < this.steady_until_ms) return;
+  drawn(now_ms: number, hasMissedOne: boolean): void {
+    if (now_ms < this.steadyUntil_ms) return;
     if (Number.isNaN(this.since_ms)) this.since_ms = now_ms;
     ++this.frames;
-    if (has_missed_one) ++this.late;
-    if (now_ms - this.since_ms < kWindow_ms) return;
-    if (this.frames >= kFewest && this.late > kMaxLate * this.frames) this.steady_until_ms = now_ms + kSteady_ms;
+    if (hasMissedOne) ++this.late;
+    if (now_ms - this.since_ms < WINDOW_MS) return;
+    if (this.frames >= FEWEST && this.late > MAX_LATE * this.frames) this.steadyUntil_ms = now_ms + STEADY_MS;
     this.since_ms = NaN;
     this.frames = this.late = 0;
   }

@@ -1,9 +1,9 @@
 // Words on the things of the scene: at most five, pushed apart, inside the picture.
-import { h, set_text } from '../ui/dom';
-import { spread_labels, type Area } from './spread_labels';
+import { h, setText } from '../ui/dom';
+import { spreadLabels, type Area } from './spread_labels';
 import type { Stage } from './stage';
 
-const kMost = 5;
+const MOST = 5;
 
 export interface Label {
   text: string;
@@ -15,7 +15,7 @@ export class Labels {
   private readonly tags: HTMLElement[] = [];
 
   constructor(private readonly stage: Stage) {
-    for (let i = 0; i < kMost; ++i) this.tags.push(h('span', { class: 'label', hidden: true }));
+    for (let i = 0; i < MOST; ++i) this.tags.push(h('span', { class: 'label', hidden: true }));
     this.layer.append(...this.tags);
   }
 
@@ -24,16 +24,16 @@ export class Labels {
     const { width, height } = this.stage;
     const seen: { label: Label; at: [number, number] }[] = [];
     for (const label of labels) {
-      const at = Number.isFinite(label.place_m[0]) ? this.stage.pixel_of(label.place_m) : null;
+      const at = Number.isFinite(label.place_m[0]) ? this.stage.pixelOf(label.place_m) : null;
       if (at && at[0] > 0 && at[0] < width && at[1] > 0 && at[1] < height) seen.push({ label, at });
-      if (seen.length === kMost) break;
+      if (seen.length === MOST) break;
     }
     const areas = seen.map(({ label, at }) => ({ x: at[0] + 10, y: at[1] - 28, width: 7.2 * label.text.length + 10, height: 18 }));
-    spread_labels(areas, width, height, taken);
+    spreadLabels(areas, width, height, taken);
     this.tags.forEach((tag, i) => {
       tag.hidden = i >= seen.length;
       if (tag.hidden) return;
-      set_text(tag, seen[i].label.text);
+      setText(tag, seen[i].label.text);
       tag.style.transform = `translate(${Math.round(areas[i].x)}px, ${Math.round(areas[i].y)}px)`;
     });
   }

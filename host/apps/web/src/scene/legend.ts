@@ -1,25 +1,25 @@
 // What colours and shapes mean, with units; and what can be shown besides.
 import type { Robot, Scene } from '../model/robot';
-import { css, scale_of, tension_colour } from '../model/tension_colour';
+import { css, scaleOf, tensionColour } from '../model/tension_colour';
 import { h } from '../ui/dom';
-import { segment_colour, type SceneColours } from './palette';
+import { segmentColour, type SceneColours } from './palette';
 
 function key(colour: string, text: string): HTMLElement {
   return h('span', { class: 'key' }, h('i', { style: `background:${colour}` }), text);
 }
 
-function segments_line(robot: Robot): HTMLElement {
+function segmentsLine(robot: Robot): HTMLElement {
   const count = robot.kind === 'serial' ? robot.joints.length : robot.segments.length;
   const squares = Array.from({ length: count }, (_, i) =>
-    key(segment_colour(i), String(i + 1)),
+    key(segmentColour(i), String(i + 1)),
   );
   return h('div', {}, robot.kind === 'serial' ? 'joint ' : 'segment ', ...squares);
 }
 
-function tension_line(robot: Robot): HTMLElement | null {
+function tensionLine(robot: Robot): HTMLElement | null {
   if (robot.kind === 'serial') return null;
-  const scale = scale_of(robot.tension);
-  const stops = [scale.low_N, scale.middle_N, scale.high_N].map((tension_N) => css(tension_colour(tension_N, scale)));
+  const scale = scaleOf(robot.tension);
+  const stops = [scale.low_N, scale.middle_N, scale.high_N].map((tension_N) => css(tensionColour(tension_N, scale)));
   const bar = `linear-gradient(90deg, ${stops.join(',')})`;
   return h('div', {}, h('i', { class: 'wide', style: `background:${bar}` }), `cable tension ${scale.low_N}, ${scale.middle_N}, ${scale.high_N} N`);
 }
@@ -31,7 +31,7 @@ function choice(text: string, chosen: (on: boolean) => void): HTMLElement {
 }
 
 // `exaggerate` and `predict` are told what the person chose.
-export function legend_of(
+export function legendOf(
   robot: Robot,
   scene: Scene,
   colours: SceneColours,
@@ -40,8 +40,8 @@ export function legend_of(
 ): HTMLElement {
   return h('details', { class: 'legend', open: true },
     h('summary', {}, 'legend'),
-    segments_line(robot),
-    tension_line(robot),
+    segmentsLine(robot),
+    tensionLine(robot),
     h('div', {}, scene.rod ? key(colours.rod, 'rod') : null, key(colours.near, 'closest point'), key(colours.ghost, 'commanded arm')),
     scene.payload ? h('div', {}, key(colours.payload, 'payload'), key(colours.base, 'adapter')) : null,
     scene.slit ? h('div', {}, key(colours.held, 'discs: held in the plane of the slit (S2)')) : null,

@@ -2,13 +2,13 @@
 import * as THREE from 'three';
 import type { SceneColours } from './palette';
 
-const kTrailPoints = 3000;
-const kTrailStep_m = 0.003;
+const TRAIL_POINTS = 3000;
+const TRAIL_STEP_M = 0.003;
 
 // A line through the places where the tip has been.
 export class Trail {
   readonly line: THREE.Line;
-  private readonly points = new Float32Array(3 * kTrailPoints);
+  private readonly points = new Float32Array(3 * TRAIL_POINTS);
   private count = 0;
 
   constructor(colour: string, opacity = 1) {
@@ -25,11 +25,11 @@ export class Trail {
     const { points } = this;
     if (this.count > 0) {
       const way = Math.hypot(place_m[0] - points[last], place_m[1] - points[last + 1], place_m[2] - points[last + 2]);
-      if (way < kTrailStep_m) return;
+      if (way < TRAIL_STEP_M) return;
     }
-    if (this.count === kTrailPoints) {
-      points.copyWithin(0, 3 * (kTrailPoints / 2));
-      this.count = kTrailPoints / 2;
+    if (this.count === TRAIL_POINTS) {
+      points.copyWithin(0, 3 * (TRAIL_POINTS / 2));
+      this.count = TRAIL_POINTS / 2;
     }
     for (let r = 0; r < 3; ++r) points[3 * this.count + r] = place_m[r];
     ++this.count;
@@ -39,7 +39,7 @@ export class Trail {
 
   // The whole way at once: x, y, z of each point, at most as many as there is room for.
   set(places_m: Float32Array): void {
-    this.count = Math.min(kTrailPoints, places_m.length / 3);
+    this.count = Math.min(TRAIL_POINTS, places_m.length / 3);
     this.points.set(places_m.subarray(0, 3 * this.count));
     this.line.geometry.attributes.position.needsUpdate = true;
     this.line.geometry.setDrawRange(0, this.count);

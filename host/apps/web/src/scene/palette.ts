@@ -2,16 +2,16 @@
 
 export type Theme = 'dark' | 'light';
 
-export const kSegmentColours = ['#4e9bd6', '#57b894', '#d9b44a', '#e08a45', '#c96bb0', '#8f86e0', '#7fb0a8', '#b0a08f'];
+export const SEGMENT_COLOURS = ['#4e9bd6', '#57b894', '#d9b44a', '#e08a45', '#c96bb0', '#8f86e0', '#7fb0a8', '#b0a08f'];
 
-export function segment_colour(segment: number): string {
-  return kSegmentColours[segment % kSegmentColours.length];
+export function segmentColour(segment: number): string {
+  return SEGMENT_COLOURS[segment % SEGMENT_COLOURS.length];
 }
 
 export interface SceneColours {
   background: string;
   grid: string;
-  grid_axis: string;
+  gridAxis: string;
   edge: string;
   glass: string;
   wall: string;
@@ -28,10 +28,10 @@ export interface SceneColours {
   held: string;
 }
 
-const kDark: SceneColours = {
+const DARK: SceneColours = {
   background: '#10161d',
   grid: '#1f2b37',
-  grid_axis: '#34506a',
+  gridAxis: '#34506a',
   edge: '#9fb7d9',
   glass: '#4f86e0',
   wall: '#a8b0ba',
@@ -48,10 +48,10 @@ const kDark: SceneColours = {
   held: '#f4f6f8',
 };
 
-const kLight: SceneColours = {
+const LIGHT: SceneColours = {
   background: '#f2f5f8',
   grid: '#d5dde5',
-  grid_axis: '#a5b7c8',
+  gridAxis: '#a5b7c8',
   edge: '#40587a',
   glass: '#2f66c8',
   wall: '#68727e',
@@ -68,6 +68,6 @@ const kLight: SceneColours = {
   held: '#1b2631',
 };
 
-export function scene_colours(theme: Theme): SceneColours {
-  return theme === 'dark' ? kDark : kLight;
+export function sceneColours(theme: Theme): SceneColours {
+  return theme === 'dark' ? DARK : LIGHT;
 }

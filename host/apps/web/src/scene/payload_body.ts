@@ -5,12 +5,12 @@ import type { Scene, ScenePose } from '../model/robot';
 import type { SceneColours } from './palette';
 import { Batch, paint } from './shade';
 
-export const kBodyRadius_m = 0.3; // of scenes that were recorded before a payload had a radius
-const kPins = { circle_m: 0.25, radius_m: 0.02, length_m: 0.06 }; // as the bench has them, but thicker: to be seen
-const kAdapter_m = 0.08; // how thick the adapter is drawn
-const kIn_m = 0.02; // pins of a payload that the adapter has
+export const BODY_RADIUS_M = 0.3; // of scenes that were recorded before a payload had a radius
+const PINS = { circle_m: 0.25, radius_m: 0.02, length_m: 0.06 }; // as the bench has them, but thicker: to be seen
+const ADAPTER_M = 0.08; // how thick the adapter is drawn
+const IN_M = 0.02; // pins of a payload that the adapter has
 
-export function matrix_of(pose: ScenePose): THREE.Matrix4 {
+export function matrixOf(pose: ScenePose): THREE.Matrix4 {
   const [w, x, y, z] = pose.quaternion_wxyz;
   const turn = new THREE.Quaternion(x, y, z, w);
   return new THREE.Matrix4().compose(new THREE.Vector3(...pose.position_m), turn, new THREE.Vector3(1, 1, 1));
@@ -24,21 +24,21 @@ function upright(radius_m: number, from_m: number, length_m: number, x_m = 0, y_
   return [new THREE.CylinderGeometry(radius_m, radius_m, length_m, 24), place];
 }
 
-function shape_of(length_m: number, radius_m: number, colour: string): THREE.BufferGeometry {
+function shapeOf(length_m: number, radius_m: number, colour: string): THREE.BufferGeometry {
   const batch = new Batch();
-  batch.add(...upright(radius_m, 0, length_m - kPins.length_m), colour, true);
+  batch.add(...upright(radius_m, 0, length_m - PINS.length_m), colour, true);
   for (let pin = 0; pin < 3; ++pin) {
     const angle = (2 * Math.PI * pin) / 3;
-    const at = [kPins.circle_m * Math.cos(angle), kPins.circle_m * Math.sin(angle)] as const;
-    batch.add(...upright(kPins.radius_m, length_m - kPins.length_m, kPins.length_m, ...at), colour, true);
+    const at = [PINS.circle_m * Math.cos(angle), PINS.circle_m * Math.sin(angle)] as const;
+    batch.add(...upright(PINS.radius_m, length_m - PINS.length_m, PINS.length_m, ...at), colour, true);
   }
   return batch.geometry();
 }
 
 // A disc behind the face that the payload comes to.
-function adapter_shape(colour: string): THREE.BufferGeometry {
+function adapterShape(colour: string): THREE.BufferGeometry {
   const batch = new Batch();
-  batch.add(...upright(kBodyRadius_m, 0, kAdapter_m), colour, true);
+  batch.add(...upright(BODY_RADIUS_M, 0, ADAPTER_M), colour, true);
   return batch.geometry();
 }
 
@@ -46,20 +46,20 @@ export class PayloadBody {
   readonly mesh: THREE.Mesh;
   readonly adapter: THREE.Mesh; // seen where the arm is at the site
   readonly centre_m = new Float32Array(3); // for its label
-  private readonly at_start: THREE.Matrix4;
-  private readonly in_adapter: THREE.Matrix4;
+  private readonly atStart: THREE.Matrix4;
+  private readonly inAdapter: THREE.Matrix4;
   private readonly length_m: number;
 
   constructor(payload: NonNullable<Scene['payload']>, adapter: ScenePose, colours: SceneColours) {
     this.length_m = payload.length_m;
-    const radius_m = payload.radius_m ?? kBodyRadius_m;
-    this.mesh = new THREE.Mesh(shape_of(payload.length_m, radius_m, colours.payload), paint());
+    const radius_m = payload.radius_m ?? BODY_RADIUS_M;
+    this.mesh = new THREE.Mesh(shapeOf(payload.length_m, radius_m, colours.payload), paint());
     this.mesh.matrixAutoUpdate = false;
-    this.adapter = new THREE.Mesh(adapter_shape(colours.base), paint());
+    this.adapter = new THREE.Mesh(adapterShape(colours.base), paint());
     this.adapter.matrixAutoUpdate = false;
-    this.adapter.matrix.copy(matrix_of(adapter));
-    this.at_start = matrix_of(payload);
-    this.in_adapter = matrix_of(adapter).multiply(new THREE.Matrix4().makeTranslation(0, 0, kIn_m - payload.length_m));
+    this.adapter.matrix.copy(matrixOf(adapter));
+    this.atStart = matrixOf(payload);
+    this.inAdapter = matrixOf(adapter).multiply(new THREE.Matrix4().makeTranslation(0, 0, IN_M - payload.length_m));
     this.set('mechanism', new Float32Array(16));
   }
 
@@ -67,7 +67,7 @@ export class PayloadBody {
   set(place: Place, tip: Float32Array): void {
     const { matrix } = this.mesh;
     if (place === 'tip') matrix.fromArray(tip);
-    else matrix.copy(place === 'adapter' ? this.in_adapter : this.at_start);
+    else matrix.copy(place === 'adapter' ? this.inAdapter : this.atStart);
     this.mesh.matrixWorldNeedsUpdate = true;
     const e = matrix.elements;
     for (let r = 0; r < 3; ++r) this.centre_m[r] = e[12 + r] + (this.length_m / 2) * e[8 + r];

@@ -1,26 +1,26 @@
 // The scene as a part of the page: canvas, tip picture, labels, legend, views; draws when something new is there.
 import * as THREE from 'three';
-import { is_known, value, values, type Facts, type Sample } from '../data/sample';
-import { is_at_site, payload_place } from '../model/payload_place';
+import { isKnown, value, values, type Facts, type Sample } from '../data/sample';
+import { isAtSite, payloadPlace } from '../model/payload_place';
 import type { Robot, Scene } from '../model/robot';
-import { length_text } from '../model/sentence';
+import { lengthText } from '../model/sentence';
 import { distance } from '../model/vector';
-import { h, set_class, set_text } from '../ui/dom';
+import { h, setClass, setText } from '../ui/dom';
 import { ArmBody, GhostArm } from './arm_body';
 import { Labels, type Label } from './labels';
-import { legend_of } from './legend';
+import { legendOf } from './legend';
 import { FrameTurns } from './frame_pace';
 import { ClosestPoint, GoalCross, NodeBalls, Trail } from './markers';
-import { scene_colours, type Theme } from './palette';
+import { sceneColours, type Theme } from './palette';
 import { PayloadBody } from './payload_body';
 import { Stage } from './stage';
 import { surroundings } from './surroundings';
-import { views_of, type View } from './views';
+import { viewsOf, type View } from './views';
 
-const kTipPicture = { width: 280, height: 180 };
-const kExaggeration = 10;
-const kNear_m = 0.3; // a clearance is worth a label below
-const kLabels_ms = 200; // words are laid out at most so often: that costs more than the whole scene's script
+const TIP_PICTURE = { width: 280, height: 180 };
+const EXAGGERATION = 10;
+const NEAR_M = 0.3; // a clearance is worth a label below
+const LABELS_MS = 200; // words are laid out at most so often: that costs more than the whole scene's script
 
 export class SceneView {
   readonly element: HTMLElement;
@@ -28,10 +28,10 @@ export class SceneView {
   readonly views: View[];
   readonly trail: Trail;
   readonly way: Trail; // the whole way of a recorded run
-  on_drawn: (now_ms: number) => void = () => {};
+  onDrawn: (now_ms: number) => void = () => {};
   exaggerate = false;
-  tip_label = '';
-  private error_text = '';
+  tipLabel = '';
+  private errorText = '';
   private readonly arm: ArmBody;
   private readonly ghost: GhostArm;
   private readonly predicted: GhostArm;
@@ -42,22 +42,22 @@ export class SceneView {
   private readonly labels: Labels;
   private readonly corner = h('div', { class: 'corner' });
   private readonly error = h('div', { class: 'error-number' });
-  private readonly tip_frame = h('div', { class: 'tip-frame' }, h('span', {}, 'what the tip camera sees'));
-  private readonly view_buttons: HTMLButtonElement[];
+  private readonly tipFrame = h('div', { class: 'tip-frame' }, h('span', {}, 'what the tip camera sees'));
+  private readonly viewButtons: HTMLButtonElement[];
   private readonly colours;
   private view: View;
   private sample: Sample | null = null;
-  private is_due = false;
-  private had_state = false; // one came since the last frame
-  private has_missed_one = false; // one more came
-  private labels_at_ms = 0;
-  private waits_since_ms = 0;
+  private isDue = false;
+  private hadState = false; // one came since the last frame
+  private hasMissedOne = false; // one more came
+  private labelsAt_ms = 0;
+  private waitsSince_ms = 0;
   private readonly turns = new FrameTurns();
-  private readonly drawn_angles = new Float32Array(16);
+  private readonly drawnAngles = new Float32Array(16);
 
   // Throws when the browser has no WebGL.
   constructor(private readonly robot: Robot, private readonly scene: Scene, theme: Theme) {
-    this.colours = scene_colours(theme);
+    this.colours = sceneColours(theme);
     const canvas = h('canvas', { class: 'scene', tabindex: '0', 'aria-label': 'The arm in its scene: drag to turn, wheel to zoom' });
     this.stage = new Stage(canvas);
     this.stage.scene.background = new THREE.Color(this.colours.background);
@@ -73,18 +73,18 @@ export class SceneView {
     this.stage.scene.add(surroundings(scene, robot, this.colours), ...world, this.way.line, this.trail.line);
     this.payload = scene.payload && scene.adapter ? new PayloadBody(scene.payload, scene.adapter, this.colours) : null;
     if (this.payload) this.stage.scene.add(this.payload.mesh, this.payload.adapter);
-    const in_the_way = [...world.slice(1), ...this.arm.details, this.way.line, this.trail.line];
-    for (const object of in_the_way) this.stage.hidden_from_tip.add(object);
-    if (this.payload) this.stage.tip_looks = 'z'; // the way in
+    const inTheWay = [...world.slice(1), ...this.arm.details, this.way.line, this.trail.line];
+    for (const object of inTheWay) this.stage.hiddenFromTip.add(object);
+    if (this.payload) this.stage.tipLooks = 'z'; // the way in
     this.labels = new Labels(this.stage);
-    this.views = views_of(robot, scene);
+    this.views = viewsOf(robot, scene);
     this.view = this.views[0];
-    this.view_buttons = this.views.map((view, i) =>
+    this.viewButtons = this.views.map((view, i) =>
       h('button', { type: 'button', title: `view: ${view.name} (key ${i + 1})`, onclick: () => this.look(view) }, view.name),
     );
-    const bar = h('div', { class: 'views', role: 'group', 'aria-label': 'Views' }, ...this.view_buttons);
-    this.element = h('section', { class: 'scene-view', 'aria-label': 'Scene' }, canvas, this.tip_frame, this.labels.layer, bar,
-      legend_of(robot, scene, this.colours, (on) => this.set_exaggerated(on), (on) => this.show_predicted(on)), this.error, this.corner);
+    const bar = h('div', { class: 'views', role: 'group', 'aria-label': 'Views' }, ...this.viewButtons);
+    this.element = h('section', { class: 'scene-view', 'aria-label': 'Scene' }, canvas, this.tipFrame, this.labels.layer, bar,
+      legendOf(robot, scene, this.colours, (on) => this.setExaggerated(on), (on) => this.showPredicted(on)), this.error, this.corner);
     new ResizeObserver(() => this.resize()).observe(this.element);
     this.look(this.view);
   }
@@ -92,61 +92,61 @@ export class SceneView {
   look(view: View): void {
     this.view = view;
     this.stage.look(view, this.arm.chain.tip.subarray(12, 15));
-    this.stage.on_moved = () => this.draw_soon(false);
-    this.view_buttons.forEach((button, i) => {
-      set_class(button, 'chosen', this.views[i] === view);
+    this.stage.onMoved = () => this.drawSoon(false);
+    this.viewButtons.forEach((button, i) => {
+      setClass(button, 'chosen', this.views[i] === view);
       button.setAttribute('aria-pressed', String(this.views[i] === view));
     });
-    this.draw_soon(false);
+    this.drawSoon(false);
   }
 
   // Shows a moment of the arm with the next frame.
   show(sample: Sample): void {
     this.sample = sample;
-    this.draw_soon(true);
+    this.drawSoon(true);
   }
 
   // Something of other parts of the page that stands in the scene, but not in the picture of the tip's camera.
-  add_helper(object: THREE.Object3D): void {
+  addHelper(object: THREE.Object3D): void {
     this.stage.scene.add(object);
-    this.stage.hidden_from_tip.add(object);
+    this.stage.hiddenFromTip.add(object);
   }
 
-  say_in_corner(text: string): void {
-    set_text(this.corner, text);
+  sayInCorner(text: string): void {
+    setText(this.corner, text);
   }
 
   // Moves everything to the newest state without drawing: a headset draws by itself.
-  move_now(): void {
-    if (this.sample) this.move_all(this.sample);
+  moveNow(): void {
+    if (this.sample) this.moveAll(this.sample);
   }
 
-  tip_frame_now(): Float32Array {
+  tipFrameNow(): Float32Array {
     return this.arm.chain.tip;
   }
 
   // The headset is off: the canvas is this view's again.
-  after_vr(): void {
+  afterVr(): void {
     this.resize();
     this.look(this.view);
   }
 
-  private set_exaggerated(on: boolean): void {
+  private setExaggerated(on: boolean): void {
     this.exaggerate = on;
-    this.draw_soon(false);
+    this.drawSoon(false);
   }
 
-  private show_predicted(on: boolean): void {
+  private showPredicted(on: boolean): void {
     this.predicted.mesh.visible = on;
-    this.draw_soon(false);
+    this.drawSoon(false);
   }
 
-  private draw_soon(is_state: boolean): void {
-    if (is_state && !this.had_state) this.waits_since_ms = performance.now();
-    this.has_missed_one ||= is_state && this.had_state;
-    this.had_state ||= is_state;
-    if (this.is_due || this.stage.renderer.xr.isPresenting) return;
-    this.is_due = true;
+  private drawSoon(isState: boolean): void {
+    if (isState && !this.hadState) this.waitsSince_ms = performance.now();
+    this.hasMissedOne ||= isState && this.hadState;
+    this.hadState ||= isState;
+    if (this.isDue || this.stage.renderer.xr.isPresenting) return;
+    this.isDue = true;
     requestAnimationFrame((now_ms) => this.draw(now_ms));
   }
 
@@ -155,46 +155,46 @@ export class SceneView {
     if (width === 0 || height === 0 || this.stage.renderer.xr.isPresenting) return;
     this.stage.resize(width, height);
     const share = Math.min(1, width / 620);
-    const inset = { width: Math.round(kTipPicture.width * share), height: Math.round(kTipPicture.height * share), top: 8, left: 0 };
+    const inset = { width: Math.round(TIP_PICTURE.width * share), height: Math.round(TIP_PICTURE.height * share), top: 8, left: 0 };
     inset.left = width - inset.width - 8;
     this.stage.inset = inset;
-    Object.assign(this.tip_frame.style, { left: `${inset.left}px`, top: `${inset.top}px`, width: `${inset.width}px`, height: `${inset.height}px` });
+    Object.assign(this.tipFrame.style, { left: `${inset.left}px`, top: `${inset.top}px`, width: `${inset.width}px`, height: `${inset.height}px` });
     this.stage.render(this.arm.chain.tip); // at once: another size has emptied the canvas, and nobody may see that
   }
 
   private draw(now_ms: number): void {
-    this.is_due = false;
+    this.isDue = false;
     if (this.stage.renderer.xr.isPresenting) return;
-    if (!this.turns.takes(now_ms)) return this.draw_soon(false);
-    if (this.sample) this.move_all(this.sample);
+    if (!this.turns.takes(now_ms)) return this.drawSoon(false);
+    if (this.sample) this.moveAll(this.sample);
     const tip = this.arm.chain.tip;
-    if (this.view.follows_tip) this.stage.follow(tip.subarray(12, 15));
+    if (this.view.followsTip) this.stage.follow(tip.subarray(12, 15));
     this.stage.render(tip);
-    if (now_ms - this.labels_at_ms > kLabels_ms || !this.had_state) {
-      this.labels_at_ms = now_ms;
-      this.place_labels();
-      set_text(this.error, this.error_text);
+    if (now_ms - this.labelsAt_ms > LABELS_MS || !this.hadState) {
+      this.labelsAt_ms = now_ms;
+      this.placeLabels();
+      setText(this.error, this.errorText);
     }
     const done_ms = performance.now();
-    const is_coarser_or_finer = this.had_state && this.stage.pace.drawn(done_ms, done_ms - this.waits_since_ms);
-    if (this.had_state) this.turns.drawn(now_ms, this.has_missed_one);
-    this.had_state = this.has_missed_one = false;
-    if (is_coarser_or_finer) this.resize();
-    this.on_drawn(now_ms);
+    const isCoarserOrFiner = this.hadState && this.stage.pace.drawn(done_ms, done_ms - this.waitsSince_ms);
+    if (this.hadState) this.turns.drawn(now_ms, this.hasMissedOne);
+    this.hadState = this.hasMissedOne = false;
+    if (isCoarserOrFiner) this.resize();
+    this.onDrawn(now_ms);
   }
 
-  private move_all(sample: Sample): void {
+  private moveAll(sample: Sample): void {
     const measured = values(sample, 'measured_js_deg');
     const setpoint = values(sample, 'setpoint_js_deg');
-    this.arm.mark_held(new Set((sample.facts.held ?? []).map((theta) => (theta - 1) >> 1)));
+    this.arm.markHeld(new Set((sample.facts.held ?? []).map((theta) => (theta - 1) >> 1)));
     this.arm.set(measured, values(sample, 'tension_N'));
-    this.move_ghost(measured, setpoint);
+    this.moveGhost(measured, setpoint);
     const stop = values(sample, 'verdict.stop_js_deg');
-    const predicted = is_known(stop) ? stop : values(sample, 'verdict.twin_js_deg');
-    if (this.predicted.mesh.visible && is_known(predicted)) this.predicted.set(predicted);
+    const predicted = isKnown(stop) ? stop : values(sample, 'verdict.twin_js_deg');
+    if (this.predicted.mesh.visible && isKnown(predicted)) this.predicted.set(predicted);
     this.nodes.set(this.arm.chain.nodes);
     this.goal.set(values(sample, 'goal_cp'));
-    this.move_payload(sample.facts);
+    this.movePayload(sample.facts);
     const link = value(sample, 'clearance.link') - 1;
     const piece = this.arm.chain.pieces[link];
     this.closest.set(values(sample, 'clearance.where_m'), piece ? this.arm.chain.matrices.subarray(16 * link, 16 * link + 16) : null, piece?.length_m ?? 0);
@@ -202,41 +202,41 @@ export class SceneView {
 
   // A payload on the tip goes along with the measured arm. The camera then looks past it, as the one that sees the adapter
   // does.
-  private move_payload(facts: Facts): void {
+  private movePayload(facts: Facts): void {
     if (!this.payload) return;
-    const place = payload_place(facts, this.scene);
+    const place = payloadPlace(facts, this.scene);
     this.payload.set(place, this.arm.chain.tip);
-    this.payload.adapter.visible = is_at_site(facts, this.scene, this.robot);
-    if (place === 'tip') this.stage.hidden_from_tip.add(this.payload.mesh);
-    else this.stage.hidden_from_tip.delete(this.payload.mesh);
+    this.payload.adapter.visible = isAtSite(facts, this.scene, this.robot);
+    if (place === 'tip') this.stage.hiddenFromTip.add(this.payload.mesh);
+    else this.stage.hiddenFromTip.delete(this.payload.mesh);
   }
 
   // The commanded arm is what the twin had predicted: the difference is the error of the prediction.
-  private move_ghost(measured: Float32Array, setpoint: Float32Array): void {
-    this.ghost.mesh.visible = is_known(setpoint);
+  private moveGhost(measured: Float32Array, setpoint: Float32Array): void {
+    this.ghost.mesh.visible = isKnown(setpoint);
     if (!this.ghost.mesh.visible) return;
-    const factor = this.exaggerate ? kExaggeration : 1;
-    for (let i = 0; i < setpoint.length; ++i) this.drawn_angles[i] = setpoint[i];
-    this.ghost.set(this.drawn_angles);
+    const factor = this.exaggerate ? EXAGGERATION : 1;
+    for (let i = 0; i < setpoint.length; ++i) this.drawnAngles[i] = setpoint[i];
+    this.ghost.set(this.drawnAngles);
     const error_m = distance(this.ghost.chain.tip.subarray(12, 15), this.arm.chain.tip.subarray(12, 15));
     if (factor > 1) {
-      for (let i = 0; i < setpoint.length; ++i) this.drawn_angles[i] = measured[i] + factor * (setpoint[i] - measured[i]);
-      this.ghost.set(this.drawn_angles);
+      for (let i = 0; i < setpoint.length; ++i) this.drawnAngles[i] = measured[i] + factor * (setpoint[i] - measured[i]);
+      this.ghost.set(this.drawnAngles);
     }
-    const drawn = this.exaggerate ? `, drawn ${kExaggeration} times as large` : '';
-    this.error_text = `prediction error ${(1000 * error_m).toFixed(1)} mm at the tip${drawn}`;
+    const drawn = this.exaggerate ? `, drawn ${EXAGGERATION} times as large` : '';
+    this.errorText = `prediction error ${(1000 * error_m).toFixed(1)} mm at the tip${drawn}`;
   }
 
-  private place_labels(): void {
+  private placeLabels(): void {
     const { scene, sample, stage } = this;
     const chain = this.arm.chain;
     const labels: Label[] = [];
     const clear_m = sample ? value(sample, 'clearance.distance_m') : NaN;
-    const is_near = clear_m < kNear_m;
-    if (sample && is_near) {
+    const isNear = clear_m < NEAR_M;
+    if (sample && isNear) {
       const bound_m = value(sample, 'clearance.bound_m');
-      const sure = Number.isFinite(bound_m) ? ` \u00b1 ${length_text(bound_m)}` : '';
-      labels.push({ text: `${length_text(clear_m)} clear of ${sample.facts.clearance?.body ?? 'it'}${sure}`, place_m: values(sample, 'clearance.where_m').slice() });
+      const sure = Number.isFinite(bound_m) ? ` \u00b1 ${lengthText(bound_m)}` : '';
+      labels.push({ text: `${lengthText(clear_m)} clear of ${sample.facts.clearance?.body ?? 'it'}${sure}`, place_m: values(sample, 'clearance.where_m').slice() });
     }
     if (scene.rod) labels.push({ text: 'press rod: the goal', place_m: scene.rod.position_m });
     if (scene.slit) labels.push({ text: `slit, ${Math.round(2000 * scene.slit.half_gap_m)} mm`, place_m: scene.slit.frame.position_m });
@@ -244,7 +244,7 @@ export class SceneView {
     if (scene.adapter) labels.push({ text: 'adapter', place_m: scene.adapter.position_m });
     for (const body of scene.spheres ?? []) labels.push({ text: body.name, place_m: body.center_m });
     labels.push({ text: this.robot.kind === 'serial' ? 'base' : `base: ${3 * this.robot.segments.length} motors`, place_m: [-0.16, 0, 0.1] });
-    if (this.tip_label) labels.push({ text: this.tip_label, place_m: chain.tip.subarray(12, 15) });
+    if (this.tipLabel) labels.push({ text: this.tipLabel, place_m: chain.tip.subarray(12, 15) });
     for (const body of scene.convex ?? []) {
       const at = body.points_m?.[0] ?? body.cylinder?.from_m ?? body.chain?.points_m[0];
       if (at) labels.push({ text: body.name, place_m: at });

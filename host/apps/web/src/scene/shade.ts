@@ -2,11 +2,11 @@
 // processor where there is no graphics card.
 import * as THREE from 'three';
 
-const kSun = new THREE.Vector3(-0.3, -0.6, 0.75).normalize();
-const kDarkest = 0.5;
+const SUN = new THREE.Vector3(-0.3, -0.6, 0.75).normalize();
+const DARKEST = 0.5;
 
-function light_of(normal: THREE.Vector3): number {
-  return kDarkest + (1 - kDarkest) * (0.5 + 0.5 * normal.dot(kSun));
+function lightOf(normal: THREE.Vector3): number {
+  return DARKEST + (1 - DARKEST) * (0.5 + 0.5 * normal.dot(SUN));
 }
 
 // Gives the geometry a brightness for each vertex, by where its normal points in its own frame.
@@ -14,7 +14,7 @@ export function shaded(geometry: THREE.BufferGeometry): THREE.BufferGeometry {
   const normals = geometry.attributes.normal;
   const colours = new Float32Array(3 * normals.count);
   const normal = new THREE.Vector3();
-  for (let i = 0; i < normals.count; ++i) colours.fill(light_of(normal.fromBufferAttribute(normals, i)), 3 * i, 3 * i + 3);
+  for (let i = 0; i < normals.count; ++i) colours.fill(lightOf(normal.fromBufferAttribute(normals, i)), 3 * i, 3 * i + 3);
   geometry.setAttribute('color', new THREE.BufferAttribute(colours, 3));
   return geometry;
 }
@@ -30,7 +30,7 @@ export class Batch {
   private readonly colours: number[] = [];
 
   // With normals it is shaded; without, it has its colour everywhere.
-  add(geometry: THREE.BufferGeometry, matrix: THREE.Matrix4, colour: string, is_shaded: boolean): void {
+  add(geometry: THREE.BufferGeometry, matrix: THREE.Matrix4, colour: string, isShaded: boolean): void {
     const flat = geometry.index ? geometry.toNonIndexed() : geometry;
     const { position, normal } = flat.attributes;
     const turn = new THREE.Matrix3().getNormalMatrix(matrix);
@@ -38,7 +38,7 @@ export class Batch {
     const v = new THREE.Vector3();
     for (let i = 0; i < position.count; ++i) {
       this.places.push(...v.fromBufferAttribute(position, i).applyMatrix4(matrix).toArray());
-      const light = is_shaded ? light_of(v.fromBufferAttribute(normal, i).applyMatrix3(turn).normalize()) : 1;
+      const light = isShaded ? lightOf(v.fromBufferAttribute(normal, i).applyMatrix3(turn).normalize()) : 1;
       this.colours.push(rgb.r * light, rgb.g * light, rgb.b * light);
     }
   }

@@ -22,7 +22,7 @@ function way(y: number, wished: number): number {
 
 // Moves the areas, which are in order of importance: what comes first stays where it is, what follows goes to the
 // nearest free place above or below. `taken`: parts of the picture where no label may be.
-export function spread_labels(areas: Area[], width: number, height: number, taken: readonly Area[] = []): void {
+export function spreadLabels(areas: Area[], width: number, height: number, taken: readonly Area[] = []): void {
   const placed: Area[] = [...taken];
   for (const area of areas) {
     area.x = clamped(area.x, 2, width - area.width - 2);

@@ -2,11 +2,11 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { FramePace } from './frame_pace';
-import { write_camera_frame, type Ahead } from './tip_camera';
+import { writeCameraFrame, type Ahead } from './tip_camera';
 import type { View } from './views';
 
-const kField_deg = 38;
-const kTipField_deg = 70;
+const FIELD_DEG = 38;
+const TIP_FIELD_DEG = 70;
 
 THREE.ColorManagement.enabled = false; // colours as they are written: half a megabyte of shader work less a frame
 
@@ -19,17 +19,17 @@ export interface Inset {
 
 export class Stage {
   readonly scene = new THREE.Scene();
-  readonly camera = new THREE.PerspectiveCamera(kField_deg, 1, 0.05, 60);
+  readonly camera = new THREE.PerspectiveCamera(FIELD_DEG, 1, 0.05, 60);
   readonly renderer: THREE.WebGLRenderer;
   readonly pace = new FramePace();
   controls: OrbitControls;
   inset: Inset | null = null;
-  readonly hidden_from_tip = new Set<THREE.Object3D>(); // what would only be in the way of the tip's camera
-  tip_looks: Ahead = 'x';
-  on_moved: () => void = () => {}; // the person moved the camera
+  readonly hiddenFromTip = new Set<THREE.Object3D>(); // what would only be in the way of the tip's camera
+  tipLooks: Ahead = 'x';
+  onMoved: () => void = () => {}; // the person moved the camera
   width = 1;
   height = 1;
-  private readonly tip_camera = new THREE.PerspectiveCamera(kTipField_deg, 1, 0.03, 8);
+  private readonly tipCamera = new THREE.PerspectiveCamera(TIP_FIELD_DEG, 1, 0.03, 8);
   private followed = new THREE.Vector3();
 
   // Throws when the browser has no WebGL.
@@ -40,14 +40,14 @@ export class Stage {
     this.renderer = new THREE.WebGLRenderer({ canvas, context });
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.autoClear = true;
-    this.tip_camera.matrixAutoUpdate = false;
+    this.tipCamera.matrixAutoUpdate = false;
     this.controls = new OrbitControls(this.camera, canvas);
   }
 
   resize(width: number, height: number): void {
     this.width = Math.max(1, Math.round(width));
     this.height = Math.max(1, Math.round(height));
-    this.renderer.setPixelRatio(this.pace.pixel_ratio);
+    this.renderer.setPixelRatio(this.pace.pixelRatio);
     this.renderer.setSize(this.width, this.height, false);
     this.camera.aspect = this.width / this.height;
     this.camera.updateProjectionMatrix();
@@ -55,13 +55,13 @@ export class Stage {
 
   look(view: View, tip_m: ArrayLike<number>): void {
     this.controls.dispose();
-    const shift = view.follows_tip ? new THREE.Vector3(tip_m[0], tip_m[1], tip_m[2]) : new THREE.Vector3();
+    const shift = view.followsTip ? new THREE.Vector3(tip_m[0], tip_m[1], tip_m[2]) : new THREE.Vector3();
     this.followed.copy(shift);
     this.camera.up.set(...view.up);
     this.camera.position.set(...view.eye_m).add(shift);
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.target.set(...view.target_m).add(shift);
-    this.controls.addEventListener('change', () => this.on_moved());
+    this.controls.addEventListener('change', () => this.onMoved());
     this.controls.update();
   }
 
@@ -82,37 +82,37 @@ export class Stage {
     this.camera.updateMatrixWorld();
     renderer.render(this.scene, this.camera);
     if (!inset) return;
-    this.place_tip_camera(tip, inset);
+    this.placeTipCamera(tip, inset);
     const bottom = this.height - inset.top - inset.height;
     renderer.setViewport(inset.left, bottom, inset.width, inset.height);
     renderer.setScissor(inset.left, bottom, inset.width, inset.height);
-    this.render_from_tip();
+    this.renderFromTip();
   }
 
-  private render_from_tip(): void {
-    const hidden = [...this.hidden_from_tip].filter((object) => object.visible);
+  private renderFromTip(): void {
+    const hidden = [...this.hiddenFromTip].filter((object) => object.visible);
     for (const object of hidden) object.visible = false;
-    this.renderer.render(this.scene, this.tip_camera);
+    this.renderer.render(this.scene, this.tipCamera);
     for (const object of hidden) object.visible = true;
   }
 
   // The tip's picture onto a surface of its own, also while a headset shows the scene.
-  render_tip_to(target: THREE.WebGLRenderTarget, tip: Float32Array): void {
+  renderTipTo(target: THREE.WebGLRenderTarget, tip: Float32Array): void {
     const { renderer } = this;
     const before = renderer.getRenderTarget();
-    const is_xr = renderer.xr.enabled;
-    this.place_tip_camera(tip, target);
+    const isXr = renderer.xr.enabled;
+    this.placeTipCamera(tip, target);
     renderer.xr.enabled = false;
     renderer.setScissorTest(false);
     renderer.setRenderTarget(target);
-    this.render_from_tip();
+    this.renderFromTip();
     renderer.setRenderTarget(before);
-    renderer.xr.enabled = is_xr;
+    renderer.xr.enabled = isXr;
   }
 
-  private place_tip_camera(tip: Float32Array, inset: { width: number; height: number }): void {
-    const camera = this.tip_camera;
-    write_camera_frame(tip, this.tip_looks, camera.matrix.elements);
+  private placeTipCamera(tip: Float32Array, inset: { width: number; height: number }): void {
+    const camera = this.tipCamera;
+    writeCameraFrame(tip, this.tipLooks, camera.matrix.elements);
     const aspect = inset.width / inset.height;
     if (camera.aspect !== aspect) {
       camera.aspect = aspect;
@@ -123,7 +123,7 @@ export class Stage {
   }
 
   // Where a place of the base frame is in the picture [pixels]; null: behind the camera.
-  pixel_of(place_m: ArrayLike<number>): [number, number] | null {
+  pixelOf(place_m: ArrayLike<number>): [number, number] | null {
     const v = new THREE.Vector3(place_m[0], place_m[1], place_m[2]).project(this.camera);
     if (v.z > 1) return null;
     return [(v.x * 0.5 + 0.5) * this.width, (0.5 - v.y * 0.5) * this.height];

@@ -2,14 +2,14 @@
 import * as THREE from 'three';
 import { ConvexGeometry } from 'three/examples/jsm/geometries/ConvexGeometry.js';
 import type { Box, Convex, Robot, Scene, Slit, Triple } from '../model/robot';
-import { module_radius_m } from './arm_body';
+import { moduleRadius_m } from './arm_body';
 import type { SceneColours } from './palette';
 import { Batch, paint } from './shade';
 
-const kGlass = 0.13; // share of a plate's colour: what is behind it must be seen
-const kRodShown_m = 0.025; // the rod's ball is 10 mm: too small to find
-const kFloor = { size_m: 8, cells: 16, height_m: -1.2 };
-const kSlitShown_m = 2; // up and down from its middle
+const GLASS = 0.13; // share of a plate's colour: what is behind it must be seen
+const ROD_SHOWN_M = 0.025; // the rod's ball is 10 mm: too small to find
+const FLOOR = { size_m: 8, cells: 16, height_m: -1.2 };
+const SLIT_SHOWN_M = 2; // up and down from its middle
 
 const vector = (v: Triple) => new THREE.Vector3(...v);
 const at = (place: THREE.Vector3) => new THREE.Matrix4().setPosition(place);
@@ -32,8 +32,8 @@ class Surroundings {
   }
 
   ball(centre: Triple, radius_m: number, colour: string): void {
-    const is_small = radius_m < 0.1;
-    this.solid.add(new THREE.SphereGeometry(radius_m, is_small ? 10 : 20, is_small ? 6 : 14), at(vector(centre)), colour, true);
+    const isSmall = radius_m < 0.1;
+    this.solid.add(new THREE.SphereGeometry(radius_m, isSmall ? 10 : 20, isSmall ? 6 : 14), at(vector(centre)), colour, true);
   }
 
   convex(body: Convex): void {
@@ -55,23 +55,23 @@ class Surroundings {
     const corner = (u: number, w: number) =>
       vector(slit.frame.position_m).addScaledVector(vector(slit.u_axis), u).addScaledVector(vector(slit.w_axis), w);
     const long = slit.end_u_m - slit.mouth_u_m;
-    const corners = [corner(0, -kSlitShown_m), corner(0, kSlitShown_m), corner(long, kSlitShown_m), corner(long, -kSlitShown_m)];
+    const corners = [corner(0, -SLIT_SHOWN_M), corner(0, SLIT_SHOWN_M), corner(long, SLIT_SHOWN_M), corner(long, -SLIT_SHOWN_M)];
     const points = corners.flatMap((point, i) => [point, corners[(i + 1) % corners.length]]);
     this.lines.add(new THREE.BufferGeometry().setFromPoints(points), new THREE.Matrix4(), this.colours.slit, false);
   }
 
   floor(): void {
-    const half = kFloor.size_m / 2;
-    for (let i = 0; i <= kFloor.cells; ++i) {
-      const k = -half + (i * kFloor.size_m) / kFloor.cells;
+    const half = FLOOR.size_m / 2;
+    for (let i = 0; i <= FLOOR.cells; ++i) {
+      const k = -half + (i * FLOOR.size_m) / FLOOR.cells;
       const points = [new THREE.Vector3(k, -half), new THREE.Vector3(k, half), new THREE.Vector3(-half, k), new THREE.Vector3(half, k)];
-      const colour = k === 0 ? this.colours.grid_axis : this.colours.grid;
-      this.lines.add(new THREE.BufferGeometry().setFromPoints(points), at(new THREE.Vector3(0, 0, kFloor.height_m)), colour, false);
+      const colour = k === 0 ? this.colours.gridAxis : this.colours.grid;
+      this.lines.add(new THREE.BufferGeometry().setFromPoints(points), at(new THREE.Vector3(0, 0, FLOOR.height_m)), colour, false);
     }
   }
 
   group(): THREE.Group {
-    const glass = new THREE.MeshBasicMaterial({ vertexColors: true, transparent: true, opacity: kGlass, depthWrite: false });
+    const glass = new THREE.MeshBasicMaterial({ vertexColors: true, transparent: true, opacity: GLASS, depthWrite: false });
     const lines = new THREE.LineSegments(this.lines.geometry(), new THREE.LineBasicMaterial({ vertexColors: true }));
     return new THREE.Group().add(new THREE.Mesh(this.solid.geometry(), paint()), lines, new THREE.Mesh(this.glass.geometry(), glass));
   }
@@ -80,11 +80,11 @@ class Surroundings {
 export function surroundings(scene: Scene, robot: Robot, colours: SceneColours): THREE.Group {
   const all = new Surroundings(colours);
   all.floor();
-  all.bar([-0.155, 0, 0], [-0.005, 0, 0], 4 * module_radius_m(robot), colours.base); // what the root stands on
+  all.bar([-0.155, 0, 0], [-0.005, 0, 0], 4 * moduleRadius_m(robot), colours.base); // what the root stands on
   for (const box of scene.boxes ?? []) all.plate(box);
   for (const body of scene.spheres ?? []) all.ball(body.center_m, body.radius_m, colours.obstacle);
   for (const body of scene.convex ?? []) all.convex(body);
-  if (scene.rod) all.ball(scene.rod.position_m, Math.max(kRodShown_m, scene.rod.radius_m), colours.rod);
+  if (scene.rod) all.ball(scene.rod.position_m, Math.max(ROD_SHOWN_M, scene.rod.radius_m), colours.rod);
   if (scene.slit) all.slit(scene.slit);
   return all.group();
 }

@@ -3,7 +3,7 @@
 export type Ahead = 'x' | 'z';
 
 // Writes the camera's frame (it looks along its -z, y is up) for the tip's, both column by column.
-export function write_camera_frame(tip: ArrayLike<number>, ahead: Ahead, to: number[]): void {
+export function writeCameraFrame(tip: ArrayLike<number>, ahead: Ahead, to: number[]): void {
   const [forward, up, side] = ahead === 'x' ? [0, 8, -1] : [8, 0, 1];
   for (let r = 0; r < 3; ++r) {
     to[r] = side * tip[4 + r];

@@ -1,53 +1,53 @@
 // What a person can tell the arm by a button: what it will do, and why it cannot be done now.
 import type { Facts } from '../data/sample';
 import type { Role } from '../live/protocol';
-import { fault_row } from '../model/tables';
+import { faultRow } from '../model/tables';
 
 export interface Action {
   name: string;
   request: { op: string; command?: string };
   does: string; // what will happen
   // Why not now; empty: it can be asked for. lianad decides in the end.
-  blocked(facts: Facts, is_mine: boolean): string;
+  blocked(facts: Facts, isMine: boolean): string;
 }
 
-const kNotMine = 'Take motion first.';
+const NOT_MINE = 'Take motion first.';
 
-function mine(also: (facts: Facts) => string): (facts: Facts, is_mine: boolean) => string {
-  return (facts, is_mine) => (is_mine ? also(facts) : kNotMine);
+function mine(also: (facts: Facts) => string): (facts: Facts, isMine: boolean) => string {
+  return (facts, isMine) => (isMine ? also(facts) : NOT_MINE);
 }
 
 function enabled(facts: Facts): string {
   return facts.state === 'ENABLED' ? '' : 'Enable first.';
 }
 
-function enable_blocked(facts: Facts): string {
+function enableBlocked(facts: Facts): string {
   if (facts.stop) return 'An emergency stop is in force: clear it first.';
   if ((facts.faults ?? []).length > 0) return 'Faults are latched: clear them first.';
   if (facts.is_homed === false) return 'The arm is not homed.';
   return facts.state === 'DISABLED' ? '' : `It is ${facts.state ?? 'not known'}.`;
 }
 
-function retract_blocked(facts: Facts): string {
-  const worse = (facts.faults ?? []).find((fault) => fault_row(fault.number)?.retreat === false);
+function retractBlocked(facts: Facts): string {
+  const worse = (facts.faults ?? []).find((fault) => faultRow(fault.number)?.retreat === false);
   if (worse) return `Fault ${worse.number} does not allow it: clear first.`;
   return facts.retracted ? 'It is all the way back.' : enabled(facts);
 }
 
-function is_clear(facts: Facts): boolean {
+function isClear(facts: Facts): boolean {
   return (facts.faults ?? []).length === 0 && !facts.stop;
 }
 
-export const kActions: readonly Action[] = [
+export const ACTIONS: readonly Action[] = [
   {
     name: 'take motion', request: { op: 'acquire' },
     does: 'You alone can move the arm from now on. An emergency stop is cleared by it.',
-    blocked: (facts, is_mine) => (is_mine ? 'It is yours.' : facts.owner ? `${facts.owner} has it.` : ''),
+    blocked: (facts, isMine) => (isMine ? 'It is yours.' : facts.owner ? `${facts.owner} has it.` : ''),
   },
   { name: 'give back motion', request: { op: 'release' }, does: 'The arm comes to rest and holds; somebody else may take motion.', blocked: mine(() => '') },
   {
     name: 'enable', request: { op: 'state_command', command: 'enable' },
-    does: 'Brakes open, cables are tightened as planned (some seconds); the arm stays where it is.', blocked: mine(enable_blocked),
+    does: 'Brakes open, cables are tightened as planned (some seconds); the arm stays where it is.', blocked: mine(enableBlocked),
   },
   {
     name: 'disable', request: { op: 'state_command', command: 'disable' },
@@ -57,12 +57,12 @@ export const kActions: readonly Action[] = [
   {
     name: 'retract', request: { op: 'retract' },
     does: 'Stops, then goes back along the verified path it has come, to its beginning, a little slower than the way in. Hold ends it.',
-    blocked: mine(retract_blocked),
+    blocked: mine(retractBlocked),
   },
   {
     name: 'clear', request: { op: 'state_command', command: 'clear' },
     does: 'Looks again at what each fault names and clears those whose cause is gone; clears an emergency stop. Nothing moves.',
-    blocked: mine((f) => (is_clear(f) ? 'There is nothing to clear.' : '')),
+    blocked: mine((f) => (isClear(f) ? 'There is nothing to clear.' : '')),
   },
   {
     name: 'home', request: { op: 'state_command', command: 'home' },
@@ -71,6 +71,6 @@ export const kActions: readonly Action[] = [
 ];
 
 // Why a person of this role cannot ask for motion; empty: may ask.
-export function role_blocked(role: Role | undefined): string {
+export function roleBlocked(role: Role | undefined): string {
   return role === 'watch' ? 'Your role is to watch: you may stop the arm, nothing else.' : '';
 }

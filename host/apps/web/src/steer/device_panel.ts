@@ -2,12 +2,12 @@
 import { value, values } from '../data/sample';
 import type { Live } from '../live/live';
 import type { Ask } from '../live/pending_command';
-import { pitch_budget } from '../model/pitch_budget';
-import { hardware_text } from '../model/hardware';
-import { length_text } from '../model/sentence';
-import { h, set_class, set_text } from '../ui/dom';
+import { pitchBudget } from '../model/pitch_budget';
+import { hardwareText } from '../model/hardware';
+import { lengthText } from '../model/sentence';
+import { h, setClass, setText } from '../ui/dom';
 
-const kClearanceShown_m = 0.1; // the bar is full at this clearance
+const CLEARANCE_SHOWN_M = 0.1; // the bar is full at this clearance
 
 class Bar {
   private readonly fill = h('div', { class: 'bar-fill' });
@@ -18,11 +18,11 @@ class Bar {
     this.element = h('div', { class: 'gauge' }, h('span', { class: 'name' }, name), h('div', { class: 'bar' }, this.fill), this.text);
   }
 
-  set(share: number, is_bad: boolean, text: string): void {
+  set(share: number, isBad: boolean, text: string): void {
     const width = `${Math.round(100 * Math.max(0, Math.min(1, share)))}%`;
     if (this.fill.style.width !== width) this.fill.style.width = width;
-    set_class(this.fill, 'is-bad', is_bad);
-    set_text(this.text, text);
+    setClass(this.fill, 'is-bad', isBad);
+    setText(this.text, text);
   }
 }
 
@@ -51,26 +51,26 @@ export class DevicePanel {
     if (!sample) return;
     const clear_m = value(sample, 'clearance.distance_m');
     const level = facts.clearance?.level ?? '';
-    this.clearance.set(clear_m / kClearanceShown_m, level === 'slow' || level === 'refuse',
-      Number.isFinite(clear_m) ? `${length_text(clear_m)} from ${facts.clearance?.body}, sure by ${facts.clearance?.sure}` : 'none can be claimed');
-    const budget = pitch_budget(facts.held ?? [], values(sample, 'measured_js_deg'), values(sample, 'setpoint_js_deg'));
+    this.clearance.set(clear_m / CLEARANCE_SHOWN_M, level === 'slow' || level === 'refuse',
+      Number.isFinite(clear_m) ? `${lengthText(clear_m)} from ${facts.clearance?.body}, sure by ${facts.clearance?.sure}` : 'none can be claimed');
+    const budget = pitchBudget(facts.held ?? [], values(sample, 'measured_js_deg'), values(sample, 'setpoint_js_deg'));
     this.budget.set(budget?.share ?? 0, (budget?.share ?? 0) > 0.8,
       budget ? `${budget.used_deg.toFixed(3)} of ${budget.allowed_deg} deg, segment ${budget.segments.join(', ')}` : 'no pitch is held');
     const share = value(sample, 'verdict.share');
     this.limit.set(share, share > 0.95, Number.isFinite(share) ? `${(100 * share).toFixed(0)} % used by the last command` : '');
     const free = values(sample, 'measured_js_deg').length - (facts.held?.length ?? 0);
     const held = (facts.held ?? []).map((theta) => `theta ${theta}`).join(', ');
-    set_text(this.mode, `Mode ${free}+${facts.held?.length ?? 0}: ${held ? `${held} held (S2, white discs)` : 'all angles follow the tip'}`);
-    this.say_device(now_s);
-    set_text(this.hardware, hardware_text(sample));
+    setText(this.mode, `Mode ${free}+${facts.held?.length ?? 0}: ${held ? `${held} held (S2, white discs)` : 'all angles follow the tip'}`);
+    this.sayDevice(now_s);
+    setText(this.hardware, hardwareText(sample));
   }
 
-  private say_device(now_s: number): void {
+  private sayDevice(now_s: number): void {
     const { facts } = this.live;
-    const rate = this.live.samples_per_s.per_second(now_s);
+    const rate = this.live.sampleRate.perSecond(now_s);
     const who = !facts.device || facts.device === 'none' ? 'No device steers' : `${facts.device} ${facts.device_engaged ? 'steers: clutch engaged' : 'waits: clutch open'}`;
     const reason = facts.device_reason ? `, let go: ${facts.device_reason}` : '';
     const scale = facts.mapping ? `, scale ${facts.mapping.scale}, turns ${facts.mapping.rotation_scale}` : '';
-    set_text(this.device, `${who}${reason}${scale}${rate > 0 ? `, ${rate} samples/s` : ''}`);
+    setText(this.device, `${who}${reason}${scale}${rate > 0 ? `, ${rate} samples/s` : ''}`);
   }
 }

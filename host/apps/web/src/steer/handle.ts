@@ -2,13 +2,13 @@
 import * as THREE from 'three';
 import type { Stage } from '../scene/stage';
 
-const kNear_px = 28;
+const NEAR_PX = 28;
 
 export class TipHandle {
   readonly ball: THREE.Mesh;
-  on_drag: (place_m: [number, number, number]) => void = () => {};
-  on_drop: () => void = () => {};
-  is_enabled = false;
+  onDrag: (place_m: [number, number, number]) => void = () => {};
+  onDrop: () => void = () => {};
+  isEnabled = false;
   private pointer: number | null = null;
   private readonly plane = new THREE.Plane();
   private readonly ray = new THREE.Raycaster();
@@ -27,7 +27,7 @@ export class TipHandle {
 
   // Where the tip is commanded to be.
   place(tip_m: ArrayLike<number>): void {
-    this.ball.visible = this.is_enabled && Number.isFinite(tip_m[0]);
+    this.ball.visible = this.isEnabled && Number.isFinite(tip_m[0]);
     this.ball.position.set(tip_m[0], tip_m[1], tip_m[2]);
   }
 
@@ -38,31 +38,31 @@ export class TipHandle {
 
   private take(event: PointerEvent): void {
     if (!this.ball.visible || event.button !== 0) return;
-    const at = this.stage.pixel_of(this.ball.position.toArray());
+    const at = this.stage.pixelOf(this.ball.position.toArray());
     const [x, y] = this.pixel(event);
-    if (!at || Math.hypot(at[0] - x, at[1] - y) > kNear_px) return;
+    if (!at || Math.hypot(at[0] - x, at[1] - y) > NEAR_PX) return;
     event.stopImmediatePropagation(); // the view does not turn with it
     this.pointer = event.pointerId;
     this.stage.canvas.setPointerCapture(event.pointerId);
     this.plane.setFromNormalAndCoplanarPoint(this.stage.camera.getWorldDirection(new THREE.Vector3()), this.ball.position);
-    const place = this.place_under(event);
+    const place = this.placeUnder(event);
     this.offset.copy(this.ball.position).sub(place ?? this.ball.position);
   }
 
   private drag(event: PointerEvent): void {
     if (event.pointerId !== this.pointer) return;
     event.stopImmediatePropagation();
-    const place = this.place_under(event)?.add(this.offset);
-    if (place) this.on_drag([place.x, place.y, place.z]);
+    const place = this.placeUnder(event)?.add(this.offset);
+    if (place) this.onDrag([place.x, place.y, place.z]);
   }
 
   private drop(): void {
     if (this.pointer === null) return;
     this.pointer = null;
-    this.on_drop();
+    this.onDrop();
   }
 
-  private place_under(event: PointerEvent): THREE.Vector3 | null {
+  private placeUnder(event: PointerEvent): THREE.Vector3 | null {
     const [x, y] = this.pixel(event);
     const screen = new THREE.Vector2((2 * x) / this.stage.width - 1, 1 - (2 * y) / this.stage.height);
     this.ray.setFromCamera(screen, this.stage.camera);

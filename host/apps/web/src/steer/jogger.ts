@@ -1,18 +1,18 @@
 // Jogging the tip: a stream of servo_cp at 60 Hz while keys, buttons or the mouse ask for it, and a hold when they let go.
-import { is_known, values } from '../data/sample';
+import { isKnown, values } from '../data/sample';
 import type { Connection } from '../live/connection';
 import type { Live } from '../live/live';
 import type { Answer } from '../live/protocol';
 import type { Pose } from '../model/vector';
-import { next_goal, sum_of, towards, type JogSpeed } from './jog';
+import { nextGoal, sumOf, towards, type JogSpeed } from './jog';
 import type { Direction } from './keyboard';
 
-const kPeriod_ms = 16;
-const kTimeToLive_s = 0.3; // the arm holds when this page stops sending
+const PERIOD_MS = 16;
+const TIME_TO_LIVE_S = 0.3; // the arm holds when this page stops sending
 
 export class Jogger {
-  speed: JogSpeed = { tip_m_s: 0.03, turn_rad_s: 0.1, in_tip: false };
-  on_error: (answer: Answer) => void = () => {};
+  speed: JogSpeed = { tip_m_s: 0.03, turn_rad_s: 0.1, inTip: false };
+  onError: (answer: Answer) => void = () => {};
   sent = 0;
   private readonly asked = new Map<string, Direction>();
   private target_m: [number, number, number] | null = null; // where the mouse drags the tip
@@ -22,7 +22,7 @@ export class Jogger {
 
   constructor(private readonly live: Live, private readonly connection: Connection) {}
 
-  get is_jogging(): boolean {
+  get isJogging(): boolean {
     return this.timer !== 0;
   }
 
@@ -37,7 +37,7 @@ export class Jogger {
     if (this.asked.size === 0 && !this.target_m) this.end();
   }
 
-  drag_to(place_m: [number, number, number]): void {
+  dragTo(place_m: [number, number, number]): void {
     this.target_m = place_m;
     this.begin();
   }
@@ -48,7 +48,7 @@ export class Jogger {
   }
 
   // Ends everything at once: the window lost the focus, the arm was stopped.
-  let_go(): void {
+  letGo(): void {
     this.asked.clear();
     this.target_m = null;
     this.end();
@@ -58,7 +58,7 @@ export class Jogger {
     if (this.timer !== 0) return;
     this.goal = null;
     this.last_ms = performance.now();
-    this.timer = window.setInterval(() => this.send(), kPeriod_ms);
+    this.timer = window.setInterval(() => this.send(), PERIOD_MS);
     this.send();
   }
 
@@ -66,23 +66,23 @@ export class Jogger {
     if (this.timer === 0) return;
     window.clearInterval(this.timer);
     this.timer = 0;
-    if (this.live.is_mine) this.connection.tell({ op: 'hold' }, this.on_error);
+    if (this.live.isMine) this.connection.tell({ op: 'hold' }, this.onError);
   }
 
   private send(): void {
     const { sample, welcome } = this.live;
     const commanded = sample ? values(sample, 'setpoint_cp') : new Float32Array(0);
-    if (!welcome || !is_known(commanded)) return;
+    if (!welcome || !isKnown(commanded)) return;
     const now_ms = performance.now();
     const passed_s = (now_ms - this.last_ms) / 1000;
     this.last_ms = now_ms;
     const { limits } = welcome.robot;
     this.goal = this.target_m
       ? towards(this.goal, commanded, this.target_m, this.speed.tip_m_s, passed_s, limits)
-      : next_goal(this.goal, commanded, sum_of(this.asked.values()), this.speed, passed_s, limits);
+      : nextGoal(this.goal, commanded, sumOf(this.asked.values()), this.speed, passed_s, limits);
     ++this.sent;
-    this.connection.tell({ op: 'servo_cp', goal: this.goal, ttl_s: kTimeToLive_s }, (answer) => {
-      this.on_error(answer);
+    this.connection.tell({ op: 'servo_cp', goal: this.goal, ttl_s: TIME_TO_LIVE_S }, (answer) => {
+      this.onError(answer);
       this.goal = null; // begins anew at the commanded tip
     });
   }

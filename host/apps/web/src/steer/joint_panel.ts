@@ -4,9 +4,9 @@ import { values } from '../data/sample';
 import type { Live } from '../live/live';
 import type { Welcome } from '../live/protocol';
 import type { Ask } from '../live/pending_command';
-import { angle_count, angle_name, angle_range_deg } from '../model/robot';
-import { segment_colour } from '../scene/palette';
-import { h, set_text } from '../ui/dom';
+import { angleCount, angleName, angleRange_deg } from '../model/robot';
+import { segmentColour } from '../scene/palette';
+import { h, setText } from '../ui/dom';
 
 export class JointPanel {
   readonly element: HTMLElement;
@@ -17,15 +17,15 @@ export class JointPanel {
 
   constructor(private readonly live: Live, welcome: Welcome, ask: Ask) {
     const { robot } = welcome;
-    const count = angle_count(robot);
+    const count = angleCount(robot);
     this.outputs = Array.from({ length: count }, () => h('output', {}));
     this.now = Array.from({ length: count }, () => h('span', { class: 'now' }));
     this.sliders = Array.from({ length: count }, (_, i) => {
-      const [min, max] = angle_range_deg(robot, i);
-      return h('input', { type: 'range', min, max, step: 0.1, value: 0, 'aria-label': `goal of ${angle_name(robot, i)} in degrees`, oninput: () => this.touch(i) });
+      const [min, max] = angleRange_deg(robot, i);
+      return h('input', { type: 'range', min, max, step: 0.1, value: 0, 'aria-label': `goal of ${angleName(robot, i)} in degrees`, oninput: () => this.touch(i) });
     });
     const rows = this.sliders.map((slider, i) =>
-      h('div', { class: 'joint' }, h('span', { class: 'name', style: `border-color:${segment_colour(robot.kind === 'serial' ? i : i >> 1)}` }, angle_name(robot, i)), slider, this.outputs[i], this.now[i]));
+      h('div', { class: 'joint' }, h('span', { class: 'name', style: `border-color:${segmentColour(robot.kind === 'serial' ? i : i >> 1)}` }, angleName(robot, i)), slider, this.outputs[i], this.now[i]));
     const poses = h('select', { 'aria-label': 'named pose', onchange: () => this.set(robot.named_poses_deg[poses.value] ?? []) },
       h('option', { value: '' }, 'named pose'), ...Object.keys(robot.named_poses_deg).map((name) => h('option', { value: name }, name.replaceAll('_', ' '))));
     this.element = h('section', { class: 'card', 'aria-label': 'Angles' }, h('h2', {}, 'Angles [deg]'), ...rows,
@@ -42,7 +42,7 @@ export class JointPanel {
 
   update(): void {
     const measured = this.live.sample ? values(this.live.sample, 'measured_js_deg') : [];
-    this.now.forEach((element, i) => set_text(element, i < measured.length ? measured[i].toFixed(1) : ''));
+    this.now.forEach((element, i) => setText(element, i < measured.length ? measured[i].toFixed(1) : ''));
     this.commanded_deg().forEach((angle_deg, i) => {
       if (!this.touched.has(i) && i < this.sliders.length) this.sliders[i].value = String(angle_deg);
     });
@@ -73,6 +73,6 @@ export class JointPanel {
   }
 
   private say(): void {
-    this.outputs.forEach((output, i) => set_text(output, Number(this.sliders[i].value).toFixed(1)));
+    this.outputs.forEach((output, i) => setText(output, Number(this.sliders[i].value).toFixed(1)));
   }
 }

@@ -3,7 +3,7 @@
 // Velocity of the tip that a key asks for: along x, y, z and about them, -1 to 1.
 export type Direction = readonly [number, number, number, number, number, number];
 
-const kJog: Record<string, Direction> = {
+const JOG: Record<string, Direction> = {
   KeyW: [1, 0, 0, 0, 0, 0],
   KeyS: [-1, 0, 0, 0, 0, 0],
   KeyA: [0, 1, 0, 0, 0, 0],
@@ -29,18 +29,18 @@ export interface Key {
 }
 
 // Escape stops whatever has the focus; everything else only outside of fields where people write.
-export function action_of(key: Key, in_field: boolean): Action | null {
+export function actionOf(key: Key, inField: boolean): Action | null {
   if (key.key === 'Escape') return { kind: 'stop' };
-  if (in_field || key.ctrlKey || key.altKey || key.metaKey) return null;
+  if (inField || key.ctrlKey || key.altKey || key.metaKey) return null;
   if (key.code === 'KeyH') return { kind: 'hold' };
   const view = /^Digit([1-9])$/.exec(key.code);
   if (view) return { kind: 'view', index: Number(view[1]) - 1 };
-  const direction = kJog[key.code];
+  const direction = JOG[key.code];
   return direction ? { kind: 'jog', direction } : null;
 }
 
 // Does this element take letters itself?
-export function is_field(element: { tagName: string; type?: string } | null): boolean {
+export function isField(element: { tagName: string; type?: string } | null): boolean {
   if (!element) return false;
   if (element.tagName === 'TEXTAREA' || element.tagName === 'SELECT') return true;
   return element.tagName === 'INPUT' && !['checkbox', 'radio', 'button'].includes(element.type ?? 'text');

@@ -3,7 +3,7 @@ import { value, values } from '../data/sample';
 import type { Live } from '../live/live';
 import type { Ask } from '../live/pending_command';
 import type { CableRobot } from '../model/robot';
-import { h, set_text } from '../ui/dom';
+import { h, setText } from '../ui/dom';
 
 export class ShapePanel {
   readonly element: HTMLElement;
@@ -11,7 +11,7 @@ export class ShapePanel {
   private readonly fields: HTMLInputElement[];
   private readonly missing = h('span', { class: 'hint' });
   private readonly boxes: HTMLInputElement[];
-  private readonly held_now = h('span', { class: 'hint' });
+  private readonly heldNow = h('span', { class: 'hint' });
 
   constructor(private readonly live: Live, robot: CableRobot, ask: Ask) {
     const nodes = robot.segments.slice(0, -1).map((_, m) => m + 1);
@@ -29,16 +29,16 @@ export class ShapePanel {
         h('button', { type: 'button', onclick: () => ask('shape', { op: 'shape', nodes: [] }) }, 'no target'),
         h('label', { title: 'the best of all shapes is looked for first; the arm has to be at rest, and its middle may move far' }, search, 'search'), this.missing),
       h('div', { class: 'filter' }, 'hold pitch at 0: ', ...this.boxes.map((box, m) => h('label', {}, box, String(m + 1))),
-        h('button', { type: 'button', title: 'held angles go to their targets slowly while the tip stays', onclick: () => ask('hold angles', { op: 'hold_theta', held: held() }) }, 'go'), this.held_now));
+        h('button', { type: 'button', title: 'held angles go to their targets slowly while the tip stays', onclick: () => ask('hold angles', { op: 'hold_theta', held: held() }) }, 'go'), this.heldNow));
   }
 
   update(): void {
     const { sample, facts } = this.live;
     const missing_m = sample ? value(sample, 'shape.missing_m') : NaN;
     const searching = facts.shape?.searching ? 'searching; ' : '';
-    set_text(this.missing, Number.isFinite(missing_m) ? `${searching}missing ${(1000 * missing_m).toFixed(0)} mm${facts.shape?.settled ? ', settled' : ''}` : '');
+    setText(this.missing, Number.isFinite(missing_m) ? `${searching}missing ${(1000 * missing_m).toFixed(0)} mm${facts.shape?.settled ? ', settled' : ''}` : '');
     const held = facts.held ?? [];
-    set_text(this.held_now, held.length === 0 ? 'now: none' : `now: theta ${held.join(', ')}${facts.held_at_target ? ', there' : ', on the way'}`);
+    setText(this.heldNow, held.length === 0 ? 'now: none' : `now: theta ${held.join(', ')}${facts.held_at_target ? ', there' : ', on the way'}`);
   }
 
   private take(): void {

@@ -23,10 +23,10 @@ export function h<K extends keyof HTMLElementTagNameMap>(
 }
 
 // Writes a text only where it changed: what did not change is not laid out again, nor read aloud again.
-export function set_text(element: Element, text: string): void {
+export function setText(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }
 
-export function set_class(element: Element, name: string, on: boolean): void {
+export function setClass(element: Element, name: string, on: boolean): void {
   if (element.classList.contains(name) !== on) element.classList.toggle(name, on);
 }

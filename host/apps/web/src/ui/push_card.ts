@@ -1,8 +1,8 @@
 // The card of an arm that pushes a payload or is led by its camera; not there for others.
 import type { Sample } from '../data/sample';
-import { push_lines } from '../model/force_control_text';
+import { pushLines } from '../model/force_control_text';
 import type { Scene } from '../model/robot';
-import { h, set_text } from './dom';
+import { h, setText } from './dom';
 
 export class PushCard {
   readonly element: HTMLElement;
@@ -14,13 +14,13 @@ export class PushCard {
   }
 
   show(sample: Sample): void {
-    const lines = push_lines(sample, this.scene);
+    const lines = pushLines(sample, this.scene);
     if (this.list.children.length === 0) this.list.append(...lines.flatMap(([name]) => [h('dt', {}, name), h('dd')]));
     this.element.hidden = lines.every(([, text]) => text === '');
     lines.forEach(([, text], i) => {
       const [name, place] = [this.list.children[2 * i], this.list.children[2 * i + 1]] as HTMLElement[];
       name.hidden = place.hidden = text === '';
-      set_text(place, text);
+      setText(place, text);
     });
   }
 }

@@ -2,18 +2,18 @@
 import type { Theme } from '../scene/palette';
 import { h } from './dom';
 
-const kKey = 'liana-theme';
+const KEY = 'liana-theme';
 
 function kept(): Theme | null {
   try {
-    const theme = localStorage.getItem(kKey);
+    const theme = localStorage.getItem(KEY);
     return theme === 'dark' || theme === 'light' ? theme : null;
   } catch {
     return null; // file:// may have no storage
   }
 }
 
-export function theme_now(): Theme {
+export function themeNow(): Theme {
   return kept() ?? (matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark');
 }
 
@@ -22,13 +22,13 @@ export function apply(theme: Theme): void {
 }
 
 // Switches to the other theme; `changed` draws again what has colours of its own.
-export function theme_button(changed: (theme: Theme) => void): HTMLElement {
+export function themeButton(changed: (theme: Theme) => void): HTMLElement {
   return h('button', {
     type: 'button', class: 'quiet', title: 'dark or light', 'aria-label': 'switch between dark and light',
     onclick: () => {
       const theme = document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark';
       try {
-        localStorage.setItem(kKey, theme);
+        localStorage.setItem(KEY, theme);
       } catch {
         // for this time only, then
       }

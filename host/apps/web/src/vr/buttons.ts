@@ -6,11 +6,11 @@ export interface Pressed {
   buttons: readonly { pressed: boolean }[];
 }
 
-const kLower = 4; // A or X
-const kUpper = 5; // B or Y
-const kActions: Record<'right' | 'left', Record<number, VrAction>> = {
-  right: { [kLower]: 'hold', [kUpper]: 'stop' },
-  left: { [kLower]: 'mode', [kUpper]: 'scale' },
+const LOWER = 4; // A or X
+const UPPER = 5; // B or Y
+const ACTIONS: Record<'right' | 'left', Record<number, VrAction>> = {
+  right: { [LOWER]: 'hold', [UPPER]: 'stop' },
+  left: { [LOWER]: 'mode', [UPPER]: 'scale' },
 };
 
 export class VrButtons {
@@ -19,26 +19,26 @@ export class VrButtons {
   // Those that went down since the last call.
   pressed(side: 'right' | 'left', gamepad: Pressed | null): VrAction[] {
     const actions: VrAction[] = [];
-    for (const index of [kLower, kUpper]) {
+    for (const index of [LOWER, UPPER]) {
       const key = `${side} ${index}`;
-      const is_down = gamepad?.buttons[index]?.pressed ?? false;
-      if (is_down && !this.was.has(key)) actions.push(kActions[side][index]);
-      if (is_down) this.was.add(key);
+      const isDown = gamepad?.buttons[index]?.pressed ?? false;
+      if (isDown && !this.was.has(key)) actions.push(ACTIONS[side][index]);
+      if (isDown) this.was.add(key);
       else this.was.delete(key);
     }
     return actions;
   }
 }
 
-export const kScales = [0.5, 1, 2, 4];
+export const SCALES = [0.5, 1, 2, 4];
 
 // The scale after this one, around.
-export function next_scale(scale: number): number {
-  const at = kScales.findIndex((s) => s > scale);
-  return at < 0 ? kScales[0] : kScales[at];
+export function nextScale(scale: number): number {
+  const at = SCALES.findIndex((s) => s > scale);
+  return at < 0 ? SCALES[0] : SCALES[at];
 }
 
 // Mode: which node the left handle moves; after the last one none (0), where the tip alone is steered.
-export function next_node(node: number, nodes: number): number {
+export function nextNode(node: number, nodes: number): number {
   return (node + 1) % (nodes + 1);
 }

@@ -6,7 +6,7 @@ import { multiply, normalised, rotated, type Quaternion } from '../model/vector'
 export interface Handle {
   position_m: readonly [number, number, number];
   attitude: Quaternion;
-  is_tracked: boolean;
+  isTracked: boolean;
   deadman: number; // 0 to 1: trigger or squeeze, whichever is held more
 }
 
@@ -24,30 +24,30 @@ export interface VrSample {
 }
 
 // From the headset's frame (x right, y up, z back) to the base's (x forward, y left, z up) for a person who looks along x.
-export const kUpright: Quaternion = [0.5, 0.5, -0.5, -0.5];
+export const UPRIGHT: Quaternion = [0.5, 0.5, -0.5, -0.5];
 
 // The same when the person has turned the world by `turn_rad` about the vertical.
-export function device_from_headset(turn_rad: number): Quaternion {
-  return normalised(multiply([Math.cos(turn_rad / 2), 0, 0, Math.sin(turn_rad / 2)], kUpright));
+export function deviceFromHeadset(turn_rad: number): Quaternion {
+  return normalised(multiply([Math.cos(turn_rad / 2), 0, 0, Math.sin(turn_rad / 2)], UPRIGHT));
 }
 
-const kGripped = 0.5; // of a trigger, as the gateway has it
+const GRIPPED = 0.5; // of a trigger, as the gateway has it
 
-const kOrigin = [0, 0, 0, 1, 0, 0, 0];
+const ORIGIN = [0, 0, 0, 1, 0, 0, 0];
 
 export class HandleSamples {
-  private readonly last: Record<'right' | 'left', number[]> = { right: kOrigin, left: kOrigin };
+  private readonly last: Record<'right' | 'left', number[]> = { right: ORIGIN, left: ORIGIN };
   private last_us = -1;
-  private readonly must_let_go = new Set<'right' | 'left'>();
+  private readonly mustLetGo = new Set<'right' | 'left'>();
 
   // The headset was re-centred: poses from now on are not those of the grip. Each handle steers again after it was let go.
   reset(): void {
-    this.must_let_go.add('right').add('left');
+    this.mustLetGo.add('right').add('left');
   }
 
   // A person holds a trigger that does not count any more.
   get waits(): boolean {
-    return this.must_let_go.size > 0;
+    return this.mustLetGo.size > 0;
   }
 
   // One sample; a handle that is null, or is not tracked, repeats its last pose and is not valid. Times strictly increase.
@@ -57,11 +57,11 @@ export class HandleSamples {
   }
 
   private one(side: 'right' | 'left', handle: Handle | null, device: Quaternion): HandleSample {
-    const valid = !!handle && handle.is_tracked;
+    const valid = !!handle && handle.isTracked;
     if (valid) this.last[side] = [...rotated(device, handle.position_m), ...normalised(multiply(device, handle.attitude))];
     const trigger = Math.max(0, Math.min(1, handle?.deadman ?? 0));
-    if (trigger < kGripped) this.must_let_go.delete(side);
-    if (this.must_let_go.has(side)) return { valid, trigger: 0, pose: this.last[side], stale: true };
+    if (trigger < GRIPPED) this.mustLetGo.delete(side);
+    if (this.mustLetGo.has(side)) return { valid, trigger: 0, pose: this.last[side], stale: true };
     return { valid, trigger, pose: this.last[side] };
   }
 }

@@ -1,44 +1,44 @@
 // Where the person stands in the arm's world: beside the base, looking along the arm, at a comfortable scale.
 import * as THREE from 'three';
-import { device_from_headset } from './handles';
+import { deviceFromHeadset } from './handles';
 
-const kPlace_m = new THREE.Vector3(-1.2, -0.75, -1.1); // the floor under the person, in the base frame, at scale 1
-const kWorldScales = [0.25, 0.5, 1];
-const kTurn_rad = Math.PI / 6;
+const PLACE_M = new THREE.Vector3(-1.2, -0.75, -1.1); // the floor under the person, in the base frame, at scale 1
+const WORLD_SCALES = [0.25, 0.5, 1];
+const TURN_RAD = Math.PI / 6;
 
 export class Rig {
   readonly group = new THREE.Group();
   turn_rad = 0.1; // obstacle to the left, arm and slit ahead
-  private scale = 1; // index of kWorldScales
+  private scale = 1; // index of WORLD_SCALES
 
   constructor(private readonly reach_m: number) {
     this.group.matrixAutoUpdate = false;
     this.place();
   }
 
-  get world_scale(): number {
-    return kWorldScales[this.scale];
+  get worldScale(): number {
+    return WORLD_SCALES[this.scale];
   }
 
   // Turns the person by steps, and makes the world smaller or larger: thumbsticks.
   step(turns: number, scales: number): void {
-    this.turn_rad += turns * kTurn_rad;
-    this.scale = Math.max(0, Math.min(kWorldScales.length - 1, this.scale + scales));
+    this.turn_rad += turns * TURN_RAD;
+    this.scale = Math.max(0, Math.min(WORLD_SCALES.length - 1, this.scale + scales));
     this.place();
   }
 
   private place(): void {
-    const [w, x, y, z] = device_from_headset(this.turn_rad);
-    const grown = 1 / this.world_scale; // a person twice as large sees the arm half as large
-    const place = kPlace_m.clone().multiplyScalar(Math.max(1, this.reach_m / 4) * (0.5 + 0.5 * grown));
-    place.z = kPlace_m.z * grown + 0.25;
+    const [w, x, y, z] = deviceFromHeadset(this.turn_rad);
+    const grown = 1 / this.worldScale; // a person twice as large sees the arm half as large
+    const place = PLACE_M.clone().multiplyScalar(Math.max(1, this.reach_m / 4) * (0.5 + 0.5 * grown));
+    place.z = PLACE_M.z * grown + 0.25;
     this.group.matrix.compose(place, new THREE.Quaternion(x, y, z, w), new THREE.Vector3(grown, grown, grown));
     this.group.matrixWorldNeedsUpdate = true;
   }
 }
 
 // How far the arm reaches: rings about its base.
-export function reach_rings(reach_m: number, colour: string): THREE.Group {
+export function reachRings(reach_m: number, colour: string): THREE.Group {
   const group = new THREE.Group();
   const points = Array.from({ length: 64 }, (_, i) => {
     const angle = (i / 64) * 2 * Math.PI;

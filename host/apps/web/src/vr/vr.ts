@@ -6,17 +6,17 @@ import type { Live } from '../live/live';
 import type { Answer } from '../live/protocol';
 import type { Condition } from '../model/alarms';
 import { reach_m, type CableRobot } from '../model/robot';
-import { length_text, sentence_of } from '../model/sentence';
+import { lengthText, sentenceOf } from '../model/sentence';
 import type { SceneView } from '../scene/scene_view';
 import { Board } from './board';
-import { next_node, next_scale, VrButtons } from './buttons';
-import { device_from_headset, HandleSamples, type Handle } from './handles';
+import { nextNode, nextScale, VrButtons } from './buttons';
+import { deviceFromHeadset, HandleSamples, type Handle } from './handles';
 import { IntervalLog } from './interval_log';
-import { reach_rings, Rig } from './rig';
+import { reachRings, Rig } from './rig';
 
-const kTipPictureEvery = 4; // pictures
-const kStick = 0.8;
-const kPulse_ms = 40;
+const TIP_PICTURE_EVERY = 4; // pictures
+const STICK = 0.8;
+const PULSE_MS = 40;
 
 type Side = 'right' | 'left';
 
@@ -24,7 +24,7 @@ export class Vr {
   readonly log = new IntervalLog();
   sent = 0;
   scale = 1;
-  rotation_scale = 1;
+  rotationScale = 1;
   node: number; // that the left handle moves; 0: none
   anywhere = false; // inside the slit, too
   private session: XRSession | null = null;
@@ -36,18 +36,18 @@ export class Vr {
   private readonly grips = new Map<Side, THREE.Object3D>();
   private frames = 0;
   private pictures = 0;
-  private was_engaged = false;
-  private was_level = '';
-  private stick_moved = false;
+  private wasEngaged = false;
+  private wasLevel = '';
+  private stickMoved = false;
   private said = '';
 
   constructor(private readonly robot: CableRobot, private readonly live: Live, private readonly connection: Connection, private readonly view: SceneView, private readonly stop: () => void) {
     this.node = Math.min(3, robot.segments.length - 1);
     this.rig = new Rig(reach_m(robot));
-    this.rings = reach_rings(reach_m(robot), '#6db3f2');
+    this.rings = reachRings(reach_m(robot), '#6db3f2');
   }
 
-  static async is_there(): Promise<boolean> {
+  static async isThere(): Promise<boolean> {
     try {
       return (await navigator.xr?.isSessionSupported('immersive-vr')) ?? false;
     } catch {
@@ -55,7 +55,7 @@ export class Vr {
     }
   }
 
-  get is_on(): boolean {
+  get isOn(): boolean {
     return this.session !== null;
   }
 
@@ -64,7 +64,7 @@ export class Vr {
     const session = await navigator.xr!.requestSession('immersive-vr', { requiredFeatures: ['local-floor'] });
     this.session = session;
     const { renderer, scene, camera } = this.view.stage;
-    this.rig.group.add(camera, this.board.mesh, this.board.tip_picture);
+    this.rig.group.add(camera, this.board.mesh, this.board.tipView);
     scene.add(this.rig.group, this.rings);
     for (const side of ['right', 'left'] as const) this.rig.group.add(this.grip(side));
     renderer.xr.enabled = true;
@@ -74,7 +74,7 @@ export class Vr {
     space?.addEventListener('reset', () => this.samples.reset());
     renderer.setAnimationLoop((now_ms, frame) => this.frame(now_ms, frame as XRFrame | undefined));
     session.addEventListener('end', () => this.ended());
-    this.use_device();
+    this.useDevice();
   }
 
   end(): void {
@@ -95,8 +95,8 @@ export class Vr {
   }
 
   // Tells lianad how the handles steer.
-  use_device(): void {
-    const request = { op: 'use_device', device: 'vr', scale: this.scale, rotation_scale: this.rotation_scale, node: this.node, anywhere: this.anywhere };
+  useDevice(): void {
+    const request = { op: 'use_device', device: 'vr', scale: this.scale, rotation_scale: this.rotationScale, node: this.node, anywhere: this.anywhere };
     void this.connection.request(request).then((answer: Answer) => (this.said = answer.ok ? '' : `handles: ${answer.message ?? answer.code}`));
   }
 
@@ -105,18 +105,18 @@ export class Vr {
     const space = renderer.xr.getReferenceSpace() as XRReferenceSpace | null;
     if (frame && space && this.session) {
       const handles = this.handles(frame, space, this.session);
-      const sample = this.samples.next(now_ms, handles.right, handles.left, device_from_headset(this.rig.turn_rad));
+      const sample = this.samples.next(now_ms, handles.right, handles.left, deviceFromHeadset(this.rig.turn_rad));
       this.log.sampled(now_ms);
       this.connection.post({ op: 'device', device: 'vr', samples: [sample] });
       ++this.sent;
-      this.take_buttons(this.session);
+      this.takeButtons(this.session);
     }
-    if (++this.frames % this.log.frames_per_picture(now_ms) !== 0) return; // the last picture stays
-    this.view.move_now();
-    if (this.pictures++ % kTipPictureEvery === 0) {
+    if (++this.frames % this.log.framesPerPicture(now_ms) !== 0) return; // the last picture stays
+    this.view.moveNow();
+    if (this.pictures++ % TIP_PICTURE_EVERY === 0) {
       this.write(now_ms);
       this.rig.group.visible = false; // its picture is not a part of itself
-      this.view.stage.render_tip_to(this.board.target, this.view.tip_frame_now());
+      this.view.stage.renderTipTo(this.board.target, this.view.tipFrameNow());
       this.rig.group.visible = true;
     }
     renderer.render(scene, camera);
@@ -124,7 +124,7 @@ export class Vr {
 
   private handles(frame: XRFrame, space: XRReferenceSpace, session: XRSession): Record<Side, Handle | null> {
     const found: Record<Side, Handle | null> = { right: null, left: null };
-    const is_visible = session.visibilityState === 'visible';
+    const isVisible = session.visibilityState === 'visible';
     for (const source of session.inputSources) {
       if (source.handedness === 'none' || !source.gripSpace) continue;
       const pose = frame.getPose(source.gripSpace, space);
@@ -134,7 +134,7 @@ export class Vr {
       found[source.handedness] = {
         position_m: p ? [p.x, p.y, p.z] : [0, 0, 0],
         attitude: q ? [q.w, q.x, q.y, q.z] : [1, 0, 0, 0],
-        is_tracked: !!pose && !pose.emulatedPosition && is_visible,
+        isTracked: !!pose && !pose.emulatedPosition && isVisible,
         deadman,
       };
       const grip = this.grips.get(source.handedness)!;
@@ -147,42 +147,42 @@ export class Vr {
     return found;
   }
 
-  private take_buttons(session: XRSession): void {
+  private takeButtons(session: XRSession): void {
     for (const source of session.inputSources) {
       if (source.handedness === 'none') continue;
       for (const action of this.buttons.pressed(source.handedness, source.gamepad ?? null)) this.act(action);
-      if (source.handedness === 'right') this.take_stick(source.gamepad ?? null);
+      if (source.handedness === 'right') this.takeStick(source.gamepad ?? null);
     }
     const { device_engaged, clearance } = this.live.facts;
-    if (!!device_engaged !== this.was_engaged) this.pulse(session, device_engaged ? 0.6 : 1);
+    if (!!device_engaged !== this.wasEngaged) this.pulse(session, device_engaged ? 0.6 : 1);
     const level = clearance?.level ?? '';
-    if (level !== this.was_level && level !== 'free') this.pulse(session, 1);
-    this.was_engaged = !!device_engaged;
-    this.was_level = level;
+    if (level !== this.wasLevel && level !== 'free') this.pulse(session, 1);
+    this.wasEngaged = !!device_engaged;
+    this.wasLevel = level;
   }
 
   private act(action: 'hold' | 'stop' | 'mode' | 'scale'): void {
     if (action === 'stop') return this.stop();
     if (action === 'hold') return void this.connection.request({ op: 'hold' });
-    if (action === 'mode') this.node = next_node(this.node, this.robot.segments.length - 1);
-    if (action === 'scale') this.scale = next_scale(this.scale);
-    this.use_device();
+    if (action === 'mode') this.node = nextNode(this.node, this.robot.segments.length - 1);
+    if (action === 'scale') this.scale = nextScale(this.scale);
+    this.useDevice();
   }
 
   // Right thumbstick: sideways turns the person, up and down changes the scale of the world; not while steering.
-  private take_stick(gamepad: Gamepad | null): void {
+  private takeStick(gamepad: Gamepad | null): void {
     const [x, y] = [gamepad?.axes[2] ?? 0, gamepad?.axes[3] ?? 0];
-    const is_moved = Math.abs(x) > kStick || Math.abs(y) > kStick;
-    if (is_moved && !this.stick_moved && !this.live.facts.device_engaged) {
-      this.rig.step(Math.abs(x) > kStick ? -Math.sign(x) : 0, Math.abs(y) > kStick ? -Math.sign(y) : 0);
+    const isMoved = Math.abs(x) > STICK || Math.abs(y) > STICK;
+    if (isMoved && !this.stickMoved && !this.live.facts.device_engaged) {
+      this.rig.step(Math.abs(x) > STICK ? -Math.sign(x) : 0, Math.abs(y) > STICK ? -Math.sign(y) : 0);
     }
-    this.stick_moved = is_moved;
+    this.stickMoved = isMoved;
   }
 
   private pulse(session: XRSession, strength: number): void {
     for (const source of session.inputSources) {
       const actuators = source.gamepad?.hapticActuators as unknown as { pulse?: (value: number, ms: number) => void }[] | undefined;
-      actuators?.[0]?.pulse?.(strength, kPulse_ms);
+      actuators?.[0]?.pulse?.(strength, PULSE_MS);
     }
   }
 
@@ -190,15 +190,15 @@ export class Vr {
     const { live } = this;
     const { sample, facts, welcome } = live;
     if (!sample || !welcome) return this.board.write([live.status || 'waiting for the arm'], true);
-    const alarm = live.alarms.list().find((each) => each.is_active);
+    const alarm = live.alarms.list().find((each) => each.isActive);
     const rate_Hz = this.log.rate_Hz(now_ms);
     const clear_m = values(sample, 'clearance.distance_m')[0];
     const steering = this.samples.waits ? 'the headset was re-centred: let go of the triggers' : facts.device_engaged ? 'you steer' : facts.device_reason ? `let go: ${facts.device_reason}` : 'hold a trigger to steer';
     this.board.write([
-      sentence_of(sample, welcome.robot, welcome.scene, null).split(',')[0],
-      `clearance ${length_text(clear_m)} ${facts.clearance ? `from the ${facts.clearance.body}` : ''}`,
+      sentenceOf(sample, welcome.robot, welcome.scene, null).split(',')[0],
+      `clearance ${lengthText(clear_m)} ${facts.clearance ? `from the ${facts.clearance.body}` : ''}`,
       `${steering}, scale ${facts.mapping?.scale ?? this.scale}`,
-      `left hand: ${this.node === 0 ? 'nothing' : `node ${this.node}`}, world ${this.rig.world_scale} : 1`,
+      `left hand: ${this.node === 0 ? 'nothing' : `node ${this.node}`}, world ${this.rig.worldScale} : 1`,
       `handles ${Number.isFinite(rate_Hz) ? `${rate_Hz}/s` : ''} ${this.said}`,
       ...(alarm ? [alarm.title, alarm.todo.split('. ')[0]] : ['A hold   B STOP   X node   Y scale']),
     ], !!alarm && alarm.priority === 1);
@@ -212,7 +212,7 @@ export class Vr {
     this.rig.group.remove(camera);
     for (const grip of this.grips.values()) this.rig.group.remove(grip);
     scene.remove(this.rig.group, this.rings);
-    if (this.live.is_mine) void this.connection.request({ op: 'use_device', device: 'none' });
-    this.view.after_vr();
+    if (this.live.isMine) void this.connection.request({ op: 'use_device', device: 'none' });
+    this.view.afterVr();
   }
 }
