@@ -1,6 +1,7 @@
 -- Checks a mission's structure before anything moves; every refusal says where the step stands, step, field, value, what
 -- is allowed and what to do. What the robot cannot do is liana.preflight_robot's.
 local refuse = require "liana.refuse"
+local retired = require "liana.retired_names"
 local step_fields = require "liana.step_fields"
 local action_requirements = require "liana.action_requirements"
 local transitions = require "liana.transitions"
@@ -56,7 +57,7 @@ local kStep = {
   enter_limit_s = seconds_up_to(3600),
   fail_when = condition_rule,
   hold = { allowed = "{ [theta] = degrees }, such as { [9] = 0 }", ok = is_table },
-  steer = { allowed = "a table with fields of use_device, such as { scale = 4 }", ok = is_table },
+  teleoperate = { allowed = "a table with fields of use_device, such as { scale = 4 }", ok = is_table },
   fixtures = { allowed = "true, false or a list of names of the scene's fixtures", ok = is_choice },
   feedback = { allowed = "\"aligned\", \"claim\", \"abstract\" or \"off\"", ok = one_of(kFeedbacks).ok },
   run = action_rule,
@@ -111,20 +112,23 @@ local function check_step(where, fields)
   where = check.where_of(where, fields)
   for field, value in pairs(fields) do
     local rule = kStep[field]
-    if not rule then refuse(where, tostring(field), value, "no such field, but " .. field_names(), "remove it or correct its spelling") end
+    if not rule then
+      local name = tostring(field) .. retired.hint("step", field)
+      refuse(where, name, value, "no such field, but " .. field_names(), "remove it or correct its spelling")
+    end
     if not rule.ok(value) then refuse(where, field, value, rule.allowed, "correct the step") end
   end
   for field, rule in pairs(kStep) do
     if rule.required and fields[field] == nil then refuse(where, field, "missing", rule.allowed, "add the field") end
   end
-  for _, field in ipairs { "steer", "fixtures", "feedback" } do
+  for _, field in ipairs { "teleoperate", "fixtures", "feedback" } do
     if fields[field] ~= nil and fields.device == "none" then
       refuse(where, field, "given", "only with a device", "name the device or remove " .. field)
     end
   end
   for _, field in ipairs { "device", "fixtures", "feedback" } do
-    local value = fields.steer and fields.steer[field]
-    if value ~= nil then refuse(where, "steer." .. field, value, "nothing", "name the " .. field .. " in the step's own field") end
+    local value = fields.teleoperate and fields.teleoperate[field]
+    if value ~= nil then refuse(where, "teleoperate." .. field, value, "nothing", "name the " .. field .. " in the step's own field") end
   end
   check_task(where, fields)
   check_plan(where, fields)
@@ -133,7 +137,7 @@ end
 -- The step with defaults.
 local function filled_in(fields)
   local step = {
-    steer = {}, run = function() end, enter_limit_s = kDefaultEnterLimit_s,
+    teleoperate = {}, run = function() end, enter_limit_s = kDefaultEnterLimit_s,
     enter = { text = "none", met = function() return true end }, fail_when = { text = "never", met = function() return false end },
     at = "",
   }
@@ -162,7 +166,7 @@ end
 -- The fields with which a checked step's device is used.
 function check.use_of(step)
   local fields = { device = step.device, feedback = step.feedback }
-  for field, value in pairs(step.steer) do fields[field] = value end
+  for field, value in pairs(step.teleoperate) do fields[field] = value end
   if step.fixtures == false then fields.fixtures = {} end
   if type(step.fixtures) == "table" then fields.fixtures = step.fixtures end
   return fields

@@ -82,7 +82,7 @@ local function step_suits(where, step, robot, refusal_of, attempt)
   end
   holds_fit(where, step.hold, robot)
   if step.device ~= "none" then
-    accepted(where .. ": steer", robot, refusal_of, "use_device", check.use_of(step))
+    accepted(where .. ": teleoperate", robot, refusal_of, "use_device", check.use_of(step))
   end
   action_suits(where, "run", step.run, step.at, robot, refusal_of)
   if step.plan == nil then what_is_asked_suits(where, step, robot, refusal_of, attempt) end

@@ -2,7 +2,7 @@
 -- (docs/mission_page.py makes the page of it).
 return {
   { "device", "who steers: `\"vr\"`, `\"hand\"`, `\"pointer\"`, a device by its name, or `\"none\"`" },
-  { "steer", "how hand motion maps: `scale`, `rotation_scale`, `node` (which the left VR hand moves), `speed_m_s`, `frame` (the hand's axes)" },
+  { "teleoperate", "how hand motion maps: `scale`, `rotation_scale`, `node` (which the left VR hand moves), `speed_m_s`, `frame` (the hand's axes)" },
   { "fixtures", "which of the scene's fixtures act on the hand: `true` (else: all), `false` or a list of names" },
   { "feedback", "law by which the hand feels the arm: `\"aligned\"` (else), `\"claim\"`, `\"abstract\"` or `\"off\"`" },
   { "task", "what the operator does: for `vr` the recording `NAME.hand` beside the mission or of Liana's, for `hand` `\"slit\"` or `\"rod\"`" },

@@ -28,7 +28,7 @@ return liana.mission "slit_crossing" {
 
   step "around the obstacle to the panel edge" {
     device = "vr", -- right hand: tip; left hand: node 3, and with it the arm's shape
-    steer = { scale = kVrScale, rotation_scale = kVrRotationScale, node = 3, speed_m_s = kFreeSpeed_m_s },
+    teleoperate = { scale = kVrScale, rotation_scale = kVrRotationScale, node = 3, speed_m_s = kFreeSpeed_m_s },
     enter = at_rest(),
     exit = all { released(), operator_says "arrived", tip_near_pose("panel_edge", kEdgeArrival_m) },
     time_limit_s = 120,
@@ -46,7 +46,7 @@ return liana.mission "slit_crossing" {
 
   step "segment 5 into the slit" {
     device = "hand",
-    steer = { scale = kEntryScale, rotation_scale = 1, speed_m_s = kFreeSpeed_m_s },
+    teleoperate = { scale = kEntryScale, rotation_scale = 1, speed_m_s = kFreeSpeed_m_s },
     hold = { [9] = 0 },
     enter = held(),
     exit = needs_planar(2),
@@ -64,7 +64,7 @@ return liana.mission "slit_crossing" {
 
   step "to the press rod" {
     device = "hand",
-    steer = { scale = kRodScale, rotation_scale = 1, speed_m_s = kSlitSpeed_m_s },
+    teleoperate = { scale = kRodScale, rotation_scale = 1, speed_m_s = kSlitSpeed_m_s },
     hold = { [7] = 0, [9] = 0 },
     enter = held(),
     exit = all { released(), operator_says "arrived", tip_near_rod(kRodArrival_m) },

@@ -48,7 +48,7 @@ return liana.mission "slit_crossing_servo" {
   step "around the obstacle to the panel edge" {
     device = "vr",
     task = "panel_edge_vr",
-    steer = { scale = kVrScale, rotation_scale = kVrRotationScale, node = 3, speed_m_s = 0.10 },
+    teleoperate = { scale = kVrScale, rotation_scale = kVrRotationScale, node = 3, speed_m_s = 0.10 },
     enter = at_rest(),
     exit = all { liana.released(), liana.operator_says "arrived", liana.tip_near_pose("panel_edge", kEdgeArrival_m) },
     time_limit_s = 120,

@@ -7,7 +7,7 @@ local held, released, operator_says = liana.held, liana.released, liana.operator
 return liana.mission "onward" {
   step "segment 5 into the slit" {
     device = "hand",
-    steer = { scale = 4.0, rotation_scale = 1, speed_m_s = 0.10 },
+    teleoperate = { scale = 4.0, rotation_scale = 1, speed_m_s = 0.10 },
     hold = { [9] = 0 },
     exit = liana.needs_planar(2),
     time_limit_s = 200,
@@ -24,7 +24,7 @@ return liana.mission "onward" {
 
   step "to the press rod" {
     device = "hand",
-    steer = { scale = 2.0, rotation_scale = 1, speed_m_s = 0.03 },
+    teleoperate = { scale = 2.0, rotation_scale = 1, speed_m_s = 0.03 },
     hold = { [7] = 0, [9] = 0 },
     enter = held(),
     exit = all { released(), operator_says "arrived", liana.tip_near_rod(0.02) },
