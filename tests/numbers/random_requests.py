@@ -52,6 +52,7 @@ KINDS = {
     "hold": 3,
     "stop": 1,
 }
+OFTEN = 12  # the weight of stops in every fourth sequence
 MOTIONS = ("move_jp", "move_path", "move_cp", "stream", "lead")
 DEATHS = ("opens", "silent", "gone", "jumps", "stale", "not a number", "clock", "stuck")
 
@@ -100,15 +101,11 @@ class Hand:
 
 
 class Arm(Client):
-    """A client that keeps what the arm's state was in every interval, and what led it."""
+    """A client with a device whose samples go with its own intervals; keeps what led on after it had died."""
 
     def __init__(self, path, **options):
-        self.hand, self.states, self.late = None, [], {}
+        self.hand, self.late = None, {}
         super().__init__(path, "drawn", "client", True, **options)
-
-    def _keep_state(self, state):
-        super()._keep_state(state)
-        self.states.append((state["tick"], state["state"], state["at_rest"]))
 
     def step(self):
         hand = self.hand
@@ -228,9 +225,9 @@ class Sequence:
         before = set(self.client.faults_told)
         self.ask("stop", reason="drawn")
         self.client.until(lambda state: state["state"] in ("DISABLED", "FAULT") and state["at_rest"], SETTLE_S)
+        self.client.go_on(self.draw.uniform(0.0, 1.0))
         caused = sorted(number for number, _, _ in self.client.faults_told - before)
         self.stops.append((begin, self.client.state["tick"], caused))
-        self.client.go_on(self.draw.uniform(0.0, 1.0))
 
     def recover(self):
         """Clears and enables an arm that stopped, whatever stopped it; whether it could."""
@@ -249,12 +246,12 @@ class Sequence:
         system.clients.append(self.client)
         self.client.enable()
         self.from_tick = self.client.state["tick"]
-        kinds, weights = list(KINDS), list(KINDS.values())
+        kinds = {**KINDS, "stop": OFTEN} if self.seed % 4 == 0 else KINDS
         low, high = map(math.log, WAITS_S)
         for _ in range(REQUESTS):
             if (self.client.state["state"] != "ENABLED" or self.client.state["faults"]) and not self.recover():
                 break
-            kind = self.draw.choices(kinds, weights)[0]
+            kind = self.draw.choices(list(kinds), list(kinds.values()))[0]
             self.asked[kind] += 1
             if kind in MOTIONS:
                 self.make_room()
@@ -276,51 +273,40 @@ def is_in_slit(place_m):
 
 
 class Judged:
-    """What the truth says of a sequence, in the slots from the first with an enabled arm on. An arm that began in a
-    plate of a scene beside its drawing may touch it.
+    """What the truth says of a sequence from when the arm was enabled; nothing of an arm that began in a plate of a scene
+    beside its drawing.
     """
 
     def __init__(self, truth, robot, sequence):
-        self.wrong = []
-        self.states = self.state_of_slot(sequence.client.states, len(truth.rows))
+        self.wrong, self.truth = [], truth
         begin = sequence.from_tick
         limits = robot["limits"]
         at = truth.columns.index
         force, clear, speed, tip = map(at, ("contact_force_N", "clearance_m", "tip_speed_m_s", "tip_x_m"))
         anywhere, motor = at("tension_min_N"), at("tension_motor_min_N")
         self.is_free = all(truth.rows[k][force] == 0.0 and truth.rows[k][clear] > 0.0 for k in (0, begin))
-        moving = [k for k in range(begin, len(truth.rows)) if self.states[k] in ("ENABLED", "STOPPING")]
-        inside = {k for k in moving if is_in_slit(truth.rows[k][tip : tip + 3])}
-        share = {
-            k: truth.rows[k][speed] / limits["tip_speed_slit_m_s" if k in inside else "tip_speed_m_s"] for k in moving
-        }
-        self.motor_N = self.worst("", moving, lambda k: truth.rows[k][motor], min)
-        self.tension_N = self.worst("slack", moving, lambda k: truth.rows[k][anywhere], min, lambda N: N < SLACK_N)
-        outside = [k for k in moving if k not in inside]
-        self.speed = self.worst("tip speed", outside, share.get, max, lambda x: x > FREE_SHARE)
-        self.slit_speed = self.worst("tip speed in the slit", sorted(inside), share.get, max, lambda x: x > FREE_SHARE)
-        everywhere = range(begin, len(truth.rows)) if self.is_free else []
-        self.contact_N = self.worst("contact", everywhere, lambda k: truth.rows[k][force], max, lambda N: N > 0)
+        slots = range(begin, len(truth.rows)) if self.is_free and begin else range(0)
+        inside = [k for k in slots if is_in_slit(truth.rows[k][tip : tip + 3])]
+        outside = sorted(set(slots).difference(inside))
+        tip_m_s, slit_m_s = limits["tip_speed_m_s"], limits["tip_speed_slit_m_s"]
+        too_fast = lambda share: share > FREE_SHARE
+        self.motor_N = self.worst("", slots, lambda row: row[motor], min)
+        self.tension_N = self.worst("slack", slots, lambda row: row[anywhere], min, lambda N: N < SLACK_N)
+        self.speed = self.worst("tip speed", outside, lambda row: row[speed] / tip_m_s, max, too_fast)
+        self.slit_speed = self.worst("tip speed in the slit", inside, lambda row: row[speed] / slit_m_s, max, too_fast)
+        self.contact_N = self.worst("contact", slots, lambda row: row[force], max, lambda N: N > 0)
         self.stops = [self.stop(truth, *stop) for stop in sequence.stops]
 
     def worst(self, name, slots, value, pick, is_wrong=lambda _: False):
         """The worst of these slots; the first that is wrong is kept."""
         if not slots:
             return None
-        first = next((k for k in slots if is_wrong(value(k))), None)
-        worst = pick(value(k) for k in slots)
+        rows = self.truth.rows
+        first = next((k for k in slots if is_wrong(value(rows[k]))), None)
+        worst = pick(value(rows[k]) for k in slots)
         if first is not None:
             self.wrong.append((first, name, worst))
         return worst
-
-    @staticmethod
-    def state_of_slot(states, slots):
-        """By slot: a state holds until the next one came."""
-        found, before = [], "DISABLED"
-        for tick, state, _ in states:
-            found += [before] * (min(tick, slots) - len(found))
-            before = state
-        return found + [before] * (slots - len(found))
 
     def stop(self, truth, begin, end, caused):
         """Least tension at a motor until the arm is at rest, when that is, and what faults came."""
@@ -354,7 +340,7 @@ def one_sequence(seed):
     judged = Judged(truth, robot, sequence)
     wrong = judged.wrong + [(tick, "false break", index) for tick, number, index in faults if number == FALSE_BREAK]
     if sequence.hang and (judged.is_free or sequence.from_tick):  # an arm in the wall may not be enabled
-        wrong.append((client.states[-1][0], "hang", sequence.hang))
+        wrong.append((client.state["tick"], "hang", sequence.hang))
     wrong += [(tick, f"{death} led on", 0) for death, tick in client.late.items()]
     return {
         **figures,
