@@ -4,7 +4,7 @@ import type { Facts, LianaEvent } from '../../host/apps/web/src/data/sample';
 import { nameProblem } from '../../host/apps/web/src/live/display_name';
 import type { Alarm } from '../../host/apps/web/src/model/alarms';
 import { alarmBadge, ownerBadge, stateBadge } from '../../host/apps/web/src/model/badges';
-import { endingOf, refusalWords, type Ending, type Taken } from '../../host/apps/web/src/model/outcome_text';
+import { endingOf, refusalText, type Ending, type Taken } from '../../host/apps/web/src/model/outcome_text';
 import { hardwareText } from '../../host/apps/web/src/model/hardware';
 import { sampleOf } from './support';
 
@@ -27,8 +27,8 @@ test('a motion that was taken is done when the arm is at rest, and not by the st
 test('a motion that verification refuses after it was taken is refused with reason and remedy, not done', () => {
   assert.deepEqual(end('move_jp', resting, { events: [event({})] }), { ok: false, text: 'link 27 and the wall' });
   assert.deepEqual(end('move_jp', resting, { events: [event({ sequence: 7 })] }), { ok: true, text: 'done' }); // of something before
-  assert.match(refusalWords(event({ kind: 'path', number: 0 })), /^refused: .*\[207 /);
-  assert.equal(refusalWords(event({ kind: 'step' })), '');
+  assert.match(refusalText(event({ kind: 'path', number: 0 })), /^refused: .*\[207 /);
+  assert.equal(refusalText(event({ kind: 'step' })), '');
 });
 
 test('a motion that stop, fault, another owner or a disabled arm ended is not done', () => {

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import type { Facts, Push } from '../../host/apps/web/src/data/sample';
-import { derivedEvents, withToldChanges } from '../../host/apps/web/src/data/derived_events';
+import { derivedEvents, withDerivedEvents } from '../../host/apps/web/src/data/derived_events';
 import { Live } from '../../host/apps/web/src/live/live';
 import type { Welcome } from '../../host/apps/web/src/live/protocol';
 import { isAtSite, payloadPlace } from '../../host/apps/web/src/model/payload_place';
@@ -124,7 +124,7 @@ test('events made of facts stand between the others by their ticks', () => {
   const event = { sequence: 1, tick: 20, kind: 'step', number: 1, subject: '', values: {}, text: 'step 1' };
   const pushes = [noPush, pressing, { ...pressing, phase: 'unloading' }];
   const facts = pushes.map((push, i) => ({ tick: 10 + 15 * i, state: { push } }));
-  const all = withToldChanges([event], facts).map((e) => [e.tick, e.kind]);
+  const all = withDerivedEvents([event], facts).map((e) => [e.tick, e.kind]);
   assert.deepEqual(all, [[20, 'step'], [25, 'push'], [25, 'push'], [25, 'wrist'], [40, 'push']]);
 });
 

@@ -56,10 +56,10 @@ export function derivedEvents(before: Facts, now: Facts, tick: number, sequence:
 }
 
 // The events of a run with those made of its facts between them.
-export function withToldChanges(
+export function withDerivedEvents(
   events: readonly LianaEvent[],
   facts: readonly { tick: number; state: Facts }[],
 ): LianaEvent[] {
-  const told = facts.slice(1).flatMap(({ tick, state }, i) => derivedEvents(facts[i].state, state, tick, 0));
-  return [...events, ...told].sort((a, b) => a.tick - b.tick);
+  const derived = facts.slice(1).flatMap(({ tick, state }, i) => derivedEvents(facts[i].state, state, tick, 0));
+  return [...events, ...derived].sort((a, b) => a.tick - b.tick);
 }

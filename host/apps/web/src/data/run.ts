@@ -3,10 +3,10 @@ import { chainOf, type ArmChain } from '../model/arm_chain';
 import type { Robot, Scene } from '../model/robot';
 import type { Facts, LianaEvent, Sample } from './sample';
 import { inflated, telemetryOf, type Telemetry, type TelemetryHead } from './telemetry';
-import { withToldChanges } from './derived_events';
+import { withDerivedEvents } from './derived_events';
 
 export interface Judged {
-  code: number; // M_e; 0: passed
+  code: number; // of the refusal; 0: passed
   share: number; // of the limit that the motion comes nearest to
   margins: Record<string, number | null>;
   text: string;
@@ -50,16 +50,21 @@ export interface RunHead {
 
 const FORMAT = 1;
 
-// The last of `list` (ascending ticks) at or before `tick`; -1: none.
-export function lastBefore(list: readonly { tick: number }[], tick: number): number {
+// The first of the indices from 0 for which `holds`, as it then does for all behind; `count`: none.
+export function firstWhere(count: number, holds: (i: number) => boolean): number {
   let low = 0;
-  let high = list.length;
+  let high = count;
   while (low < high) {
     const middle = (low + high) >> 1;
-    if (list[middle].tick <= tick) low = middle + 1;
-    else high = middle;
+    if (holds(middle)) high = middle;
+    else low = middle + 1;
   }
-  return low - 1;
+  return low;
+}
+
+// The last of `list` (ascending ticks) at or before `tick`; -1: none.
+export function lastBefore(list: readonly { tick: number }[], tick: number): number {
+  return firstWhere(list.length, (i) => list[i].tick > tick) - 1;
 }
 
 // All facts at each change.
@@ -80,7 +85,7 @@ export class Run {
     if (head.format !== FORMAT) throw new Error(`format = ${head.format}: this page reads ${FORMAT}`);
     this.telemetry = telemetryOf(head.telemetry, planes);
     this.facts = wholeFacts(head.facts);
-    this.events = withToldChanges(head.events, this.facts);
+    this.events = withDerivedEvents(head.events, this.facts);
     const numbers = new Map<string, Float32Array>();
     for (const [name, columns] of this.telemetry.columns) numbers.set(name, new Float32Array(columns.length));
     this.chain = chainOf(head.robot);

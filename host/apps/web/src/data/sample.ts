@@ -65,14 +65,14 @@ export interface Sample {
 
 const NONE = new Float32Array(0);
 
-// Values of a field; empty when this arm has no such field.
-export function values(sample: Sample, name: string): Float32Array {
-  return sample.numbers.get(name) ?? NONE;
+// Values of a field; empty when this arm has no such field, or there is no sample yet.
+export function values(sample: Sample | null, name: string): Float32Array {
+  return sample?.numbers.get(name) ?? NONE;
 }
 
 // The only value of a field; NaN when it is not there.
-export function value(sample: Sample, name: string): number {
-  return sample.numbers.get(name)?.[0] ?? NaN;
+export function value(sample: Sample | null, name: string): number {
+  return sample?.numbers.get(name)?.[0] ?? NaN;
 }
 
 // Is there a number in it?

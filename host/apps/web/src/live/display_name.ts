@@ -1,5 +1,6 @@
 // How the person at this browser is called, so that owners of motion can be told apart: given once, kept in this browser.
 import { h, setText } from '../ui/dom';
+import { keep, kept } from '../ui/storage';
 import type { Connection } from './connection';
 import type { Live } from './live';
 
@@ -13,22 +14,6 @@ export function nameProblem(name: string): string {
   return `A name has 1 to ${MAX_BYTES} bytes without control characters; this one has ${bytes}.`;
 }
 
-function keep(name: string): void {
-  try {
-    localStorage.setItem(KEY, name);
-  } catch {
-    // Storage is switched off: the name lasts as long as the page.
-  }
-}
-
-function kept(): string | null {
-  try {
-    return localStorage.getItem(KEY);
-  } catch {
-    return null;
-  }
-}
-
 function inventedName(): string {
   return `browser-${crypto.getRandomValues(new Uint16Array(1))[0].toString(16).padStart(4, '0')}`;
 }
@@ -36,8 +21,8 @@ function inventedName(): string {
 // The name that was given in this browser; until then one like browser-3f2a, which is kept, too.
 let name = '';
 export function displayName(): string {
-  name ||= kept() ?? '';
-  if (nameProblem(name) !== '') keep((name = inventedName()));
+  name ||= kept(KEY) ?? '';
+  if (nameProblem(name) !== '') keep(KEY, (name = inventedName()));
   return name;
 }
 
@@ -59,7 +44,7 @@ export class NameForm {
     const why = nameProblem(wanted) || (this.live.isMine ? 'Give back motion first: a new name is a new connection.' : '');
     setText(this.hint, why);
     if (why || wanted === displayName()) return;
-    keep((name = wanted));
+    keep(KEY, (name = wanted));
     this.connection.again();
   }
 }

@@ -1,9 +1,10 @@
 // Looking back: the scene shows a moment of the last minute instead of now.
+import { firstWhere } from '../data/run';
 import type { Sample } from '../data/sample';
 import { h, setText } from '../ui/dom';
 import type { Live } from './live';
 
-export class LookBack {
+export class HistoryScrubber {
   readonly element: HTMLElement;
   time_s: number | null = null; // null: now
   private readonly slider: HTMLInputElement;
@@ -27,17 +28,11 @@ export class LookBack {
   sample(): Sample | null {
     const { history, sample } = this.live;
     if (!history || !sample || this.time_s === null || history.rows === 0) return sample;
-    if (this.time_s < history.time_s(0)) this.time_s = history.time_s(0);
-    let low = 0;
-    let high = history.rows - 1;
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (history.time_s(middle) < this.time_s) low = middle + 1;
-      else high = middle;
-    }
+    const wanted_s = (this.time_s = Math.max(this.time_s, history.time_s(0)));
+    const row = firstWhere(history.rows - 1, (i) => history.time_s(i) >= wanted_s);
     if (this.numbers.size !== sample.numbers.size) this.numbers = new Map([...sample.numbers].map(([name, values]) => [name, new Float32Array(values.length)]));
-    history.read(low, this.numbers);
-    return { tick: history.tick(low), time_s: history.time_s(low), numbers: this.numbers, facts: sample.facts };
+    history.read(row, this.numbers);
+    return { tick: history.tick(row), time_s: history.time_s(row), numbers: this.numbers, facts: sample.facts };
   }
 
   update(): void {

@@ -91,11 +91,10 @@ export class Live {
   updateAlarms(now_s: number, more: readonly Condition[]): boolean {
     const conditions = [...conditionsOf(this.facts), ...more];
     if (!this.welcome) return this.alarms.update(conditions, now_s); // the page has only begun; its title says so
-    if (this.status) {
-      conditions.push({ key: 'link', priority: 1, passes: true, title: 'nothing comes from the arm', cause: this.status, todo: 'What is shown is old. To stop the arm use the switch beside it, or liana estop.' });
-    } else if (!this.isLive(now_s)) {
-      conditions.push({ key: 'link', priority: 1, passes: true, title: 'nothing comes from the arm', cause: `No state for ${SILENT_S} s.`, todo: 'What is shown is old: wait, or look at lianad.' });
-    }
+    const [cause, todo] = this.status
+      ? [this.status, 'What is shown is old. To stop the arm use the switch beside it, or liana estop.']
+      : [`No state for ${SILENT_S} s.`, 'What is shown is old: wait, or look at lianad.'];
+    if (!this.isLive(now_s)) conditions.push({ key: 'link', priority: 1, passes: true, title: 'nothing comes from the arm', cause, todo });
     return this.alarms.update(conditions, now_s);
   }
 }

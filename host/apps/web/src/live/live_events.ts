@@ -2,6 +2,7 @@
 import type { LianaEvent } from '../data/sample';
 import { weightOf } from '../model/weight';
 import { h } from '../ui/dom';
+import { eventRow } from '../ui/event_row';
 import type { Live } from './live';
 
 const SHOWN = 200;
@@ -33,15 +34,8 @@ export class LiveEvents {
     const { events, welcome, lostEvents, takenEvents } = this.live;
     if (takenEvents === this.drawn || !welcome) return;
     this.drawn = takenEvents;
-    const rows = events.filter(WHICH[this.which]).slice(-SHOWN).reverse().map((event) => this.row(event, welcome.period_s));
+    const rows = events.filter(WHICH[this.which]).slice(-SHOWN).reverse().map((event) => eventRow(event, welcome.period_s, this.goTo));
     if (lostEvents > 0) rows.push(h('li', { class: 'warning' }, `${lostEvents} events before were not kept by lianad`));
     this.list.replaceChildren(...rows);
-  }
-
-  private row(event: LianaEvent, period_s: number): HTMLElement {
-    const time_s = event.tick * period_s;
-    return h('li', { class: weightOf(event) },
-      h('button', { type: 'button', onclick: () => this.goTo(time_s) },
-        h('span', { class: 'when' }, `${time_s.toFixed(2)} s`), h('span', { class: 'kind' }, event.kind), h('span', { class: 'text' }, event.text)));
   }
 }

@@ -24,13 +24,13 @@ import { Connection } from './connection';
 import { Live } from './live';
 import { LiveEvents } from './live_events';
 import { LivePlots } from './live_plots';
-import { LookBack } from './history_scrubber';
+import { HistoryScrubber } from './history_scrubber';
 import { displayName } from './display_name';
 import { PROTOCOL, type FromGateway, type Welcome } from './protocol';
 import { RunList } from './run_list';
 import { StatusBar } from './status_bar';
 import { StopButton } from './stop_button';
-import { Told } from './pending_command';
+import { PendingCommand } from './pending_command';
 import { keptToken, tokenForm } from './token_form';
 
 const WORDS_MS = 250; // texts are written anew at most so often
@@ -49,9 +49,9 @@ export class LivePage {
   private readonly stop: StopButton;
   private readonly status: StatusBar;
   private readonly alarms: AlarmPanel;
-  private readonly historyScrubber: LookBack;
+  private readonly historyScrubber: HistoryScrubber;
   private readonly sentence = h('p', { class: 'sentence' });
-  private readonly told: Told;
+  private readonly pending: PendingCommand;
   private readonly middle = h('div', { class: 'middle' }, h('p', { class: 'no-scene' }, 'waiting for the arm'));
   private panels: { update(now_s: number): void }[] = [];
   private pushCard: PushCard | null = null;
@@ -75,9 +75,9 @@ export class LivePage {
       message: (message) => this.message(message),
       record: (bytes) => this.record(bytes),
     });
-    this.told = new Told(this.live, this.connection);
+    this.pending = new PendingCommand(this.live, this.connection);
     this.jogger = new Jogger(this.live, this.connection);
-    this.jogger.onError = (answer) => this.told.error('jog', answer);
+    this.jogger.onError = (answer) => this.pending.error('jog', answer);
     this.stop = new StopButton(this.live, this.connection);
     this.stop.onPress = () => this.jogger.letGo();
     this.status = new StatusBar(this.live);
@@ -85,9 +85,9 @@ export class LivePage {
       this.alarms.update();
       this.words();
     });
-    this.historyScrubber = new LookBack(this.live, () => this.draw());
+    this.historyScrubber = new HistoryScrubber(this.live, () => this.draw());
     const header = h('header', { class: 'top' }, h('h1', {}, 'Liana'), this.sentence, this.status.element, this.vrButton, themeButton((theme) => this.build(theme)), this.stop.element);
-    const told = h('div', { class: 'told' }, this.told.element, this.stop.report);
+    const told = h('div', { class: 'told' }, this.pending.element, this.stop.report);
     this.element = h('div', { class: 'page live' }, header, told, this.alarms.element, this.middle, this.historyScrubber.element);
     document.addEventListener('keydown', (event) => this.keyDown(event), { capture: true });
     document.addEventListener('keyup', (event) => this.jogger.release(event.code));
@@ -120,7 +120,7 @@ export class LivePage {
       return;
     }
     this.jogger.letGo();
-    this.told.forget();
+    this.pending.forget();
     this.live.takeWelcome(welcome);
     this.historyScrubber.goTo(null);
     const robot = JSON.stringify([welcome.robot, welcome.scene, welcome.layout]);
@@ -133,7 +133,7 @@ export class LivePage {
     const { welcome } = this.live;
     if (!welcome) return;
     this.scene?.stage.renderer.dispose();
-    const { ask } = this.told;
+    const { ask } = this.pending;
     const motion = new MotionPanel(this.live, this.connection, ask);
     const joints = new JointPanel(this.live, welcome, ask);
     const device = new DevicePanel(this.live, ask);
@@ -184,14 +184,14 @@ export class LivePage {
     try {
       await this.vr?.begin();
     } catch (error) {
-      this.told.error('VR', { op: 'answer', ok: false, code: 'no session', message: String(error) });
+      this.pending.error('VR', { op: 'answer', ok: false, code: 'no session', message: String(error) });
     }
   }
 
   private message(message: FromGateway): void {
     const newest = this.live.newestEvent;
     this.live.take(message);
-    if (message.op === 'event' && message.sequence > newest && newest !== 0) this.told.event(message);
+    if (message.op === 'event' && message.sequence > newest && newest !== 0) this.pending.event(message);
   }
 
   private record(bytes: ArrayBuffer): number | null {
@@ -226,7 +226,7 @@ export class LivePage {
     const now_s = performance.now() / 1000;
     if (this.live.updateAlarms(now_s, this.moreConditions())) this.alarms.update();
     this.status.update(now_s);
-    this.told.update();
+    this.pending.update();
     this.stop.update();
     this.historyScrubber.update();
     for (const panel of this.panels) panel.update(now_s);
@@ -255,7 +255,7 @@ export class LivePage {
     const action = actionOf(event, isField(event.target as HTMLElement));
     if (!action || event.repeat) return;
     if (action.kind === 'stop') void this.stop.press();
-    if (action.kind === 'hold') this.told.ask('hold', { op: 'hold' });
+    if (action.kind === 'hold') this.pending.ask('hold', { op: 'hold' });
     if (action.kind === 'jog') this.jogger.press(event.code, action.direction);
     if (action.kind === 'view') {
       const view = this.scene?.views[action.index];

@@ -1,6 +1,6 @@
 // What was last asked of the arm, and what became of it: taken, until the controller says how it ended.
 import type { LianaEvent } from '../data/sample';
-import { endingOf, refusalWords, type Taken } from '../model/outcome_text';
+import { endingOf, refusalText, type Taken } from '../model/outcome_text';
 import { h, setText } from '../ui/dom';
 import type { Connection } from './connection';
 import type { Live } from './live';
@@ -9,7 +9,7 @@ import type { Answer } from './protocol';
 // Asks lianad for something that people know by the name `what`.
 export type Ask = (what: string, request: { op: string; [field: string]: unknown }) => void;
 
-export class Told {
+export class PendingCommand {
   readonly element = h('p', { class: 'answer', role: 'status' });
   private what = '';
   private taken: Taken | null = null; // null: nothing is waited for
@@ -27,8 +27,8 @@ export class Told {
 
   // An event that has just happened: what verification refuses comes after the answer that a request was taken.
   event(event: LianaEvent): void {
-    const words = refusalWords(event);
-    if (words && !this.taken) this.show(`verification: ${words}`, true);
+    const words = this.taken ? '' : refusalText(event);
+    if (words) this.show(`verification: ${words}`, true);
   }
 
   // A new life of lianad knows nothing of what was asked.

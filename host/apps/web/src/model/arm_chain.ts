@@ -22,7 +22,14 @@ export interface ArmChain {
 }
 
 export function chainOf(robot: Robot): ArmChain {
-  return robot.kind === 'serial' ? new SerialChain(robot) : new CableChain(robot);
+  const chain = robot.kind === 'serial' ? new SerialChain(robot) : new CableChain(robot);
+  chain.set([]);
+  return chain;
+}
+
+// Lengths of each segment's pieces [m].
+function piecesOf(lengths: readonly number[][]): Piece[] {
+  return lengths.flatMap((of_m, segment) => of_m.map((length_m) => ({ length_m, segment })));
 }
 
 function identity(): Rows {
@@ -61,57 +68,58 @@ function atOrZero(values: ArrayLike<number>, i: number): number {
   return i < values.length && Number.isFinite(values[i]) ? values[i] : 0;
 }
 
-// Segments of equal-angled modules: odd modules turn Rz(pitch) Ry(yaw), even ones Ry(yaw) Rz(pitch).
-class CableChain implements ArmChain {
-  readonly pieces: Piece[] = [];
+abstract class Chain implements ArmChain {
   readonly matrices: Float32Array;
   readonly tip = new Float32Array(16);
   readonly nodes: Float32Array;
 
-  constructor(robot: CableRobot) {
-    robot.segments.forEach((s, segment) => {
-      for (let k = 0; k < s.modules; ++k) this.pieces.push({ length_m: s.module_length_m, segment });
-    });
-    this.matrices = new Float32Array(16 * this.pieces.length);
-    this.nodes = new Float32Array(3 * robot.segments.length);
-    this.set([]);
+  constructor(readonly pieces: Piece[], segments: number) {
+    this.matrices = new Float32Array(16 * pieces.length);
+    this.nodes = new Float32Array(3 * segments);
   }
 
   set(theta_deg: ArrayLike<number>): void {
     const rows = identity();
-    this.pieces.forEach((piece, k) => {
-      const pitch = atOrZero(theta_deg, 2 * piece.segment) * DEG;
-      const yaw = atOrZero(theta_deg, 2 * piece.segment + 1) * DEG;
+    this.walk(rows, theta_deg);
+    write(rows, this.tip, 0);
+  }
+
+  protected endOf(segment: number, rows: Rows): void {
+    for (let r = 0; r < 3; ++r) this.nodes[3 * segment + r] = rows[4 * r + 3];
+  }
+
+  // Moves `rows` from the base to the tip, and writes pieces and nodes on the way.
+  protected abstract walk(rows: Rows, theta_deg: ArrayLike<number>): void;
+}
+
+// Segments of equal-angled modules: odd modules turn Rz(pitch) Ry(yaw), even ones Ry(yaw) Rz(pitch).
+class CableChain extends Chain {
+  constructor({ segments }: CableRobot) {
+    const lengths = segments.map((s) => new Array<number>(s.modules).fill(s.module_length_m));
+    super(piecesOf(lengths), segments.length);
+  }
+
+  protected override walk(rows: Rows, theta_deg: ArrayLike<number>): void {
+    this.pieces.forEach(({ length_m, segment }, k) => {
+      const pitch = atOrZero(theta_deg, 2 * segment) * DEG;
+      const yaw = atOrZero(theta_deg, 2 * segment + 1) * DEG;
       if (k % 2 === 0) turn(rows, 0, 1, pitch);
       turn(rows, 2, 0, yaw);
       if (k % 2 === 1) turn(rows, 0, 1, pitch);
       write(rows, this.matrices, 16 * k);
-      advance(rows, 0, piece.length_m);
-      for (let r = 0; r < 3; ++r) this.nodes[3 * piece.segment + r] = rows[4 * r + 3];
+      advance(rows, 0, length_m);
+      this.endOf(segment, rows);
     });
-    write(rows, this.tip, 0);
   }
 }
 
 // Standard DH rows; a row is up to two straight pieces, along z and along the new x.
-class SerialChain implements ArmChain {
-  readonly pieces: Piece[] = [];
-  readonly matrices: Float32Array;
-  readonly tip = new Float32Array(16);
-  readonly nodes: Float32Array;
-
+class SerialChain extends Chain {
   constructor(private readonly robot: SerialRobot) {
-    robot.joints.forEach((joint, segment) => {
-      if (joint.d_m !== 0) this.pieces.push({ length_m: joint.d_m, segment });
-      if (joint.a_m !== 0) this.pieces.push({ length_m: joint.a_m, segment });
-    });
-    this.matrices = new Float32Array(16 * this.pieces.length);
-    this.nodes = new Float32Array(3 * robot.joints.length);
-    this.set([]);
+    super(piecesOf(robot.joints.map(({ d_m, a_m }) => [d_m, a_m].filter((length_m) => length_m !== 0))), robot.joints.length);
   }
 
-  set(theta_deg: ArrayLike<number>): void {
-    const rows = identity();
+  protected override walk(rows: Rows, theta_deg: ArrayLike<number>): void {
     let at = 0;
     this.robot.joints.forEach((joint, j) => {
       turn(rows, 0, 1, (atOrZero(theta_deg, j) + (joint.offset_deg ?? 0)) * DEG);
@@ -120,8 +128,7 @@ class SerialChain implements ArmChain {
       if (joint.a_m !== 0) write(rows, this.matrices, 16 * at++);
       advance(rows, 0, joint.a_m);
       turn(rows, 1, 2, joint.alpha_deg * DEG);
-      for (let r = 0; r < 3; ++r) this.nodes[3 * j + r] = rows[4 * r + 3];
+      this.endOf(j, rows);
     });
-    write(rows, this.tip, 0);
   }
 }

@@ -26,12 +26,12 @@ export interface Ending {
 }
 
 const SETTLES_S = 0.1; // arm time: what a state says of a request is there a few states after its answer
-const PATH_REFUSED = 207; // M_e of a path that was looked at as a whole
+export const PATH_REFUSED = 207; // refusal code of a path that was looked at as a whole
 const WHOLE: Ending = { ok: true, text: 'done' };
 
 // "refused: link 27 and the wall. Steer away from it. [208 clearance, command 9]"; empty for an event that refuses no
 // command. A verdict's event says all of it; that of a path only its reason.
-export function refusalWords(event: LianaEvent): string {
+export function refusalText(event: LianaEvent): string {
   if (event.kind === 'verdict') return event.text;
   if (event.kind !== 'path' || event.number !== 0) return '';
   const row = refusalRow(PATH_REFUSED);
@@ -46,8 +46,8 @@ function eventsSince(taken: Taken, seen: Seen): readonly LianaEvent[] {
 function cutShort(taken: Taken, seen: Seen): Ending | null {
   const { stop, faults } = seen.facts;
   if (stop) return { ok: false, text: `ended by an emergency stop of ${stop.by}` };
-  const refused = eventsSince(taken, seen).find((event) => refusalWords(event) !== '');
-  if (refused) return { ok: false, text: refusalWords(refused) };
+  const refusal = eventsSince(taken, seen).map(refusalText).find((text) => text !== '');
+  if (refusal) return { ok: false, text: refusal };
   if (faults && faults.length > 0) return { ok: false, text: `ended by fault ${faults[0].number} ${faults[0].name.replaceAll('_', ' ')}` };
   if (!seen.isMine) return { ok: false, text: 'ended: motion is no longer yours' };
   return null;

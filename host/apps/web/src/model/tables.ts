@@ -11,7 +11,7 @@ export interface FaultRow {
 }
 
 export interface RefusalRow {
-  number: number; // M_e
+  number: number; // refusal code
   name: string;
   text: string;
   action: string; // what lianad does besides: hold or stop

@@ -6,12 +6,12 @@ export type Weight = 'bad' | 'warning' | 'note';
 
 const BAD = new Set(['fault', 'stop', 'boot_problem']);
 const WARNING = new Set(['verdict', 'refusal', 'host_trouble', 'emergency', 'left_out']);
-const TOLD = new Set(['push', 'wrist', 'adapter', 'servo']);
+const DERIVED = new Set(['push', 'wrist', 'adapter', 'servo']);
 
 export function weightOf(event: LianaEvent): Weight {
   if (BAD.has(event.kind)) return 'bad';
   if (WARNING.has(event.kind)) return 'warning';
-  if (TOLD.has(event.kind) && event.number === TROUBLE) return 'warning';
+  if (DERIVED.has(event.kind) && event.number === TROUBLE) return 'warning';
   if (event.kind === 'path' && event.number === 0) return 'warning';
   if (event.kind === 'friction' && event.number !== 0) return 'warning';
   if (event.kind === 'device' && event.number === 1) return 'warning';

@@ -1,6 +1,6 @@
 // One strip of curves (uPlot) on an opaque canvas in software: stroking on a GPU that is not there costs ten times more.
 import uPlot from 'uplot';
-import { h } from '../ui/dom';
+import { colourKey, h } from '../ui/dom';
 
 export interface Curve {
   label: string;
@@ -61,7 +61,7 @@ export class Strip {
       const { left } = this.plot.cursor;
       if (left !== undefined && left >= 0) clicked(this.plot.posToVal(left, 'x'));
     });
-    const keys = curves.length > 8 ? [] : curves.map((c) => h('span', { class: 'key' }, h('i', { style: `background:${c.colour}` }), c.label));
+    const keys = curves.length > 8 ? [] : curves.map((c) => colourKey(c.colour, c.label));
     this.element = h('figure', { class: 'strip' }, h('figcaption', {}, title, ' ', ...keys), this.holder);
   }
 

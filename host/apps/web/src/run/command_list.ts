@@ -1,7 +1,7 @@
 // Commands with both verdicts and their margins: those that were refused, and samples of the others.
 import type { Command, Judged, Run } from '../data/run';
 import { lengthText } from '../model/sentence';
-import { h } from '../ui/dom';
+import { checkbox, h } from '../ui/dom';
 
 const AT_MOST = 400; // rows in the page at a time
 
@@ -27,15 +27,14 @@ export class CommandList {
   private refusedOnly = false;
 
   constructor(private readonly run: Run, private readonly goTo: (time_s: number) => void) {
-    const box = h('input', { type: 'checkbox' });
-    box.addEventListener('change', () => {
-      this.refusedOnly = box.checked;
-      this.fill();
-    });
     const heads = ['time', 'command', 'controller', 'simulation', 'margins'];
     const refused = run.head.commands.filter((c) => c.refusal).length;
+    const choice = checkbox(`only the ${refused} refused`, (on) => {
+      this.refusedOnly = on;
+      this.fill();
+    });
     this.element = h('div', { class: 'panel commands' },
-      h('div', { class: 'filter' }, h('label', {}, box, `only the ${refused} refused`), h('span', { class: 'hint' }, 'share of the nearest limit that each of the two verdicts found')),
+      h('div', { class: 'filter' }, choice, h('span', { class: 'hint' }, 'share of the nearest limit that each of the two verdicts found')),
       h('table', {}, h('thead', {}, h('tr', {}, ...heads.map((text) => h('th', { scope: 'col' }, text)))), this.body));
     this.fill();
   }

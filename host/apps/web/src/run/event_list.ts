@@ -1,8 +1,8 @@
 // The events of a run, by kind; a click takes the scene there.
 import type { Run } from '../data/run';
 import { lastBefore } from '../data/run';
-import { weightOf } from '../model/weight';
-import { h, setClass } from '../ui/dom';
+import { checkbox, h, setClass } from '../ui/dom';
+import { eventRow } from '../ui/event_row';
 
 export class EventList {
   readonly element: HTMLElement;
@@ -12,12 +12,7 @@ export class EventList {
   constructor(private readonly run: Run, goTo: (time_s: number) => void) {
     const { events } = run;
     const { period_s } = run.head;
-    this.rows = events.map((event) => {
-      const time_s = event.tick * period_s;
-      return h('li', { class: weightOf(event), 'data-kind': event.kind },
-        h('button', { type: 'button', onclick: () => goTo(time_s) },
-          h('span', { class: 'when' }, `${time_s.toFixed(2)} s`), h('span', { class: 'kind' }, event.kind), h('span', { class: 'text' }, event.text)));
-    });
+    this.rows = events.map((event) => eventRow(event, period_s, goTo));
     const kinds = [...new Set(events.map((event) => event.kind))];
     const filter = h('div', { class: 'filter', role: 'group', 'aria-label': 'kinds of events' }, ...kinds.map((kind) => this.choice(kind)));
     this.element = h('div', { class: 'panel events' }, filter, h('ol', {}, ...this.rows));
@@ -33,10 +28,8 @@ export class EventList {
   }
 
   private choice(kind: string): HTMLElement {
-    const box = h('input', { type: 'checkbox', checked: true });
-    box.addEventListener('change', () => {
-      for (const row of this.rows) if (row.dataset.kind === kind) row.hidden = !box.checked;
-    });
-    return h('label', {}, box, kind);
+    return checkbox(kind, (on) => {
+      for (const row of this.rows) if (row.dataset.kind === kind) row.hidden = !on;
+    }, true);
   }
 }

@@ -2,6 +2,7 @@
 import type { Command, RunHead } from '../data/run';
 import { lastBefore } from '../data/run';
 import type { LianaEvent } from '../data/sample';
+import { PATH_REFUSED } from '../model/outcome_text';
 import { lengthText } from '../model/sentence';
 import { faultRow, refusalRow } from '../model/tables';
 
@@ -53,13 +54,13 @@ function remedyOf(event: LianaEvent, commands: readonly Command[]): string | und
     const refusal = commands.find((c) => c.command === event.values.command)?.refusal;
     return refusal?.remedy || refusalRow(event.number)?.remedy;
   }
-  if (event.kind === 'path') return refusalRow(207)?.remedy;
+  if (event.kind === 'path') return refusalRow(PATH_REFUSED)?.remedy;
   if (event.kind === 'stop') return 'Find out why it was stopped; then liana clear, enable, and retract or begin anew.';
   return undefined;
 }
 
 // Letters and figures alone: the same reason comes in several spellings ("move_cp refused (busy): x", "move_cp refused: busy: x").
-function wordsOf(text: string): string {
+function comparableText(text: string): string {
   return text.toLowerCase().match(/[\p{L}\p{N}.]+/gu)?.join(' ') ?? '';
 }
 
@@ -74,12 +75,12 @@ function saysMore(reason: string, cause: LianaEvent | undefined): boolean {
 // The event that ended it, then what else report and step say; nothing is said twice, and what to do not here.
 function whyOf(cause: LianaEvent | undefined, robot: RunHead['robot'], reasons: readonly string[], todo: readonly string[]): string {
   const subject = cause ? whereItIs(cause.subject, robot) : '';
-  const isNamed = !cause || subject === '' || wordsOf(cause.text).includes(wordsOf(subject));
+  const isNamed = !cause || subject === '' || comparableText(cause.text).includes(comparableText(subject));
   const text = todo.reduce((rest, remedy) => rest.replace(`${remedy} `, ''), cause?.text ?? '');
   const first = cause ? `${isNamed ? '' : `${subject}: `}${text}` : '';
   const more: string[] = [];
   for (const reason of reasons.flatMap((text) => text.split('; '))) {
-    if (saysMore(reason, cause) && ![first, ...more].some((said) => wordsOf(said).includes(wordsOf(reason)))) more.push(reason);
+    if (saysMore(reason, cause) && ![first, ...more].some((said) => comparableText(said).includes(comparableText(reason)))) more.push(reason);
   }
   return [first, more.join('; ')].filter((text) => text !== '').join(' \u2013 ');
 }

@@ -7,7 +7,7 @@ import { decimated } from '../plots/decimate';
 import { groupsOf, type Group } from '../plots/groups';
 import { Strip } from '../plots/strip';
 import type { Theme } from '../scene/palette';
-import { h } from '../ui/dom';
+import { checkbox, h } from '../ui/dom';
 
 const POINTS = 800;
 const STRIP_PX = 122;
@@ -108,11 +108,9 @@ export class RunPlots {
   }
 
   private choice(name: string, strip: Strip): HTMLElement {
-    const box = h('input', { type: 'checkbox', checked: true });
-    box.addEventListener('change', () => {
+    return checkbox(name, (on) => {
       const now = this.shown.find(({ group }) => group.name === name);
-      (now?.strip ?? strip).element.hidden = !box.checked;
-    });
-    return h('label', {}, box, name);
+      (now?.strip ?? strip).element.hidden = !on;
+    }, true);
   }
 }

@@ -1,18 +1,12 @@
 // What colours and shapes mean, with units; and what can be shown besides.
 import type { Robot, Scene } from '../model/robot';
 import { css, scaleOf, tensionColour } from '../model/tension_colour';
-import { h } from '../ui/dom';
+import { checkbox, colourKey, h } from '../ui/dom';
 import { segmentColour, type SceneColours } from './palette';
-
-function key(colour: string, text: string): HTMLElement {
-  return h('span', { class: 'key' }, h('i', { style: `background:${colour}` }), text);
-}
 
 function segmentsLine(robot: Robot): HTMLElement {
   const count = robot.kind === 'serial' ? robot.joints.length : robot.segments.length;
-  const squares = Array.from({ length: count }, (_, i) =>
-    key(segmentColour(i), String(i + 1)),
-  );
+  const squares = Array.from({ length: count }, (_, i) => colourKey(segmentColour(i), String(i + 1)));
   return h('div', {}, robot.kind === 'serial' ? 'joint ' : 'segment ', ...squares);
 }
 
@@ -22,12 +16,6 @@ function tensionLine(robot: Robot): HTMLElement | null {
   const stops = [scale.low_N, scale.middle_N, scale.high_N].map((tension_N) => css(tensionColour(tension_N, scale)));
   const bar = `linear-gradient(90deg, ${stops.join(',')})`;
   return h('div', {}, h('i', { class: 'wide', style: `background:${bar}` }), `cable tension ${scale.low_N}, ${scale.middle_N}, ${scale.high_N} N`);
-}
-
-function choice(text: string, chosen: (on: boolean) => void): HTMLElement {
-  const box = h('input', { type: 'checkbox' });
-  box.addEventListener('change', () => chosen(box.checked));
-  return h('label', {}, box, text);
 }
 
 // `exaggerate` and `predict` are told what the person chose.
@@ -42,9 +30,9 @@ export function legendOf(
     h('summary', {}, 'legend'),
     segmentsLine(robot),
     tensionLine(robot),
-    h('div', {}, scene.rod ? key(colours.rod, 'rod') : null, key(colours.near, 'closest point'), key(colours.ghost, 'commanded arm')),
-    scene.payload ? h('div', {}, key(colours.payload, 'payload'), key(colours.base, 'adapter')) : null,
-    scene.slit ? h('div', {}, key(colours.held, 'discs: held in the plane of the slit (S2)')) : null,
-    choice('error 10 times as large', exaggerate),
-    choice('where it would stop, by the last verdict', predict));
+    h('div', {}, scene.rod ? colourKey(colours.rod, 'rod') : null, colourKey(colours.near, 'closest point'), colourKey(colours.ghost, 'commanded arm')),
+    scene.payload ? h('div', {}, colourKey(colours.payload, 'payload'), colourKey(colours.base, 'adapter')) : null,
+    scene.slit ? h('div', {}, colourKey(colours.held, 'discs: held in the plane of the slit (S2)')) : null,
+    checkbox('error 10 times as large', exaggerate),
+    checkbox('where it would stop, by the last verdict', predict));
 }

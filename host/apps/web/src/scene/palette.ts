@@ -8,66 +8,30 @@ export function segmentColour(segment: number): string {
   return SEGMENT_COLOURS[segment % SEGMENT_COLOURS.length];
 }
 
-export interface SceneColours {
-  background: string;
-  grid: string;
-  gridAxis: string;
-  edge: string;
-  glass: string;
-  wall: string;
-  obstacle: string;
-  rod: string;
-  payload: string;
-  base: string;
-  ghost: string;
-  predicted: string;
-  trail: string;
-  way: string;
-  slit: string;
-  near: string;
-  held: string;
-}
-
-const DARK: SceneColours = {
-  background: '#10161d',
-  grid: '#1f2b37',
-  gridAxis: '#34506a',
-  edge: '#9fb7d9',
-  glass: '#4f86e0',
-  wall: '#a8b0ba',
-  obstacle: '#c25a50',
-  rod: '#ffe14a',
-  payload: '#c9a86a',
-  base: '#7b8592',
-  ghost: '#7fd4ff',
-  predicted: '#c8a2ff',
-  trail: '#ffffff',
-  way: '#5a6b7c',
-  slit: '#3fd0b0',
-  near: '#ffb020',
-  held: '#f4f6f8',
+// Dark, light.
+const SCENE_COLOURS = {
+  background: ['#10161d', '#f2f5f8'],
+  grid: ['#1f2b37', '#d5dde5'],
+  gridAxis: ['#34506a', '#a5b7c8'],
+  edge: ['#9fb7d9', '#40587a'],
+  glass: ['#4f86e0', '#2f66c8'],
+  wall: ['#a8b0ba', '#68727e'],
+  obstacle: ['#c25a50', '#b8473c'],
+  rod: ['#ffe14a', '#c79200'],
+  payload: ['#c9a86a', '#b08c48'],
+  base: ['#7b8592', '#7b8592'],
+  ghost: ['#7fd4ff', '#0a78b8'],
+  predicted: ['#c8a2ff', '#7a3fd0'],
+  trail: ['#ffffff', '#1b2631'],
+  way: ['#5a6b7c', '#93a3b3'],
+  slit: ['#3fd0b0', '#00866c'],
+  near: ['#ffb020', '#c05a00'],
+  held: ['#f4f6f8', '#1b2631'],
 };
 
-const LIGHT: SceneColours = {
-  background: '#f2f5f8',
-  grid: '#d5dde5',
-  gridAxis: '#a5b7c8',
-  edge: '#40587a',
-  glass: '#2f66c8',
-  wall: '#68727e',
-  obstacle: '#b8473c',
-  rod: '#c79200',
-  payload: '#b08c48',
-  base: '#7b8592',
-  ghost: '#0a78b8',
-  predicted: '#7a3fd0',
-  trail: '#1b2631',
-  way: '#93a3b3',
-  slit: '#00866c',
-  near: '#c05a00',
-  held: '#1b2631',
-};
+export type SceneColours = Record<keyof typeof SCENE_COLOURS, string>;
 
 export function sceneColours(theme: Theme): SceneColours {
-  return theme === 'dark' ? DARK : LIGHT;
+  const pairs = Object.entries(SCENE_COLOURS).map(([name, [dark, light]]) => [name, theme === 'dark' ? dark : light]);
+  return Object.fromEntries(pairs) as SceneColours;
 }

@@ -231,7 +231,7 @@ export class SceneView {
     const { scene, sample, stage } = this;
     const chain = this.arm.chain;
     const labels: Label[] = [];
-    const clear_m = sample ? value(sample, 'clearance.distance_m') : NaN;
+    const clear_m = value(sample, 'clearance.distance_m');
     const isNear = clear_m < NEAR_M;
     if (sample && isNear) {
       const bound_m = value(sample, 'clearance.bound_m');

@@ -5,27 +5,12 @@ import type { Ask } from '../live/pending_command';
 import { moved } from '../model/vector';
 import { h } from '../ui/dom';
 import type { Jogger } from './jogger';
-import type { Direction } from './keyboard';
+import { JOGS, type Direction } from './keyboard';
 
 const LONG_MS = 300;
 const STEPS_MM = [1, 5, 20, 50, 100];
 const SPEEDS_MM_S = [5, 15, 30, 60, 100];
 const TURN_OF_SPEED = 3; // rad/s for a speed of 1 m/s: 30 mm/s turns 5 deg/s
-
-const BUTTONS: readonly [string, Direction, string][] = [
-  ['x+', [1, 0, 0, 0, 0, 0], 'W'],
-  ['x\u2212', [-1, 0, 0, 0, 0, 0], 'S'],
-  ['y+', [0, 1, 0, 0, 0, 0], 'A'],
-  ['y\u2212', [0, -1, 0, 0, 0, 0], 'D'],
-  ['z+', [0, 0, 1, 0, 0, 0], 'E'],
-  ['z\u2212', [0, 0, -1, 0, 0, 0], 'Q'],
-  ['turn left', [0, 0, 0, 0, 0, 1], 'J'],
-  ['turn right', [0, 0, 0, 0, 0, -1], 'L'],
-  ['turn up', [0, 0, 0, 0, -1, 0], 'I'],
-  ['turn down', [0, 0, 0, 0, 1, 0], 'K'],
-  ['roll left', [0, 0, 0, -1, 0, 0], 'U'],
-  ['roll right', [0, 0, 0, 1, 0, 0], 'O'],
-];
 
 export class JogPanel {
   readonly element: HTMLElement;
@@ -43,7 +28,7 @@ export class JogPanel {
     this.setSpeed(30);
     this.element = h('section', { class: 'card', 'aria-label': 'Tip' }, h('h2', {}, 'Tip'),
       h('div', { class: 'filter' }, frame, h('label', {}, 'step ', steps), h('label', {}, 'speed ', speeds)),
-      h('div', { class: 'jog' }, ...BUTTONS.map(([name, direction, key]) => this.button(name, direction, key))),
+      h('div', { class: 'jog' }, ...JOGS.map(([name, direction, key]) => this.button(name, direction, key))),
       h('p', { class: 'hint' }, 'Press for a step, hold to move; or hold the key; or drag the ball at the tip in the scene. Letting go holds the arm.'));
   }
 
@@ -81,8 +66,7 @@ export class JogPanel {
   }
 
   private step(name: string, direction: Direction): void {
-    const { sample } = this.live;
-    const commanded = sample ? values(sample, 'setpoint_cp') : new Float32Array(0);
+    const commanded = values(this.live.sample, 'setpoint_cp');
     if (!isKnown(commanded)) return;
     const way = direction.slice(0, 3).map((d) => d * this.step_m);
     const turn = direction.slice(3).map((d) => d * this.step_rad);

@@ -71,7 +71,7 @@ export class Jogger {
 
   private send(): void {
     const { sample, welcome } = this.live;
-    const commanded = sample ? values(sample, 'setpoint_cp') : new Float32Array(0);
+    const commanded = values(sample, 'setpoint_cp');
     if (!welcome || !isKnown(commanded)) return;
     const now_ms = performance.now();
     const passed_s = (now_ms - this.last_ms) / 1000;

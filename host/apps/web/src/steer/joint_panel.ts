@@ -41,7 +41,7 @@ export class JointPanel {
   }
 
   update(): void {
-    const measured = this.live.sample ? values(this.live.sample, 'measured_js_deg') : [];
+    const measured = values(this.live.sample, 'measured_js_deg');
     this.now.forEach((element, i) => setText(element, i < measured.length ? measured[i].toFixed(1) : ''));
     this.commanded_deg().forEach((angle_deg, i) => {
       if (!this.touched.has(i) && i < this.sliders.length) this.sliders[i].value = String(angle_deg);
@@ -49,8 +49,8 @@ export class JointPanel {
     this.say();
   }
 
-  private commanded_deg(): number[] {
-    return this.live.sample ? [...values(this.live.sample, 'setpoint_js_deg')] : [];
+  private commanded_deg(): Float32Array {
+    return values(this.live.sample, 'setpoint_js_deg');
   }
 
   private goal_deg(): number[] {

@@ -3,20 +3,22 @@
 // Velocity of the tip that a key asks for: along x, y, z and about them, -1 to 1.
 export type Direction = readonly [number, number, number, number, number, number];
 
-const JOG: Record<string, Direction> = {
-  KeyW: [1, 0, 0, 0, 0, 0],
-  KeyS: [-1, 0, 0, 0, 0, 0],
-  KeyA: [0, 1, 0, 0, 0, 0],
-  KeyD: [0, -1, 0, 0, 0, 0],
-  KeyE: [0, 0, 1, 0, 0, 0],
-  KeyQ: [0, 0, -1, 0, 0, 0],
-  KeyJ: [0, 0, 0, 0, 0, 1],
-  KeyL: [0, 0, 0, 0, 0, -1],
-  KeyI: [0, 0, 0, 0, -1, 0],
-  KeyK: [0, 0, 0, 0, 1, 0],
-  KeyU: [0, 0, 0, -1, 0, 0],
-  KeyO: [0, 0, 0, 1, 0, 0],
-};
+// Button, direction and key of each.
+export const JOGS: readonly [string, Direction, string][] = [
+  ['x+', [1, 0, 0, 0, 0, 0], 'W'],
+  ['x\u2212', [-1, 0, 0, 0, 0, 0], 'S'],
+  ['y+', [0, 1, 0, 0, 0, 0], 'A'],
+  ['y\u2212', [0, -1, 0, 0, 0, 0], 'D'],
+  ['z+', [0, 0, 1, 0, 0, 0], 'E'],
+  ['z\u2212', [0, 0, -1, 0, 0, 0], 'Q'],
+  ['turn left', [0, 0, 0, 0, 0, 1], 'J'],
+  ['turn right', [0, 0, 0, 0, 0, -1], 'L'],
+  ['turn up', [0, 0, 0, 0, -1, 0], 'I'],
+  ['turn down', [0, 0, 0, 0, 1, 0], 'K'],
+  ['roll left', [0, 0, 0, -1, 0, 0], 'U'],
+  ['roll right', [0, 0, 0, 1, 0, 0], 'O'],
+];
+const DIRECTIONS = new Map(JOGS.map(([, direction, key]) => [`Key${key}`, direction]));
 
 export type Action = { kind: 'stop' } | { kind: 'hold' } | { kind: 'view'; index: number } | { kind: 'jog'; direction: Direction };
 
@@ -35,7 +37,7 @@ export function actionOf(key: Key, inField: boolean): Action | null {
   if (key.code === 'KeyH') return { kind: 'hold' };
   const view = /^Digit([1-9])$/.exec(key.code);
   if (view) return { kind: 'view', index: Number(view[1]) - 1 };
-  const direction = JOG[key.code];
+  const direction = DIRECTIONS.get(key.code);
   return direction ? { kind: 'jog', direction } : null;
 }
 

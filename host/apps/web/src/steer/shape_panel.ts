@@ -34,7 +34,7 @@ export class ShapePanel {
 
   update(): void {
     const { sample, facts } = this.live;
-    const missing_m = sample ? value(sample, 'shape.missing_m') : NaN;
+    const missing_m = value(sample, 'shape.missing_m');
     const searching = facts.shape?.searching ? 'searching; ' : '';
     setText(this.missing, Number.isFinite(missing_m) ? `${searching}missing ${(1000 * missing_m).toFixed(0)} mm${facts.shape?.settled ? ', settled' : ''}` : '');
     const held = facts.held ?? [];

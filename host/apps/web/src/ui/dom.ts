@@ -22,6 +22,17 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+// A box with its words.
+export function checkbox(text: string, switched: (on: boolean) => void, checked = false): HTMLElement {
+  const box = h('input', { type: 'checkbox', checked, onchange: () => switched(box.checked) });
+  return h('label', {}, box, text);
+}
+
+// What a colour means.
+export function colourKey(colour: string, text: string): HTMLElement {
+  return h('span', { class: 'key' }, h('i', { style: `background:${colour}` }), text);
+}
+
 // Writes a text only where it changed: what did not change is not laid out again, nor read aloud again.
 export function setText(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;

@@ -1,4 +1,5 @@
 // Buttons of the handles beside trigger and squeeze (layout "xr-standard"): what a press means.
+import type { Side } from './handles';
 
 export type VrAction = 'hold' | 'stop' | 'mode' | 'scale';
 
@@ -8,7 +9,7 @@ export interface Pressed {
 
 const LOWER = 4; // A or X
 const UPPER = 5; // B or Y
-const ACTIONS: Record<'right' | 'left', Record<number, VrAction>> = {
+const ACTIONS: Record<Side, Record<number, VrAction>> = {
   right: { [LOWER]: 'hold', [UPPER]: 'stop' },
   left: { [LOWER]: 'mode', [UPPER]: 'scale' },
 };
@@ -17,7 +18,7 @@ export class VrButtons {
   private readonly was = new Set<string>();
 
   // Those that went down since the last call.
-  pressed(side: 'right' | 'left', gamepad: Pressed | null): VrAction[] {
+  pressed(side: Side, gamepad: Pressed | null): VrAction[] {
     const actions: VrAction[] = [];
     for (const index of [LOWER, UPPER]) {
       const key = `${side} ${index}`;

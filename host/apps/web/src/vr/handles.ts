@@ -2,6 +2,8 @@
 // arm's base.
 import { multiply, normalised, rotated, type Quaternion } from '../model/vector';
 
+export type Side = 'right' | 'left';
+
 // A handle in one frame of the headset, in the headset's own frame (y up).
 export interface Handle {
   position_m: readonly [number, number, number];
@@ -36,18 +38,18 @@ const GRIPPED = 0.5; // of a trigger, as the gateway has it
 const ORIGIN = [0, 0, 0, 1, 0, 0, 0];
 
 export class HandleSamples {
-  private readonly last: Record<'right' | 'left', number[]> = { right: ORIGIN, left: ORIGIN };
+  private readonly last: Record<Side, number[]> = { right: ORIGIN, left: ORIGIN };
   private last_us = -1;
-  private readonly mustLetGo = new Set<'right' | 'left'>();
+  private readonly requireReengage = new Set<Side>();
 
   // The headset was re-centred: poses from now on are not those of the grip. Each handle steers again after it was let go.
   reset(): void {
-    this.mustLetGo.add('right').add('left');
+    this.requireReengage.add('right').add('left');
   }
 
   // A person holds a trigger that does not count any more.
   get waits(): boolean {
-    return this.mustLetGo.size > 0;
+    return this.requireReengage.size > 0;
   }
 
   // One sample; a handle that is null, or is not tracked, repeats its last pose and is not valid. Times strictly increase.
@@ -56,12 +58,12 @@ export class HandleSamples {
     return { t_us: this.last_us, right: this.one('right', right, device), left: this.one('left', left, device) };
   }
 
-  private one(side: 'right' | 'left', handle: Handle | null, device: Quaternion): HandleSample {
+  private one(side: Side, handle: Handle | null, device: Quaternion): HandleSample {
     const valid = !!handle && handle.isTracked;
     if (valid) this.last[side] = [...rotated(device, handle.position_m), ...normalised(multiply(device, handle.attitude))];
     const trigger = Math.max(0, Math.min(1, handle?.deadman ?? 0));
-    if (trigger < GRIPPED) this.mustLetGo.delete(side);
-    if (this.mustLetGo.has(side)) return { valid, trigger: 0, pose: this.last[side], stale: true };
+    if (trigger < GRIPPED) this.requireReengage.delete(side);
+    if (this.requireReengage.has(side)) return { valid, trigger: 0, pose: this.last[side], stale: true };
     return { valid, trigger, pose: this.last[side] };
   }
 }

@@ -10,15 +10,13 @@ import { lengthText, sentenceOf } from '../model/sentence';
 import type { SceneView } from '../scene/scene_view';
 import { Board } from './board';
 import { nextNode, nextScale, VrButtons } from './buttons';
-import { deviceFromHeadset, HandleSamples, type Handle } from './handles';
+import { deviceFromHeadset, HandleSamples, type Handle, type Side } from './handles';
 import { IntervalLog } from './interval_log';
 import { reachRings, Rig } from './rig';
 
 const TIP_PICTURE_EVERY = 4; // pictures
 const STICK = 0.8;
 const PULSE_MS = 40;
-
-type Side = 'right' | 'left';
 
 export class Vr {
   readonly log = new IntervalLog();
