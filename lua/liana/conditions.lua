@@ -1,6 +1,6 @@
 -- Conditions for `enter`, `exit` and `fail_when` of steps. A condition is { text, met(arm) -> boolean, what of it is met };
 -- the text appears when it is not met in time, and what is met when it ends a step.
--- `arm` is the view of lua/liana/view.lua: the last state, the scene, the robot, and what happened since the step began.
+-- `arm` is that of lua/liana/arm_state.lua: the last state, the scene, the robot, and what happened since the step began.
 local geometry = require "liana.geometry"
 local check_argument = require "liana.check_argument"
 local position = require "liana.position"

@@ -4,7 +4,7 @@
 -- the step again; a failure that `next` has a way for leads through recover to that step. People may pause it.
 local check = require "liana.check"
 local operator_control = require "liana.operator_control"
-local view = require "liana.view"
+local arm_state = require "liana.arm_state"
 local transitions = require "liana.transitions"
 
 local engine = {}
@@ -41,7 +41,7 @@ end
 function engine.new(mission, welcome, native, name)
   local pending = {} -- request id -> command
   return setmetatable({
-    mission = mission, native = native, name = name, arm = view.new(tracked(native.commands, pending), welcome),
+    mission = mission, native = native, name = name, arm = arm_state.new(tracked(native.commands, pending), welcome),
     phase = "boot", index = 0, pending = pending, not_before = 0, first_retract_tick = nil, current_hold = {},
     index_to_begin = 1, single_step = false, taken = {}, -- of each way how often
     boot_reason = "state_command got no refusal",

@@ -2,7 +2,7 @@
 -- function of arm asks for before it looks at anything but the robot. What is computed stays for its time.
 local position = require "liana.position"
 local action_requirements = require "liana.action_requirements"
-local view = require "liana.view"
+local arm_state = require "liana.arm_state"
 
 local asked = {}
 
@@ -53,7 +53,7 @@ end
 -- Of a function: what it asks an arm for of which only the robot is known. Looking at anything else ends it.
 local function heard_from(run, robot, attempt)
   local found = {}
-  local arm = view.new(listening(found), { robot = robot })
+  local arm = arm_state.new(listening(found), { robot = robot })
   arm.begin_tick, arm.was_engaged, arm.must_hold = nil, nil, nil
   attempt(run, arm)
   return found

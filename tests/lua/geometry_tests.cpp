@@ -42,7 +42,7 @@ TEST(LuaGeometry, AnAttitudeIsSeenInTheFrameOfAnother) {
 // A scene that the camera sees 0.1 m aside and a quarter turn about its slit's frame, which is drawn at x = 1.
 TEST(LuaGeometry, TheTipInTheDrawingIsWhereTheSceneWouldHaveItHadItNotBeenShifted) {
   const std::string tip_in_drawing =
-      "(function(seen) local arm = require('liana.view').new({}, { robot = robot, period_s = 1,"
+      "(function(seen) local arm = require('liana.arm_state').new({}, { robot = robot, period_s = 1,"
       " scene = { slit = { frame = { position_m = {1, 0, 0} } } } })"
       " arm.state = { measured_cp = {1, 0.5, 0.1}, clearance = seen }"
       " return arm.tip_in_drawing() end)";

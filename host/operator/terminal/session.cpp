@@ -4,7 +4,7 @@
 #include <numbers>
 #include <utility>
 
-#include "host/operator/terminal/view.hpp"
+#include "host/operator/terminal/status_line.hpp"
 
 namespace liana::terminal {
 namespace {
@@ -102,7 +102,7 @@ void Session::hear(const Json& message) {
 }
 
 std::vector<std::string> Session::lines(std::size_t columns) const {
-  return view_of(state_, {name_, robot_, speed_, goal_.has_value(), said_}, columns);
+  return status_lines(state_, {name_, robot_, speed_, goal_.has_value(), said_}, columns);
 }
 
 std::string Session::why_still() const {

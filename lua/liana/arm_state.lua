@@ -1,10 +1,10 @@
 -- The arm as missions see it: the last state, the robot and scene, and every command of lua/liana/arm_stubs.lua.
 local geometry = require "liana.geometry"
 
-local view = {}
+local arm_state = {}
 
--- A view for one session; `commands` are the bindings, `welcome` is lianad's first message (docs/reference/api.md).
-function view.new(commands, welcome)
+-- That of one session; `commands` are the bindings, `welcome` is lianad's first message (docs/reference/api.md).
+function arm_state.new(commands, welcome)
   local arm = {
     robot = welcome.robot, scene = welcome.scene, period_s = welcome.period_s,
     state = nil, -- the last state message, docs/reference/api.md
@@ -60,4 +60,4 @@ function view.new(commands, welcome)
   return setmetatable(arm, { __index = commands })
 end
 
-return view
+return arm_state

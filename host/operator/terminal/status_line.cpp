@@ -1,4 +1,4 @@
-#include "host/operator/terminal/view.hpp"
+#include "host/operator/terminal/status_line.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -132,7 +132,7 @@ void make_printable(std::string& line) {
 
 }  // namespace
 
-std::vector<std::string> view_of(const Json& state, const Shown& shown, std::size_t columns) {
+std::vector<std::string> status_lines(const Json& state, const Shown& shown, std::size_t columns) {
   std::vector<std::string> lines = {
       text_of("%s  %s  %s  %s  %.1f s", shown.robot.c_str(), state.value("state", "no state yet").c_str(),
               owner_of(state, shown.name).c_str(), what_next(state, shown).c_str(), state.value("time_s", 0.0)),

@@ -1,4 +1,4 @@
-// The lines of the terminal view.
+// The status lines of the terminal.
 #pragma once
 
 #include <string>
@@ -20,6 +20,6 @@ struct Shown {
 
 // `state` as in docs/reference/api.md, or an empty object before the first. Lines are cut at `columns`, and end in no
 // newline.
-std::vector<std::string> view_of(const Json& state, const Shown& shown, std::size_t columns);
+std::vector<std::string> status_lines(const Json& state, const Shown& shown, std::size_t columns);
 
 }  // namespace liana::terminal
