@@ -5,14 +5,20 @@
 A tier is a row of stages. Each test of ctest and each other check is counted; what fails or is skipped is named at the
 end. A failure does not keep later stages from running. Exit code 0: all passed; 1: not; 2: bad input."""
 
+import collections
+import concurrent.futures
 import contextlib
+import contextvars
+import io
 import json
 import os
 import pathlib
 import re
+import resource
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import xml.etree.ElementTree
 
@@ -39,7 +45,7 @@ TIDIED = ["firmware_like", "host/base/net", "host/api/server", "host/control/rea
 # What has threads of its own.
 THREADED = ["host/base/event", "host/storage/archive", "host/control/realtime", "host/control/server"]
 ALL_PACKAGES = ["build", "configure", "format", "clang", "deep", "install", "chromium", "tshark", "vm", "bits", "npm"]
-FUZZ_SECONDS = 5  # each target
+FUZZ_SECONDS = 3  # each target
 PAGE_SUITES = ["unit", "console", "tls", "run_page", "vr", "frames"]
 BARE_ROOT = "README's first command on a bare Debian 12"
 # Tests that may be skipped, by the beginning of their name, and why; any other skip fails.
@@ -54,10 +60,12 @@ NO_SHARED_MEMORY = (
     "/dev/shm is not there or cannot be written; as root: mkdir -p /dev/shm && mount -t tmpfs tmpfs /dev/shm"
 )
 LAST_LINES = 40  # of what a failed test printed, said once more beside the verdict
+# Where a stage prints: standard output, or what is kept until the stages beside it are over.
+OUT = contextvars.ContextVar("OUT", default=None)
 
 
-def say(text):
-    print(f"== {text}", flush=True)
+def tell(text):
+    print(text, file=OUT.get(), flush=True)
 
 
 def complain(text):
@@ -70,14 +78,19 @@ class Tally:
     def __init__(self):
         self.passed = 0
         self.failed, self.skipped, self.ends = [], [], []
+        self.lock = threading.Lock()
 
-    def count(self, name, is_good):
-        if is_good:
-            self.passed += 1
-        else:
+    def count(self, name, is_good, last_lines=()):
+        """The last lines that a failed one printed are said once more beside the verdict."""
+        with self.lock:
+            if is_good:
+                self.passed += 1
+                return True
             self.failed.append(name)
-            complain(f"failed: {name}")
-        return is_good
+            if last_lines:
+                self.ends.append("\n".join((f"--- {name}, its last lines:", *last_lines)))
+        complain(f"failed: {name}")
+        return False
 
     def skip(self, name, reason=""):
         """A skip that is not planned fails."""
@@ -95,13 +108,10 @@ class Tally:
         for case in xml.etree.ElementTree.parse(path).getroot().iter("testcase"):
             name, status = case.get("name"), case.get("status")
             printed = case.findtext("system-out") or ""
-            if status == "fail":
-                self.failed.append(name)
-                self.ends.append(f"--- {name}, its last lines:\n" + "\n".join(printed.splitlines()[-LAST_LINES:]))
-            elif status != "run" or re.search(r"^OK \(.*skipped=[1-9]", printed, re.M):
+            if status != "fail" and (status != "run" or re.search(r"^OK \(.*skipped=[1-9]", printed, re.M)):
                 self.skip(name)
             else:
-                self.passed += 1
+                self.count(name, status != "fail", printed.splitlines()[-LAST_LINES:])
 
     def verdict(self, seconds, as_json):
         for text in self.ends:
@@ -110,7 +120,8 @@ class Tally:
             print(f"failed: {name}")
         for name in self.skipped:
             print(f"skipped: {name}")
-        print(f"total: {seconds} s")
+        used = resource.getrusage(resource.RUSAGE_CHILDREN)
+        print(f"total: {seconds} s, in which {JOBS} processors worked {used.ru_utime + used.ru_stime:.0f} s")
         counts = {"passed": self.passed, "failed": len(self.failed), "skipped": len(self.skipped), "seconds": seconds}
         if as_json:
             print(json.dumps({**counts, "failed_names": self.failed, "skipped_names": self.skipped}))
@@ -124,10 +135,41 @@ TALLY = Tally()
 @contextlib.contextmanager
 def stage(name):
     """Headline, what is done in it, time."""
-    say(name)
+    tell(f"== {name}")
     start = time.monotonic()
     yield
-    print(f"   {name}: {time.monotonic() - start:.0f} s", flush=True)
+    tell(f"   {name}: {time.monotonic() - start:.0f} s")
+
+
+@contextlib.contextmanager
+def meanwhile(*stages):
+    """(Name, function) of stages that leave a processor idle: they run in turn beside those of the block, and what they
+    print comes at its end."""
+    printed = io.StringIO()
+
+    def run():
+        OUT.set(printed)
+        for name, work in stages:
+            with stage(name):
+                work()
+
+    with concurrent.futures.ThreadPoolExecutor(1) as pool:
+        over = pool.submit(run)
+        yield
+        concurrent.futures.wait([over])
+        print(printed.getvalue(), end="", flush=True)
+        over.result()
+
+
+def check(what, *command):
+    """Counts a command by how it ends."""
+    last = collections.deque(maxlen=LAST_LINES)
+    piped = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True, "errors": "replace"}
+    with subprocess.Popen(command, cwd=ROOT, **piped) as running:
+        for line in running.stdout:
+            last.append(line.rstrip("\n"))
+            tell(last[-1])
+    return TALLY.count(what, running.returncode == 0, last)
 
 
 # --- building ---
@@ -173,13 +215,20 @@ def build_tests(*targets, **options):
 
 
 @contextlib.contextmanager
-def beside(preset, *targets):
-    """The targets of what comes later are compiled while the rest leaves a processor idle. What does not compile is told
-    when its turn comes."""
-    configure(preset)
-    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    with subprocess.Popen(ninja(preset, *targets), cwd=ROOT, **quiet):
+def beside(*builds):
+    """Of each build (preset, targets) what comes later is compiled while the block leaves a processor idle. What does not
+    compile is told when its turn comes."""
+
+    def compile_all():
+        quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        for preset, *targets in builds:
+            does("cmake", "--preset", preset, **quiet)
+            does("nice", "-n", "19", *ninja(preset, *targets), **quiet)
+
+    with concurrent.futures.ThreadPoolExecutor(1) as pool:
+        compiled = pool.submit(compile_all)
         yield
+        compiled.result()
 
 
 def built(make):
@@ -215,7 +264,7 @@ def other_tests():
     """What needs the programs as they are shipped. The unit tests are not built there, and ctest knows of each of their
     programs no more than that: sanitizers() runs them. That both compilers make the same of the core, bits.quick sees.
     """
-    run_ctest("tests", ".", "-LE", "unit", "-E", f"_NOT_BUILT$|{PROOF}")
+    run_ctest("tests", ".", "-LE", "unit", "-E", f"_NOT_BUILT$|{PROOF}", "-j", str(JOBS + 1))
 
 
 def sanitizers():
@@ -266,26 +315,24 @@ def no_alloc():
         if program.name != "lianad":
             does("cp", "-f", str(program), str(guarded))
     mission = [str(guarded / "liana"), "run", "slit_crossing", "--time", "fast", "--json", str(guarded / "report.json")]
-    TALLY.count("a mission without allocation inside a tick", does(*mission))
-    env = {**os.environ, "LIANA_BIN": str(guarded)}
-    faults = does("python3", "tests/system/drive_faults_test.py", env=env)
-    TALLY.count("fault paths without allocation inside a tick", faults)
+    check("a mission without allocation inside a tick", *mission)
+    faults = ["env", f"LIANA_BIN={guarded}", "python3", "tests/system/drive_faults_test.py"]
+    check("fault paths without allocation inside a tick", *faults)
 
 
 def vcan():
     """In a virtual machine, because hardly any build machine has CAN in its kernel."""
-    sockets = does("hil/vm/run_in_vm", "build/programs/bin/socketcan_tests")
-    TALLY.count("SocketCAN on vcan in the virtual machine", sockets)
-    scenarios = does("python3", "hil/scenarios/run.py", "--part", "can", "--reduced")
-    TALLY.count("scenarios on vcan and SJA1000 controllers, latency in the virtual machine", scenarios)
+    check("SocketCAN on vcan in the virtual machine", "hil/vm/run_in_vm", "build/programs/bin/socketcan_tests")
+    scenarios = ["python3", "hil/scenarios/run.py", "--part", "can", "--reduced"]
+    check("scenarios on vcan and SJA1000 controllers, latency in the virtual machine", *scenarios)
 
 
 def page():
     """The page's modules without a browser, then the page in Chromium against a running system; pictures and a table of
     frame times stay in build/page/screens."""
-    if TALLY.count("the page's packages", does("host/apps/web/bundle", "--dev")):
+    if check("the page's packages", "host/apps/web/bundle", "--dev"):
         for suite in PAGE_SUITES:
-            TALLY.count(f"the page: {suite}", does("node", "tests/page/run.mjs", suite))
+            check(f"the page: {suite}", "node", "tests/page/run.mjs", suite)
 
 
 def bare_root(*kept):
@@ -293,7 +340,7 @@ def bare_root(*kept):
     if can.returncode != 0:
         TALLY.skip(BARE_ROOT, can.stdout.strip())
     else:
-        TALLY.count(BARE_ROOT, does("tests/install/run", *kept))
+        check(BARE_ROOT, "tests/install/run", *kept)
 
 
 # --- tiers ---
@@ -321,25 +368,23 @@ def deep():
             TALLY.count(name, is_clean())
     if not built(lambda: build_tests("all", *UNSANITIZED, env=keeping_objects())):
         return
-    with stage("page"):
-        page()
-    with stage("tests"):
-        other_tests()
-    with stage("vcan"), beside("checked", "unit_tests", "fuzz_targets"):
-        vcan()
-    with stage("unit tests"):
-        compiles = sanitizers()
-    with stage("bare root"), beside("tsan", *(f"tests/{folder}/all" for folder in THREADED)):
-        bare_root(objects())
-    with stage("threads"):
-        threads(THREADED)
-    with stage("clang-tidy"):
-        tidy()
-    with stage("fuzzing"):
-        if compiles:
-            fuzzing()
-    with stage("no-alloc"):
-        no_alloc()
+    sanitized, threaded = ("unit_tests", "fuzz_targets"), [f"tests/{folder}/all" for folder in THREADED]
+    with beside(("checked", *sanitized), ("tsan", *threaded)):
+        with stage("page"):
+            page()
+        with stage("tests"):
+            other_tests()
+    alone = (("vcan", vcan), ("bare root", lambda: bare_root(objects())), ("no-alloc", no_alloc))
+    with meanwhile(*alone):
+        with stage("unit tests"):
+            compiles = sanitizers()
+        with stage("threads"):
+            threads(THREADED)
+        with stage("clang-tidy"):
+            tidy()
+        with stage("fuzzing"):
+            if compiles:
+                fuzzing()
 
 
 def only_page():
