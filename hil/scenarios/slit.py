@@ -73,19 +73,18 @@ FAULTS = {
     "camera_mirrored": bench("camera_mirrored"),
 }
 FIGURES = ("contact_N", "clearance_mm", "link_mm", "least_tension_N", "rest_s")
-# What ./dev test runs, within three minutes of a processor.
+# What ./dev test runs, within two minutes of a processor.
 REDUCED = {
     ("step4", "cable_slip"),
     ("step4", "silent"),
     ("step4", "lianad_stands_still"),
     ("step4", "camera_mirrored"),
-    ("step4", "camera_frozen"),
     ("step5", "sto"),
     ("step6", "bus_lost"),
     ("step6", "camera_jump"),
     ("retract", "fault"),
 }
-REDUCED_BREAKS = {("step4", 13), ("step6", 14), ("step6", 10), ("step4", 0), ("retract", 12)}
+REDUCED_BREAKS = {("step4", 13), ("step6", 14), ("retract", 12)}
 SECOND_SLOTS = 500  # after the first: the arm is on its way back
 PAUSE_SLOTS = 250  # a second; lianad_stands_still
 

@@ -20,7 +20,7 @@ from slit_truth import Aftermath, beside_way_m
 VICTIMS = ("liana-operator", "liana-mission", "client", "liana-archive", "liana-bench", "liana-bus", "lianad", "stall")
 STALLS = (1, 2, 3, 10, 125, 1000)  # slots
 UNLED_S = 20.0  # arm time that whoever is left gets
-REDUCED = 10
+REDUCED = len(VICTIMS)
 SEED_OF_REDUCED = 1
 
 Strike = collections.namedtuple("Strike", "victim moment slot stall seed")

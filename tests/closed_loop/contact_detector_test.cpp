@@ -68,18 +68,27 @@ struct Felt {
 
 // Half a newton a second more across a segment's middle, while the arm moves gently, until a fault says so.
 Felt pushed(std::uint64_t seed, std::size_t segment, const Vec3& across) {
-  constexpr double kRise_N_s = 0.5, kBegin_s = 12.0;
+  constexpr double kRise_N_s = 0.5, kBegin_s = 12.0, kMove_s = 60.0, kInterval_s = 0.02;
   ArmUnderControl arm({"nominal", seed, true, "prepare"});
   arm.boot();
+  const cable::ThetaVector from = arm.outputs().theta_command_rad, to = named_pose_rad("panel_edge");
   double time_s = 0.0;
   Felt felt;
-  arm.move_joints(named_pose_rad("panel_edge"), 60.0, [&](ArmUnderControl& now) {
+  const auto push = [&](ArmUnderControl& now) {
     time_s += now.table().tick_s;
     const double force_N = std::fmax(0.0, kRise_N_s * (time_s - kBegin_s));
     now.plant().push(8 * segment + 4, scale(across, force_N));
     if (now.outputs().faults.count == 0 || felt.first != FaultNumber::kNone) return;
     felt = {now.outputs().faults.fault[0].number, force_N, now.outputs().contact.segment};
-  });
+  };
+  while (felt.first == FaultNumber::kNone && time_s < kMove_s) {
+    cable::Setpoint setpoint;
+    setpoint.kind = CommandKind::kJoint;
+    const double done = minimum_jerk((time_s + kInterval_s) / kMove_s);
+    for (std::size_t i = 0; i < from.size(); ++i) setpoint.joint_rad[i] = from[i] + done * (to[i] - from[i]);
+    arm.follow(
+        kInterval_s, [&](double) { return setpoint; }, push);
+  }
   return felt;
 }
 

@@ -111,12 +111,6 @@ TEST(Mission, HoldsWhenTheOperatorDoesNotArriveInTime) {
   EXPECT_TRUE(names(run.ended.error, {"120 s", "device", "operator", "arrived"}));
 }
 
-TEST(Mission, WhatTheOperatorSaidBeforeTheStepDoesNotEndIt) {
-  const MissionRun run = run_mission_against({.operator_speaks_too_early = true});
-  EXPECT_EQ(run.report["outcome"], "failed");
-  EXPECT_EQ(run.report["steps"].size(), 2u);
-}
-
 // The only way out of the slit is the verified path backwards.
 TEST(Mission, RetractsOutOfTheSlitToWhereItEntered) {
   const MissionRun run = run_mission_against({.tip_in_slit_u_m = 2.5});
@@ -505,6 +499,14 @@ TEST(Mission, FaultsAndErrorsOfTheScriptAreNoFailureThatNextLeadsOnFrom) {
       {}, steps_with(folder, {"next = { step = 'b', when = c('c', function() error 'x' end) }", ""}));
   EXPECT_EQ(order_of(in_next), "a");
   EXPECT_NE(in_next.report["reason"].get<std::string>().find("error in next: "), std::string::npos) << in_next.report;
+}
+
+TEST(Mission, WhatTheOperatorSaidBeforeTheStepDoesNotEndIt) {
+  const TemporaryFolder folder;
+  const std::string mission = steps_with(folder, {"", "exit = liana.operator_says 'arrived'"});
+  const MissionRun run = run_mission_against({.operator_speaks_too_early = true}, mission);
+  ASSERT_EQ(run.report["steps"].size(), 2u);
+  EXPECT_EQ(run.report["steps"][1]["outcome"], "failed");
 }
 
 TEST(Mission, NoRunHasMoreThanAThousandSteps) {

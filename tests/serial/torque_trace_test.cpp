@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tests/rounds.hpp"
 #include "tests/serial/force_rig.hpp"
 
 namespace liana::test {
@@ -72,7 +73,7 @@ Traces traces_of(ForceRig& rig) {
 // What a joint's friction holds, no torque loop sees move: that much may be between told and read, and may stay.
 // req:B31
 TEST(TorqueTraces, ReadFollowsToldWhilePressingAndIsAfterTheCaptureWhatItWasBefore) {
-  for (std::uint64_t seed = 201; seed <= 212; ++seed) {
+  for (std::uint64_t seed = 201; seed <= 200 + rounds(std::uint64_t{12}); ++seed) {
     const ForceCase drawn = drawn_case(seed);
     ForceRig rig(drawn);
     const Traces found = traces_of(rig);

@@ -13,6 +13,7 @@ FIGURES = (
     "insertion_m unload_s base_deflection_m resisted_N margin_N end_force_N end_torque_Nm base_force_N base_torque_Nm"
 ).split()
 WHOLE_FLIGHT_S = 900  # of wall time, where much else goes on
+FAULTS = SOURCE / "lua" / "missions" / "payload_install" / "faults"
 TIMELINE = SOURCE / "lua" / "missions" / "payload_timeline.json"
 
 
@@ -91,9 +92,18 @@ class Payload(SystemTest):
         self.assertGreater(report["fault"]["begun_s"], 30)
         self.assertNotIn("captured", self.names(report))
 
-    # req:B26
-    def test_a_lock_that_stops_half_way_is_asked_again(self):
-        done, report = self.flown("--seed", "8002", "--fault", "lock_failed")
+    def flown_with(self, faults):
+        with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
+            file.write(json.dumps(faults))
+            file.flush()
+            return self.flown("--seed", "8002", "--faults", file.name)
+
+    # req:B19 req:B26
+    def test_a_lock_that_stops_half_way_is_asked_again_and_what_the_adapter_says_twice_counts_once(self):
+        names = ("lock_failed", "duplicate_capture")
+        done, report = self.flown_with(
+            [each for name in names for each in json.loads((FAULTS / f"{name}.json").read_text())]
+        )
         self.assertEqual((done.returncode, report["outcome"]), (0, "success"), done.stderr)
         names = self.names(report)
         self.assertLess(names.index("lock failed"), names.index("lock closed"))
@@ -102,22 +112,14 @@ class Payload(SystemTest):
 
     # req:B19 req:B26
     def test_a_latch_that_closes_while_the_arm_backs_off_is_not_pulled_at(self):
-        late = [{"kind": "depth_lies", "pin": 1, "depth_m": 0.01, "when": {"depth_above_m": 0.002}, "for_slots": 9600}]
-        with tempfile.NamedTemporaryFile("w", suffix=".json") as faults:
-            faults.write(json.dumps(late))
-            faults.flush()
-            done, report = self.flown("--seed", "8002", "--faults", faults.name)
+        late = {"kind": "depth_lies", "pin": 1, "depth_m": 0.01, "when": {"depth_above_m": 0.002}, "for_slots": 9600}
+        done, report = self.flown_with([late])
         self.assertEqual((done.returncode, report["outcome"], report["faults"]), (1, "failed", []))
         self.assertEqual(
             (report["steps"][-1]["name"], report["steps"][-1]["outcome"]), ("3 away from the adapter", "failed")
         )
         self.assertTrue(report["ends_at_rest"])
         self.assertLess(report["max_joint_torque_Nm"], 100)
-
-    # req:B19 req:B26
-    def test_what_the_adapter_says_twice_counts_once(self):
-        done, report = self.flown("--seed", "8002", "--fault", "duplicate_capture")
-        self.assertEqual((done.returncode, report["outcome"]), (0, "success"), done.stderr)
 
     def test_a_payload_for_an_arm_without_torque_drives_is_refused_before_anything_starts(self):
         for mission, robot in (("micro_reach", "micro"), ("lab_tour", "three_segment_lab")):

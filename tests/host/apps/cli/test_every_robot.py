@@ -126,11 +126,9 @@ class EveryRobot(Messages, unittest.TestCase):
         self.crosses(file, mission, "none")
 
     def test_a_new_arm_of_four_cables_a_segment_can_be_calibrated(self):
-        for segments in (1, 5):
-            file = self.new(f"four_{segments}", "--segments", segments, "--cables", 4)
-            with self.subTest(segments=segments):
-                code, out, error = liana("calibrate", "--robot", file, "--poses", "zero,bent,back", "--json")
-                self.assertEqual(code, 0, out + error)
+        file = self.new("four", "--segments", 2, "--cables", 4)
+        code, out, error = liana("calibrate", "--robot", file, "--poses", "zero,bent,back", "--json")
+        self.assertEqual(code, 0, out + error)
 
     def test_four_cables_in_opposite_pairs_are_named_as_what_no_pose_tells_apart(self):
         file = self.new("pairs", "--segments", 2, "--cables", 4)
@@ -138,11 +136,6 @@ class EveryRobot(Messages, unittest.TestCase):
         code, out, error = liana("calibrate", "--robot", file, "--poses", "zero,bent,back")
         self.assertEqual((code, out), (2, ""), error)
         self.assert_names(error, "cables 0 and 2", "opposite")
-
-    def test_a_new_arm_moves_at_once(self):
-        mission = self.folder / "tour.lua"
-        mission.write_text(TOUR.replace('"first"', '"bent"').replace('"second"', '"back"'))
-        self.crosses(self.new("desk_arm"), mission, "none")
 
     def test_what_no_arm_can_have_is_refused_before_a_file_is_written(self):
         for words, named in (

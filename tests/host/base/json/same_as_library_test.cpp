@@ -6,6 +6,7 @@
 #include <random>
 
 #include "host/base/json/json.hpp"
+#include "tests/rounds.hpp"
 
 namespace liana {
 namespace {
@@ -141,7 +142,7 @@ TEST(SameAsLibrary, RandomDocumentsAreReadBuiltAndPrintedAlike) {
 
 TEST(SameAsLibrary, MillionDoublesArePrintedAlike) {
   std::mt19937_64 random(2);
-  for (int i = 0; i < 1'000'000; ++i) {
+  for (int i = 0; i < rounds(1'000'000); ++i) {
     const double value = random_double(random);
     ASSERT_EQ(Json(value).dump(), Library(value).dump());
   }
@@ -150,7 +151,7 @@ TEST(SameAsLibrary, MillionDoublesArePrintedAlike) {
 TEST(SameAsLibrary, SpoiledTextsAreAcceptedAndRefusedAlike) {
   std::mt19937_64 random(3);
   int accepted = 0;
-  for (int i = 0; i < 30'000; ++i) {
+  for (int i = 0; i < rounds(30'000); ++i) {
     std::string text = random_document(random, 3).dump();
     const std::size_t at = random() % text.size();
     if (random() % 2 == 0) {
@@ -168,8 +169,8 @@ TEST(SameAsLibrary, SpoiledTextsAreAcceptedAndRefusedAlike) {
       ASSERT_TRUE(theirs.is_discarded()) << text;
     }
   }
-  EXPECT_GT(accepted, 1000);
-  EXPECT_LT(accepted, 29'000);
+  EXPECT_GT(accepted, rounds(1000));
+  EXPECT_LT(accepted, rounds(29'000));
 }
 
 TEST(SameAsLibrary, BracedListsMeanTheSame) {

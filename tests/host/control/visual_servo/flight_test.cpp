@@ -13,6 +13,7 @@
 #include "firmware_like/math/trig.hpp"
 #include "firmware_like/operator_input/tip_filter.hpp"
 #include "host/control/visual_servo/target_servo.hpp"
+#include "tests/rounds.hpp"
 
 namespace liana::visual_servo {
 namespace {
@@ -185,11 +186,12 @@ Table fly_all(const char* name, const Camera& camera, std::uint64_t first_seed, 
 }
 
 constexpr std::uint64_t kUnseenSeed = 70001;
+constexpr int kFlights = rounds(200), kFewer = rounds(100);
 
 // req:B16 req:B24 req:B28
 TEST(Flight, TheStudysCameraLeadsToItsPlaceWithinAMillimetreInTheSourcesTime) {
-  const Table table = fly_all("10 Hz, 2 mm", {10.0, 0.2, 0.002, 0.2 * kDegree, 0.0}, kUnseenSeed, 200);
-  EXPECT_EQ(table.done, 200);
+  const Table table = fly_all("10 Hz, 2 mm", {10.0, 0.2, 0.002, 0.2 * kDegree, 0.0}, kUnseenSeed, kFlights);
+  EXPECT_EQ(table.done, kFlights);
   EXPECT_GT(table.exit_median_s, 25.0);
   EXPECT_LT(table.exit_95_s, 40.0);
   EXPECT_LT(table.error_95_m, 0.001);
@@ -199,11 +201,11 @@ TEST(Flight, TheStudysCameraLeadsToItsPlaceWithinAMillimetreInTheSourcesTime) {
 }
 
 TEST(Flight, ASlowerCameraAndOneThatDropsAThirdOfItsImagesDoToo) {
-  const Table slow = fly_all("5 Hz, 2 mm", {5.0, 0.2, 0.002, 0.2 * kDegree, 0.0}, kUnseenSeed, 100);
+  const Table slow = fly_all("5 Hz, 2 mm", {5.0, 0.2, 0.002, 0.2 * kDegree, 0.0}, kUnseenSeed, kFewer);
   const Table dropping =
-      fly_all("10 Hz, 2 mm, a third dropped", {10.0, 0.2, 0.002, 0.2 * kDegree, 0.33}, kUnseenSeed, 100);
+      fly_all("10 Hz, 2 mm, a third dropped", {10.0, 0.2, 0.002, 0.2 * kDegree, 0.33}, kUnseenSeed, kFewer);
   for (const Table& table : {slow, dropping}) {
-    EXPECT_GE(table.done, 99);
+    EXPECT_GE(table.done, kFewer - 1);
     EXPECT_LT(table.exit_95_s, 40.0);
     EXPECT_LT(table.error_95_m, 0.0012);
   }
@@ -211,8 +213,8 @@ TEST(Flight, ASlowerCameraAndOneThatDropsAThirdOfItsImagesDoToo) {
 
 TEST(Flight, ABetterCameraErrsLess) {
   const Table table =
-      fly_all("10 Hz, 2 mm = 3 sigma", {10.0, 0.2, 0.002 / 3, 0.2 / 3 * kDegree, 0.0}, kUnseenSeed, 100);
-  EXPECT_EQ(table.done, 100);
+      fly_all("10 Hz, 2 mm = 3 sigma", {10.0, 0.2, 0.002 / 3, 0.2 / 3 * kDegree, 0.0}, kUnseenSeed, kFewer);
+  EXPECT_EQ(table.done, kFewer);
   EXPECT_LT(table.error_most_m, 0.0008);
 }
 

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "tests/rounds.hpp"
+
 namespace liana::test {
 namespace {
 
@@ -17,7 +19,7 @@ using simulated::LivelyTable;
 using simulated::Range;
 
 constexpr double kTemperStep_s = 0.002;
-constexpr std::uint64_t kSeeds = 6;
+constexpr std::uint64_t kAllSeeds = 6, kSeeds = rounds(kAllSeeds);
 constexpr Pose kHere{{0.01, -0.02, 0.03}, {1.0, 0.0, 0.0, 0.0}};
 
 // Gestures alone.
@@ -93,7 +95,7 @@ TEST(Temper, IsCalledGentleOrLivelyAndNothingElse) {
 TEST(Temper, GesturesStayWithinReachSpeedAndAccelerationAndComeNearThem) {
   for (const LivelyTable& table : {gestures_of(LivelyTable{}), gestures_of(lively_at_handles())}) {
     MostOfWay all;
-    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    for (std::uint64_t seed = 1; seed <= kAllSeeds; ++seed) {
       const LivelySamples hands = sampled(table, seed, 120.0);
       for (const auto* way : {&hands.right_m, &hands.left_m}) {
         const MostOfWay most = max_of(*way);

@@ -39,41 +39,35 @@ class RingExport : public ArchiveFolder {
   RingTicks ticks_;
 };
 
-TEST_F(RingExport, AMinuteAgoOutputsAreMadeAgainAndReplayFindsNoTickThatDiffers) {
-  const TicksWritten written = cut({12345, 15432});
-  EXPECT_EQ(written.ticks, 15432u - 12345u + 1);
-  EXPECT_EQ(written.made_again, written.ticks);
-  EXPECT_EQ(written.left_out + written.differing, 0u);
-  const recording::ReplayResult replayed = recording::replay(cut_);
-  EXPECT_EQ(replayed.ticks, written.ticks);
-  EXPECT_EQ(replayed.differing_ticks, 0u);
-  EXPECT_EQ(replayed.missing_ticks, 0u);
-  EXPECT_TRUE(replayed.complete);
-}
-
-TEST_F(RingExport, TheNewestTicksHaveTheirOwnOutputsAndReplayLikewise) {
-  const TicksWritten written = cut({98 * kSecond, kAll.last});
-  EXPECT_EQ(written.ticks, 2 * kSecond);
-  EXPECT_EQ(written.made_again, 0u);
-  const recording::ReplayResult replayed = recording::replay(cut_);
-  EXPECT_EQ(replayed.ticks, written.ticks);
-  EXPECT_EQ(replayed.differing_ticks + replayed.missing_ticks, 0u);
-}
-
-TEST_F(RingExport, TheBeginOfTheRunReplaysFromTheStart) {
-  EXPECT_EQ(cut({0, 2000}).ticks, 2001u - 40u);
-  const recording::ReplayResult replayed = recording::replay(cut_);
-  EXPECT_EQ(replayed.ticks, 2001u - 40u);
-  EXPECT_EQ(replayed.differing_ticks, 0u);
-}
-
-TEST_F(RingExport, AfterAGapItGoesOnAtTheNextImageAndSaysWhatIsLeftOut) {
-  const TicksWritten written = cut({19000, 22000});
-  EXPECT_EQ(written.left_out, 21000u - kGapEnds);
-  EXPECT_EQ(written.ticks, kGapBegins - 19000 + 22001 - 21000);
-  const recording::ReplayResult replayed = recording::replay(cut_);
-  EXPECT_EQ(replayed.ticks, written.ticks);
-  EXPECT_EQ(replayed.differing_ticks + replayed.missing_ticks, 0u);
+TEST_F(RingExport, AnyWindowReplaysWithoutATickThatDiffers) {
+  struct Window {
+    const char* about;
+    Span span;
+    std::uint64_t ticks, made_again, left_out;
+  };
+  constexpr std::uint64_t kFirst = 40;  // tick of the run
+  for (const Window& window :
+       {Window{"a minute ago Outputs are made again", {12345, 15432}, 3088, 3088, 0},
+        Window{"the newest ticks have their own Outputs", {98 * kSecond, kAll.last}, 2 * kSecond, 0, 0},
+        Window{"the begin of the run", {0, 2000}, 2001 - kFirst, 2001 - kFirst, 0},
+        Window{"from the next image after a gap",
+               {19000, 22000},
+               kGapBegins - 19000 + 22001 - 21000,
+               kGapBegins - 19000 + 22001 - 21000,
+               21000 - kGapEnds}}) {
+    SCOPED_TRACE(window.about);
+    std::filesystem::remove_all(cut_);
+    const TicksWritten written = cut(window.span);
+    EXPECT_EQ(written.ticks, window.ticks);
+    EXPECT_EQ(written.made_again, window.made_again);
+    EXPECT_EQ(written.left_out, window.left_out);
+    EXPECT_EQ(written.differing, 0u);
+    const recording::ReplayResult replayed = recording::replay(cut_);
+    EXPECT_EQ(replayed.ticks, written.ticks);
+    EXPECT_EQ(replayed.differing_ticks, 0u);
+    EXPECT_EQ(replayed.missing_ticks, 0u);
+    EXPECT_TRUE(replayed.complete);
+  }
 }
 
 TEST_F(RingExport, WhatIsNotThereOrWouldBeOverwrittenIsRefused) {

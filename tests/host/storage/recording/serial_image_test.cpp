@@ -13,6 +13,7 @@
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/host/storage/recording/field_finder.hpp"
 #include "tests/message.hpp"
+#include "tests/rounds.hpp"
 
 namespace liana::recording {
 namespace {
@@ -142,7 +143,7 @@ TEST(SerialImage, AnImageWithFlippedBytesIsRefusedOrHarmless) {
   const std::string good = state_of(rig.controller);
   std::mt19937 draw(7);
   int taken = 0;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < rounds(1000); ++i) {
     std::string bad = good;
     for (int flips = 1 + i % 3; flips > 0; --flips) {
       char& byte = bad[draw() % bad.size()];
@@ -154,8 +155,8 @@ TEST(SerialImage, AnImageWithFlippedBytesIsRefusedOrHarmless) {
     other.controller = controller_from<SerialArm>(bad, rig.robot, "images.mcap");
     other.run(4);
   }
-  EXPECT_GT(taken, 20);
-  EXPECT_LT(taken, 1000);
+  EXPECT_GT(taken, rounds(20));
+  EXPECT_LT(taken, rounds(1000));
 }
 
 }  // namespace
