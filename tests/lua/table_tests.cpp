@@ -226,9 +226,11 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
        {"given.lua", "teleoperate", "node", "9", "0", "4", "zhu2022"}},
       {"step 'a' { device = 'vr', teleoperate = { sclae = 1 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
        {"given.lua", "teleoperate", "sclae", "1", "device", "scale", "rotation_scale", "node", "speed_m_s", "unknown"}},
-      {"step 'a' { device = 'vr', teleoperate = { device = 'hand' }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
+      {"step 'a' { device = 'vr', teleoperate = { device = 'hand' }, exit = at_rest(), time_limit_s = 1, on_fail = "
+       "'hold' }",
        {"given.lua", "teleoperate.device", "hand", "nothing"}},
-      {"step 'a' { device = 'vr', teleoperate = { fixtures = {} }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
+      {"step 'a' { device = 'vr', teleoperate = { fixtures = {} }, exit = at_rest(), time_limit_s = 1, on_fail = "
+       "'hold' }",
        {"given.lua", "teleoperate.fixtures", "table", "nothing"}},
       {"step 'a' { device = 'none', fixtures = false, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
        {"given.lua", "fixtures", "given", "device"}},
@@ -262,7 +264,8 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
        {"given.lua", "step 1", "a", "hold", "5", "4", "zhu2022", "10", "6"}},
       {"step 'a' { device = 'vr', teleoperate = { node = 5 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
        {"given.lua", "teleoperate", "node", "5", "0", "4", "zhu2022"}},
-      {"step 'a' { device = 'vr', teleoperate = { speed_m_s = 0.5 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
+      {"step 'a' { device = 'vr', teleoperate = { speed_m_s = 0.5 }, exit = at_rest(), time_limit_s = 1, on_fail = "
+       "'hold' }",
        {"given.lua", "teleoperate", "speed_m_s", "0.5", "1e-04", "0.1", "zhu2022"}},
       {"step 'a' { device = 'none', run = liana.move_to 'nowhere', exit = at_rest(), time_limit_s = 1, on_fail = "
        "'hold' }",
