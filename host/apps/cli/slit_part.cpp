@@ -1,7 +1,6 @@
 #include "host/apps/cli/slit_part.hpp"
 
-#include <numbers>
-
+#include "firmware_like/math/trig.hpp"
 #include "host/model/config/slit_mouth.hpp"
 #include "host/model/config/theta_numbers.hpp"
 
@@ -10,8 +9,7 @@ namespace {
 
 Json range_deg(const inverse_kinematics::YawInterval& interval) {
   if (interval.empty) return nullptr;
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
-  return {interval.lowest_rad * kDegrees, interval.highest_rad * kDegrees};
+  return {interval.lowest_rad / kDegree, interval.highest_rad / kDegree};
 }
 
 }  // namespace

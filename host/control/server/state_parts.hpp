@@ -2,12 +2,13 @@
 #pragma once
 
 #include "firmware_like/math/pose.hpp"
+#include "firmware_like/math/trig.hpp"
 #include "host/base/json/json.hpp"
 #include "host/control/arbiter/retract_events.hpp"
 
 namespace liana::server {
 
-constexpr double in_degrees(double rad) { return rad * 57.29577951308232; }
+constexpr double in_degrees(double rad) { return rad / kDegree; }
 
 // [x, y, z, qw, qx, qy, qz].
 inline Json pose_json(const Pose& p) {

@@ -14,7 +14,7 @@ void read_segment(const Field& field, double mass_kg, cable::SegmentParams& segm
   field.only({"modules", "module_length_m", "theta_limit_deg"});
   segment.modules = static_cast<std::int32_t>(field.at("modules").integer(1, cable::kMaxModules));
   segment.module_length_m = field.at("module_length_m").number({0.01, 1});
-  segment.theta_limit_rad = field.at("theta_limit_deg").number({0.1, 45}) * kRadPerDeg;
+  segment.theta_limit_rad = field.at("theta_limit_deg").number({0.1, 45}) * kDegree;
   segment.module_mass_kg = mass_kg;
 }
 
@@ -32,7 +32,7 @@ void read_phases(const Field& field, cable::SegmentParams& segment) {
   std::vector<double> phases_deg;
   for (std::size_t c = 0; c < count; ++c) {
     phases_deg.push_back(field.element(c).number({-360, 360}));
-    segment.cable_phase_rad[c] = phases_deg.back() * kRadPerDeg;
+    segment.cable_phase_rad[c] = phases_deg.back() * kDegree;
   }
   if (!surround(phases_deg))
     field.refuse("phases with less than 179 deg between neighbours",
@@ -86,15 +86,15 @@ void read_limits(const Field& field, cable::MotionLimits& limits) {
   field.only({"theta_rate_deg_s", "theta_accel_deg_s2", "tip_speed_m_s", "tip_speed_slit_m_s", "tip_accel_m_s2",
               "tip_jerk_m_s3", "tip_rate_deg_s", "tip_angular_accel_deg_s2", "tip_angular_jerk_deg_s3",
               "cable_speed_m_s", "tip_lag_s"});
-  limits.theta_rate_rad_s = field.at("theta_rate_deg_s").number({0.001, 90}) * kRadPerDeg;
-  limits.theta_accel_rad_s2 = field.at("theta_accel_deg_s2").number({0.001, 1000}) * kRadPerDeg;
+  limits.theta_rate_rad_s = field.at("theta_rate_deg_s").number({0.001, 90}) * kDegree;
+  limits.theta_accel_rad_s2 = field.at("theta_accel_deg_s2").number({0.001, 1000}) * kDegree;
   limits.tip_speed_m_s = field.at("tip_speed_m_s").number({0.0001, 2});
   limits.tip_speed_slit_m_s = field.at("tip_speed_slit_m_s").number({0.0001, limits.tip_speed_m_s});
   limits.tip_accel_m_s2 = field.at("tip_accel_m_s2").number({0.0001, 50});
   limits.tip_jerk_m_s3 = field.at("tip_jerk_m_s3").number({0.001, 1000});
-  limits.tip_rate_rad_s = field.at("tip_rate_deg_s").number({0.001, 360}) * kRadPerDeg;
-  limits.tip_angular_accel_rad_s2 = field.at("tip_angular_accel_deg_s2").number({0.001, 10000}) * kRadPerDeg;
-  limits.tip_angular_jerk_rad_s3 = field.at("tip_angular_jerk_deg_s3").number({0.001, 100000}) * kRadPerDeg;
+  limits.tip_rate_rad_s = field.at("tip_rate_deg_s").number({0.001, 360}) * kDegree;
+  limits.tip_angular_accel_rad_s2 = field.at("tip_angular_accel_deg_s2").number({0.001, 10000}) * kDegree;
+  limits.tip_angular_jerk_rad_s3 = field.at("tip_angular_jerk_deg_s3").number({0.001, 100000}) * kDegree;
   limits.cable_speed_m_s = field.at("cable_speed_m_s").number({0.0001, 1});
   if (field.json().contains("tip_lag_s")) limits.tip_lag_s = read_tip_lag_s(field.at("tip_lag_s"), limits);
 }

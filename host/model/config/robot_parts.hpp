@@ -3,15 +3,14 @@
 
 #include <cmath>
 
+#include "firmware_like/math/trig.hpp"
 #include "host/model/config/config.hpp"
 #include "host/model/config/field.hpp"
 
 namespace liana::config {
 
-constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
-
 // Degrees of an angle that came from degrees: 15 again, and not 14.999999999999998.
-inline double rounded_deg(double angle_rad) { return std::round(1e9 * angle_rad / kRadPerDeg) / 1e9; }
+inline double rounded_deg(double angle_rad) { return std::round(1e9 * angle_rad / kDegree) / 1e9; }
 
 // Segments, module and cable geometry; refuses more than the compiled capacity by name.
 void read_arm(const Field& table, RobotConfig& out);

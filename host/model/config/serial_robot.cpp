@@ -24,16 +24,15 @@ JointParams read_joint(const Field& field) {
   field.only({"alpha_deg", "a_m", "d_m", "offset_deg", "low_deg", "high_deg", "rate_deg_s", "accel_deg_s2",
               "stiffness_Nm_per_rad", "link"});
   JointParams joint;
-  joint.dh.alpha_rad = field.at("alpha_deg").number({-180, 180}) * kRadPerDeg;
+  joint.dh.alpha_rad = field.at("alpha_deg").number({-180, 180}) * kDegree;
   joint.dh.a_m = field.at("a_m").number({-20, 20});
   joint.dh.d_m = field.at("d_m").number({-20, 20});
-  if (field.json().contains("offset_deg"))
-    joint.dh.offset_rad = field.at("offset_deg").number({-360, 360}) * kRadPerDeg;
+  if (field.json().contains("offset_deg")) joint.dh.offset_rad = field.at("offset_deg").number({-360, 360}) * kDegree;
   const double low_deg = field.at("low_deg").number({-kMaxAngle_deg, kMaxAngle_deg - 1});
-  joint.low_rad = low_deg * kRadPerDeg;
-  joint.high_rad = field.at("high_deg").number({low_deg + 1, kMaxAngle_deg}) * kRadPerDeg;
-  joint.rate_rad_s = field.at("rate_deg_s").number({0.001, 360}) * kRadPerDeg;
-  joint.accel_rad_s2 = field.at("accel_deg_s2").number({0.001, 10000}) * kRadPerDeg;
+  joint.low_rad = low_deg * kDegree;
+  joint.high_rad = field.at("high_deg").number({low_deg + 1, kMaxAngle_deg}) * kDegree;
+  joint.rate_rad_s = field.at("rate_deg_s").number({0.001, 360}) * kDegree;
+  joint.accel_rad_s2 = field.at("accel_deg_s2").number({0.001, 10000}) * kDegree;
   return joint;
 }
 
@@ -117,9 +116,9 @@ void read_tip_limits(const Field& field, serial::TipLimits& tip) {
   tip.speed_m_s = field.at("tip_speed_m_s").number({0.0001, 2});
   tip.accel_m_s2 = field.at("tip_accel_m_s2").number({0.0001, 50});
   tip.jerk_m_s3 = field.at("tip_jerk_m_s3").number({0.001, 1000});
-  tip.rate_rad_s = field.at("tip_rate_deg_s").number({0.001, 360}) * kRadPerDeg;
-  tip.angular_accel_rad_s2 = field.at("tip_angular_accel_deg_s2").number({0.001, 10000}) * kRadPerDeg;
-  tip.angular_jerk_rad_s3 = field.at("tip_angular_jerk_deg_s3").number({0.001, 100000}) * kRadPerDeg;
+  tip.rate_rad_s = field.at("tip_rate_deg_s").number({0.001, 360}) * kDegree;
+  tip.angular_accel_rad_s2 = field.at("tip_angular_accel_deg_s2").number({0.001, 10000}) * kDegree;
+  tip.angular_jerk_rad_s3 = field.at("tip_angular_jerk_deg_s3").number({0.001, 100000}) * kDegree;
 }
 
 void read_poses(const Field& field, SerialRobotConfig& out) {
@@ -130,7 +129,7 @@ void read_poses(const Field& field, SerialRobotConfig& out) {
     std::vector<double> joint_deg;
     for (std::size_t i = 0; i < joints; ++i) {
       const JointParams& joint = out.table.joint[i];
-      joint_deg.push_back(pose.element(i).number({joint.low_rad / kRadPerDeg, joint.high_rad / kRadPerDeg}));
+      joint_deg.push_back(pose.element(i).number({joint.low_rad / kDegree, joint.high_rad / kDegree}));
     }
     out.named_poses_deg.emplace(name, joint_deg);
   }
@@ -174,7 +173,7 @@ LockedBase read_base(const Field& field) {
   for (const auto& [name, joint_deg] : carrier.named_poses_deg) {
     names.push_back(name);
     serial::JointVector& joint_rad = base.named_poses_rad[name];
-    for (std::size_t i = 0; i < joint_deg.size(); ++i) joint_rad[i] = joint_deg[i] * kRadPerDeg;
+    for (std::size_t i = 0; i < joint_deg.size(); ++i) joint_rad[i] = joint_deg[i] * kDegree;
   }
   base.joint_rad = base.named_poses_rad.at(field.at("pose").choice(names));
   field.at("damping_s").number({0, 1});  // for the bench

@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
+#include "firmware_like/math/trig.hpp"
 #include "host/base/svg/axes.hpp"
 #include "host/planning/workspace/picture.hpp"
 #include "host/planning/workspace/views.hpp"
@@ -11,7 +11,6 @@
 namespace liana::workspace {
 namespace {
 
-constexpr double kPerDegree = 180.0 / std::numbers::pi;
 constexpr double kWidth_px = 1000.0, kHeight_px = 940.0;
 constexpr double kLeft_px = 80.0, kPlotWidth_px = 880.0, kPlotHeight_px = 200.0;
 constexpr std::array<double, 3> kPlotTop_px{110.0, 385.0, 660.0};
@@ -117,7 +116,7 @@ void draw_strip(svg::Svg& svg, const svg::Axes& axes, const PathStatus& report) 
 void draw_margins(svg::Svg& svg, const cable::RobotParams& table, const PathStatus& report, std::uint32_t held_mask) {
   double limit_deg = 0.0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
-    limit_deg = std::max(limit_deg, table.segment[i / 2].theta_limit_rad * kPerDegree);
+    limit_deg = std::max(limit_deg, table.segment[i / 2].theta_limit_rad / kDegree);
   }
   const svg::Axes axes = plot(2, {-0.12 * limit_deg, 1.05 * limit_deg}, false);  // room for the strip below 0
   svg::draw_axes(svg, axes, "joint travel (% of the way), waypoints dashed", "margin to the limit (deg)");
@@ -125,12 +124,12 @@ void draw_margins(svg::Svg& svg, const cable::RobotParams& table, const PathStat
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
     if (held_mask >> i & 1u) continue;
     const auto margin_deg = [&](const PathPoint& point) {
-      return (table.segment[i / 2].theta_limit_rad - std::fabs(point.theta_rad[i])) * kPerDegree;
+      return (table.segment[i / 2].theta_limit_rad - std::fabs(point.theta_rad[i])) / kDegree;
     };
     const auto theta = static_cast<std::int32_t>(i + 1);
     draw_curve(svg, axes, report, margin_deg, {.stroke = theta_colour(theta), .width = 1.3, .opacity = 0.8});
   }
-  const auto min_deg = [](const PathPoint& point) { return point.limit_margin_rad * kPerDegree; };
+  const auto min_deg = [](const PathPoint& point) { return point.limit_margin_rad / kDegree; };
   draw_curve(svg, axes, report, min_deg, {.stroke = "#111111", .width = 2.4});
   draw_strip(svg, axes, report);
   const PathPoint& worst = report.points[report.nearest_limit];
@@ -172,7 +171,7 @@ std::string path_picture(const config::RobotConfig& robot, const PathStatus& rep
   svg::Svg svg(kWidth_px, kHeight_px, title);
   svg.text({30.0, 34.0}, title, {.size = 20.0, .bold = true});
   svg.text({30.0, 56.0}, free_text(robot.table, held_mask) + ", " + std::to_string(report.waypoint_way.size()) +
-                             " waypoints, joint travel " + svg::short_number(report.joint_travel_rad * kPerDegree, 1) +
+                             " waypoints, joint travel " + svg::short_number(report.joint_travel_rad / kDegree, 1) +
                              " deg");
   svg.text({30.0, 75.0}, "tip Jacobian, linear rows m/rad, angular rows rad/rad (weighed by 1 m)", {.size = 12.0});
   draw_singular_value(svg, report);

@@ -1,14 +1,13 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "firmware_like/math/trig.hpp"
 #include "host/planning/workspace/picture.hpp"
 #include "host/planning/workspace/views.hpp"
 
 namespace liana::workspace {
 namespace {
 
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr double kBorder_m = 0.25;      // around everything that is drawn
 constexpr double kDrawing_px = 1000.0;  // widths of top and front view together
 constexpr double kPlaneLeft_px = 70.0, kPlaneTop_px = 80.0, kGap_px = 80.0, kBottom_px = 60.0, kRight_px = 30.0;
@@ -204,7 +203,7 @@ std::string held_text(const ReachArm& arm, std::uint32_t held_mask, const AngleV
   for (std::size_t i = 0; i < static_cast<std::size_t>(arm.angle_count); ++i) {
     if ((held_mask >> i & 1u) == 0) continue;
     text += (text.empty() ? "" : ", ") + numbered(arm.angle_name, i + 1) + " = " +
-            svg::short_number(held_rad[i] * kDegPerRad, 3);
+            svg::short_number(held_rad[i] / kDegree, 3);
   }
   return text.empty() ? "none" : text + " deg";
 }

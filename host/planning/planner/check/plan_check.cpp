@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "firmware_like/cable/arm/tension.hpp"
+#include "firmware_like/math/trig.hpp"
 #include "host/planning/planner/check/convex_check.hpp"
 #include "host/planning/planner/check/path_search.hpp"
 #include "host/planning/planner/check/vectors.hpp"
@@ -16,7 +16,6 @@ using Index = std::size_t;
 using Vector = std::array<double, 3>;
 using Rotation = std::array<Vector, 3>;  // rows
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr Rotation kIdentity{Vector{1, 0, 0}, Vector{0, 1, 0}, Vector{0, 0, 1}};
 
 Vector times(const Rotation& R, const Vector& v) {
