@@ -154,7 +154,7 @@ function arm.move_cp(fields) end
 ---than the quickest is refused
 ---@field ttl_s? number
 
----One of a stream of tip goals, at most one per command interval.
+---One of a stream of tip goals, at any rate; the newest of a command interval counts.
 ---@param fields arm.servo_cp
 ---@return integer id
 function arm.servo_cp(fields) end

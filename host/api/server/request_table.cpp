@@ -51,7 +51,7 @@ constexpr std::array kTable{
                .in_missions = true,
                .motion = Motion::kReplaces},
     RequestRow{.op = "servo_cp",
-               .doc = "One of a stream of tip goals, at most one per command interval.",
+               .doc = "One of a stream of tip goals, at any rate; the newest of a command interval counts.",
                .fields = kServoCp,
                .owner_only = true,
                .in_missions = true,
