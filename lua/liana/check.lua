@@ -1,5 +1,6 @@
 -- Checks a mission's structure before anything moves; every refusal says where the step stands, step, field, value, what
 -- is allowed and what to do. What the robot cannot do is liana.preflight_robot's.
+local did_you_mean = require "liana.did_you_mean"
 local refuse = require "liana.refuse"
 local retired = require "liana.retired_names"
 local step_fields = require "liana.step_fields"
@@ -104,7 +105,12 @@ end
 local function field_names()
   local names = {}
   for i, field in ipairs(step_fields) do names[i] = field[1] end
-  return table.concat(names, ", ")
+  return names
+end
+
+local function no_such_field(where, shown, field, value, names)
+  local allowed = "no such field, but " .. table.concat(names, ", ") .. did_you_mean(field, names)
+  refuse(where, shown, value, allowed, "remove it or correct its spelling")
 end
 
 local function check_step(where, fields)
@@ -113,8 +119,7 @@ local function check_step(where, fields)
   for field, value in pairs(fields) do
     local rule = kStep[field]
     if not rule then
-      local name = tostring(field) .. retired.hint("step", field)
-      refuse(where, name, value, "no such field, but " .. field_names(), "remove it or correct its spelling")
+      no_such_field(where, tostring(field) .. retired.hint("step", field), field, value, field_names())
     end
     if not rule.ok(value) then refuse(where, field, value, rule.allowed, "correct the step") end
   end
@@ -181,7 +186,7 @@ local kMission = { finish = action_rule, robot = table_rule, scene = table_rule,
 
 local function check_mission_field(where, fields, key)
   local rule, value = kMission[key], fields[key]
-  if not rule then refuse(where, tostring(key), value, "no such field, but bus, finish, robot, scene", "remove it or correct its spelling") end
+  if not rule then no_such_field(where, tostring(key), key, value, { "bus", "finish", "robot", "scene" }) end
   if not rule.ok(value) then refuse(where, key, value, rule.allowed, "correct the field") end
   if key == "bus" and fields.robot == nil then
     refuse(where, "bus", value, "only beside robot, whose drives are on it", "name the robot or remove bus")

@@ -1,6 +1,7 @@
 -- Checks a mission against the robot that shall do it, before anything moves.
 local preflight_requests = require "liana.preflight_requests"
 local check = require "liana.check"
+local did_you_mean = require "liana.did_you_mean"
 local plan_step = require "liana.plan_step"
 local refuse = require "liana.refuse"
 local action_requirements = require "liana.action_requirements"
@@ -16,7 +17,7 @@ local function has_pose(where, field, name, robot)
   if name == nil or robot.named_poses_deg[name] ~= nil then return end
   local known = {}
   for each in pairs(robot.named_poses_deg) do known[#known + 1] = each end
-  local allowed = table.concat(known, ", ") .. " (robot " .. robot.name .. ")"
+  local allowed = table.concat(known, ", ") .. " (robot " .. robot.name .. ")" .. did_you_mean(name, known)
   refuse(where, field, "pose " .. tostring(name), allowed, "name one of them or add the pose")
 end
 

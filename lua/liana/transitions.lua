@@ -1,5 +1,6 @@
 -- What comes after a step: the step written next, or what its `next` says. Loops end because every way back says how often
 -- it may be taken.
+local did_you_mean = require "liana.did_you_mean"
 local refuse = require "liana.refuse"
 
 local ways = {}
@@ -48,13 +49,12 @@ local function index_by_name(steps)
 end
 
 -- What a way can lead to: a name that two steps have leads nowhere.
-local function names(steps, index)
-  local out = {}
+local function names(given, steps, index)
+  local known = { ways.kFinish }
   for _, step in ipairs(steps) do
-    if index[step.name] then out[#out + 1] = "\"" .. step.name .. "\"" end
+    if index[step.name] then table.insert(known, #known, step.name) end
   end
-  out[#out + 1] = "\"finish\""
-  return table.concat(out, ", ")
+  return "\"" .. table.concat(known, "\", \"") .. "\"" .. did_you_mean(given, known)
 end
 
 local function numbers_of(name, steps)
@@ -73,7 +73,7 @@ local function target_of(where, way, steps, index)
     return #steps + 1
   end
   if target then return target end
-  if target == nil then refuse(where, "step", way.step, names(steps, index), "name one step of this mission") end
+  if target == nil then refuse(where, "step", way.step, names(way.step, steps, index), "name one step of this mission") end
   refuse(where, "step", way.step, "a name that one step has; steps " .. numbers_of(way.step, steps) .. " have it", "rename all but one of them")
 end
 

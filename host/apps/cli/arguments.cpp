@@ -147,15 +147,9 @@ serial::JointVector parse_joint_deg(std::string_view option, std::string_view te
 
 void refuse_pose(std::string_view option, std::string_view text, std::size_t count, const std::string& robot,
                  const std::map<std::string, std::vector<double>>& poses) {
-  std::vector<std::string> names;
-  std::string list;
-  for (const auto& [name, angles_deg] : poses) {
-    list += (list.empty() ? "" : ", ") + name;
-    names.push_back(name);
-  }
   refuse(option, text,
-         std::to_string(count) + " angles, or a pose of robot " + robot + ": " + list +
-             options::did_you_mean(text, names));
+         std::to_string(count) + " angles, or a pose of robot " + robot + ": " +
+             options::allowed_names(text, options::names_of(poses)));
 }
 
 Pose parse_pose(std::string_view option, std::string_view text) {

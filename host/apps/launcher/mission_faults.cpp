@@ -6,6 +6,7 @@
 
 #include "host/apps/launcher/errors.hpp"
 #include "host/base/json/json.hpp"
+#include "host/base/options/nearest.hpp"
 
 namespace liana::launcher {
 namespace {
@@ -27,15 +28,13 @@ std::string fault_file(const Json& mission, const std::string& name) {
   const Json files = mission.is_object() ? mission.value("files", Json::array()) : Json::array();
   const fs::path script = files.empty() ? "" : files.front().value("path", "");
   const fs::path folder = script.parent_path() / script.stem() / "faults";
-  std::string allowed;
-  for (const std::string& each : names_in(folder)) {
-    if (each == name) return folder / (name + ".json");
-    allowed += (allowed.empty() ? "" : ", ") + each;
-  }
-  if (allowed.empty())
+  const std::vector<std::string> known = names_in(folder);
+  if (std::find(known.begin(), known.end(), name) != known.end()) return folder / (name + ".json");
+  if (known.empty())
     throw BadInput("--fault: '" + name + "': this mission has no faults of its own (" + folder.string() +
                    "): give a list with --faults FILE (docs/how-to/run-hil.md), or leave it out");
-  throw BadInput("--fault: '" + name + "': no such fault of this mission; allowed: " + allowed);
+  throw BadInput("--fault: '" + name +
+                 "': no such fault of this mission; allowed: " + options::allowed_names(name, known));
 }
 
 }  // namespace liana::launcher

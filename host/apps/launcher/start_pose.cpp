@@ -32,18 +32,6 @@ struct Choice {
   throw BadInput("--start-pose: '" + given + "': allowed for robot " + choice.robot + ": " + allowed);
 }
 
-std::string list_of(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
-
-std::vector<std::string> names(const Poses& poses) {
-  std::vector<std::string> names;
-  for (const auto& [name, angles_deg] : poses) names.push_back(name);
-  return names;
-}
-
 std::optional<std::vector<double>> numbers_in(std::string_view text) {
   std::vector<double> numbers;
   while (true) {
@@ -82,8 +70,8 @@ StartPose chosen(const Choice& choice, const std::string& given) {
   const std::size_t count = choice.range_deg.size();
   if (!numbers || numbers->size() != count)
     refuse(choice, text,
-           list_of(names(choice.poses)) + ", or its " + std::to_string(count) + " angles in degrees" +
-               options::did_you_mean(text, names(choice.poses)));
+           options::allowed_names(text, options::names_of(choice.poses),
+                                  ", or its " + std::to_string(count) + " angles in degrees"));
   for (std::size_t i = 0; i < count; ++i) {
     if (choice.range_deg[i].contains((*numbers)[i])) continue;
     refuse(choice, text, "angle " + std::to_string(i + 1) + " in " + choice.range_deg[i].text() + " deg");

@@ -84,7 +84,7 @@ Option& Option::one_of(const std::vector<std::string>& words) {
   std::string list;
   for (const std::string& word : words) list += (list.empty() ? "" : ",") + word;
   const auto problem = [words, list](const std::string& text) {
-    return is_one_of(text, words) ? "" : "'" + text + "': allowed: " + list + did_you_mean(text, words);
+    return is_one_of(text, words) ? "" : "'" + text + "': allowed: " + allowed_names(text, words);
   };
   option_->check(problem, "{" + list + "}");
   return *this;

@@ -46,4 +46,10 @@ std::string did_you_mean(std::string_view given, const std::vector<std::string>&
   return name.empty() ? "" : "; did you mean " + name + "?";
 }
 
+std::string allowed_names(std::string_view given, const std::vector<std::string>& known, std::string_view more) {
+  std::string list;
+  for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+  return list.append(more) + did_you_mean(given, known);
+}
+
 }  // namespace liana::options

@@ -1,6 +1,7 @@
 // Which known name somebody meant who wrote an unknown one.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,5 +14,15 @@ std::string nearest(std::string_view given, const std::vector<std::string>& know
 
 // "; did you mean NAME?", for the end of a refusal; empty where no known name is near.
 std::string did_you_mean(std::string_view given, const std::vector<std::string>& known);
+
+// "a, b, c" with `more` behind it, and then did_you_mean(): what is allowed, for the end of a refusal.
+std::string allowed_names(std::string_view given, const std::vector<std::string>& known, std::string_view more = "");
+
+template <class Value>
+std::vector<std::string> names_of(const std::map<std::string, Value>& named) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : named) names.push_back(name);
+  return names;
+}
 
 }  // namespace liana::options

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/api/server/request_error.hpp"
+#include "host/base/options/nearest.hpp"
 #include "host/control/server/cable_arm_server.hpp"
 
 namespace liana::server {
@@ -77,11 +78,12 @@ virtual_fixtures::Choice CableArmServer::chosen_fixtures(const api::Arguments& f
   const std::vector<std::string> names = fields.texts("fixtures");
   for (const std::string& name : names) {
     if (arbiter_.guidance().knows(name)) continue;
-    std::string known;
-    for (const config::SceneFixture& one : scene_.fixtures) known += (known.empty() ? "" : ", ") + one.name;
-    throw api::RequestError("out_of_range", "fixtures = " + name + ": allowed " +
-                                                (known.empty() ? "none, the scene has no fixtures" : known) +
-                                                ": name one of the scene's, or leave it out for all");
+    std::vector<std::string> known;
+    for (const config::SceneFixture& one : scene_.fixtures) known.push_back(one.name);
+    throw api::RequestError(
+        "out_of_range", "fixtures = " + name + ": allowed " +
+                            (known.empty() ? "none, the scene has no fixtures" : options::allowed_names(name, known)) +
+                            ": name one of the scene's, or leave it out for all");
   }
   if (!has_fixtures_) return virtual_fixtures::Choice(std::vector<std::string>{});
   return fields.has("fixtures") ? virtual_fixtures::Choice(names) : std::nullopt;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "host/base/json/number_error.hpp"
+#include "host/base/options/nearest.hpp"
 #include "host/model/config/canonical.hpp"
 
 namespace liana::config {
@@ -63,7 +64,8 @@ void Field::only(const std::set<std::string>& known) const {
   for (const auto& [key, item] : value_->items()) {
     if (known.count(key) == 0)
       Field(item, file_, path_.empty() ? key : path_ + "." + key)
-          .refuse("no such field", "remove it or correct its spelling");
+          .refuse("no such field" + options::did_you_mean(key, {known.begin(), known.end()}),
+                  "remove it or correct its spelling");
   }
 }
 
@@ -94,12 +96,9 @@ std::string Field::name(std::size_t longest) const {
 }
 
 std::string Field::choice(const std::vector<std::string>& words) const {
-  std::string allowed;
-  for (const auto& word : words) {
-    if (value_->is_string() && *value_ == word) return word;
-    allowed += (allowed.empty() ? "" : ", ") + word;
-  }
-  refuse(allowed, "use one of these words");
+  const std::string given = value_->is_string() ? value_->get<std::string>() : "";
+  if (std::find(words.begin(), words.end(), given) != words.end()) return given;
+  refuse(options::allowed_names(given, words), "use one of these words");
 }
 
 Json parse_json(const std::string& text, const std::string& file, const std::string& advice) {

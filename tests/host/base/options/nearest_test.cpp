@@ -34,5 +34,9 @@ TEST(Nearest, WhatIsSaidNamesItAndIsNothingWhereNoneIsNear) {
   EXPECT_EQ(did_you_mean("nosuch", kNames), "");
 }
 
+TEST(Nearest, TheListOfAllowedNamesEndsWithTheNearest) {
+  EXPECT_EQ(allowed_names("zeor", {"fold", "zero"}, ", or 8 angles"), "fold, zero, or 8 angles; did you mean zero?");
+}
+
 }  // namespace
 }  // namespace liana::options
