@@ -11,7 +11,7 @@ namespace {
 constexpr double kSendTimeout_s = 10.0;
 
 [[noreturn]] void throw_gone() {
-  throw std::runtime_error("lianad is gone: the API socket was closed by the other end");
+  throw std::runtime_error("lianad is gone: it closed the API socket: liana log list says how it ended");
 }
 }  // namespace
 
@@ -29,7 +29,8 @@ void ApiClient::send(const Json& request) {
   if (result == SocketResult::kWouldBlock && wait_writable(fd_.get(), kSendTimeout_s))
     result = send_packet(fd_.get(), packet);
   if (result == SocketResult::kClosed) throw_gone();
-  if (result == SocketResult::kWouldBlock) throw std::runtime_error("lianad does not read its API socket");
+  if (result == SocketResult::kWouldBlock)
+    throw std::runtime_error("lianad does not read its API socket: see docs/how-to/nothing-answers.md");
 }
 
 bool ApiClient::receive_bytes(std::string& packet, double timeout_s) {

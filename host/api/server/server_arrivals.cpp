@@ -131,7 +131,7 @@ void ApiServer::drop_unidentified() {
 }
 
 void ApiServer::greet(Client& client, const Json& request) {
-  if (client.greeted) throw RequestError("bad_request", "hello was said already");
+  if (client.greeted) throw RequestError("bad_request", "hello was said already: send it once");
   const Arguments hello = session_fields(request);
   client.info.name = name_of(hello);
   client.info.role = role_of(hello.text("role"));

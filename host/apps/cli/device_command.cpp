@@ -25,7 +25,8 @@ class Asked {
   Json devices() {
     client_.send({{"op", "devices"}, {"id", 1}});
     const auto answer = launcher::wait_for(client_, "ok", kAnswerTimeout_s);
-    if (!answer) throw std::runtime_error("lianad runs but did not answer within 5 s");
+    if (!answer)
+      throw std::runtime_error("lianad runs but did not answer within 5 s: see docs/how-to/nothing-answers.md");
     return answer->at("devices");
   }
 

@@ -13,7 +13,9 @@ namespace {
 // What is confirmed is what the step asks for: where none does, nobody may believe that something was.
 void check_waits(api::ApiClient& client) {
   const auto state = launcher::wait_for(client, "state", kAnswerTimeout_s);
-  if (!state) throw std::runtime_error("lianad did not say within 5 s what the mission waits for");
+  if (!state)
+    throw std::runtime_error(
+        "lianad did not say within 5 s what the mission waits for: see docs/how-to/nothing-answers.md");
   const Json& step = state->member_or_null("step");
   const std::string waits = step.is_object() && step.member_or_null("waits").is_string() ? step.at("waits").text() : "";
   if (waits.starts_with("confirm: ")) return;
@@ -31,7 +33,7 @@ int mission_command(const MissionOptions& options) {
   if (options.command == "confirm") check_waits(client);
   client.send({{"op", "mission_control"}, {"command", options.command}, {"id", 1}});
   const auto answer = launcher::wait_for(client, "ok", kAnswerTimeout_s);
-  if (!answer) throw std::runtime_error("lianad did not answer within 5 s");
+  if (!answer) throw std::runtime_error("lianad did not answer within 5 s: see docs/how-to/nothing-answers.md");
   if (options.json) {
     std::puts(
         Json{{"api", systems.front()}, {"command", options.command}, {"tick", answer->at("tick")}}.dump().c_str());

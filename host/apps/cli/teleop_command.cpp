@@ -66,7 +66,8 @@ void drive(const std::string& api, std::optional<terminal::Gamepad>& gamepad, co
   api::ApiClient client = api::ApiClient::connect(api, kWelcome_s);
   client.send(launcher::hello(name, launcher::Observer::kClient));
   const auto welcome = launcher::wait_for(client, "welcome", kWelcome_s);
-  if (!welcome) throw std::runtime_error("lianad at " + api + " did not answer within 30 s");
+  if (!welcome)
+    throw std::runtime_error("lianad at " + api + " did not answer within 30 s: see docs/how-to/nothing-answers.md");
   terminal::Session session(name, *welcome);
   terminal::Terminal terminal;
   Beat goal(terminal::Session::kPeriod_s), picture(kDraw_s);

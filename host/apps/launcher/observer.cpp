@@ -58,7 +58,8 @@ void say_hello(api::ApiClient& client, const std::string& name, Observer observe
 Json hello_as_observer(api::ApiClient& client, const std::string& name) {
   say_hello(client, name, Observer::kSeeing);
   const auto welcome = wait_for(client, "welcome", 5.0);
-  if (!welcome) throw std::runtime_error("lianad does not answer on its API socket");
+  if (!welcome)
+    throw std::runtime_error("lianad does not answer on its API socket: see docs/how-to/nothing-answers.md");
   return *welcome;
 }
 

@@ -59,7 +59,8 @@ std::vector<std::string> kept_runs(const std::string& folder) {
 }
 
 std::string make_run_folder(const std::string& folder) {
-  if (folder.empty()) throw std::runtime_error("neither XDG_STATE_HOME nor HOME is set");
+  if (folder.empty())
+    throw std::runtime_error("neither XDG_STATE_HOME nor HOME is set: set one, for the folder of runs");
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw std::runtime_error(folder + ": cannot be made: " + error.message());

@@ -18,7 +18,8 @@ static_assert(std::endian::native == std::endian::little, "truth.bin is little-e
 TruthLog TruthLog::load(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string header;
-  if (!std::getline(file, header)) throw std::runtime_error(path + ": no truth was written by the bench");
+  if (!std::getline(file, header))
+    throw std::runtime_error(path + ": no truth was written by the simulator: look at its log beside this file");
   const auto parsed = Json::parse_or_null(header);
   if (!parsed.contains("columns")) throw std::runtime_error(path + ": the first line names no columns");
   TruthLog log;

@@ -30,7 +30,8 @@ void Arbiter<Arm>::require_ready(const Now& now) const {
 
 template <class Arm>
 void Arbiter<Arm>::require_enabled(const Now& now) const {
-  if (now.state != OperatingState::kEnabled) throw api::RequestError("not_enabled", "the arm is not enabled");
+  if (now.state != OperatingState::kEnabled)
+    throw api::RequestError("not_enabled", "the arm is not enabled: enable it first");
 }
 
 template <class Arm>

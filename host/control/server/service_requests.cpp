@@ -114,15 +114,18 @@ Json Service::on_state_command(const api::ClientInfo&, const api::Arguments& fie
   const std::string command = fields.text("command");
   if (boot_seen_ == realtime::BootPhase::kFailed && command != "clear")
     throw api::RequestError("fault", "booting failed: " + realtime::text_of(notes_.boot_problems));
-  if (boot_seen_ == realtime::BootPhase::kBooting) throw api::RequestError("busy", "the drives are still booting");
+  if (boot_seen_ == realtime::BootPhase::kBooting)
+    throw api::RequestError("busy", "the drives are still booting: wait until they are booted");
   if (command == "enable") {
     if (const auto& stop = notes_.stop.order()) {
       throw api::RequestError(
           "refused", text_of(*stop) + " is in force: a client has to take motion anew (acquire), or to send clear");
     }
-    if (stop_tick_ == tick()) throw api::RequestError("refused", "a stop was asked for in the same command interval");
+    if (stop_tick_ == tick())
+      throw api::RequestError("refused",
+                              "a stop was asked for in the same command interval: ask again if the arm should go on");
     if (now().faults.count > 0) throw api::RequestError("fault", "a fault is latched: clear it first");
-    if (shutdown_tick_) throw api::RequestError("refused", "lianad is stopping");
+    if (shutdown_tick_) throw api::RequestError("refused", "lianad is stopping: start it again afterwards");
     require_homed();
     this->request(Request::kEnable);
   } else if (command == "disable") {
@@ -188,7 +191,8 @@ Json Service::on_announce(const api::ClientInfo&, const api::Arguments& fields) 
 
 // The mission reads it in the next state, and does what its step allows.
 Json Service::on_mission_control(const api::ClientInfo& client, const api::Arguments& fields) {
-  if (!server_.has_role(api::Role::kMission)) throw api::RequestError("refused", "no mission runs");
+  if (!server_.has_role(api::Role::kMission))
+    throw api::RequestError("refused", "no mission runs: start one with liana run");
   const std::string command = fields.text("command");
   notes_.mission_control = {{"number", ++mission_asked_}, {"command", command}, {"by", printable(client.name)}};
   note({.kind = event::EventKind::kOperator, .subject = client.name, .text = "mission: " + command});
@@ -234,7 +238,8 @@ Json Service::on_camera(const api::ClientInfo&, const api::Arguments& fields) {
   require_past("capture_time_s", frame.picture.capture_time_s);
   frame.due_tick = certainly_heard_tick(frame.picture.capture_time_s + config_.camera_latency_s);
   if (camera_.size() >= 64)
-    throw api::RequestError("busy", "64 camera frames are waiting: their time stamps lie in the future");
+    throw api::RequestError(
+        "busy", "64 camera frames are waiting: their time stamps lie in the future: stamp them with the arm's time");
   camera_.push_back(frame);
   return Json::object();
 }

@@ -125,7 +125,7 @@ FrictionOf FrictionFit::found(const Fit& fit, Index part) {
 
 Friction FrictionFit::solve() const {
   if (static_cast<double>(samples_.size()) * kSample_s < kMinMotion_s)
-    throw std::runtime_error("friction: the arm has moved for less than 10 s");
+    throw std::runtime_error("friction: the arm has moved for less than 10 s: move it longer");
   Friction out{found(fit(1), 0), {}};
   const Fit each = fit(static_cast<Index>(table_.segment_count));
   for (Index j = 0; j < each.parts; ++j) {

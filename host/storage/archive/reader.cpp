@@ -69,7 +69,8 @@ void add_facts(const Statement& row, Span span, std::vector<Facts>& out) {
 Reader::Reader(const std::string& path, std::uint64_t life)
     : folder_(folder_of(path)), database_(folder_ + "/" + kArchiveFile, Database::Open::kRead) {
   if (const auto version = count("PRAGMA user_version"); version != 1)
-    throw std::runtime_error(database_.path() + ": version " + std::to_string(version) + ": this program reads 1");
+    throw std::runtime_error(database_.path() + ": version " + std::to_string(version) +
+                             ": this program reads 1; read it with the Liana that wrote it");
   lives_ = count("SELECT count(*) FROM life");
   read_life(life == 0 ? lives_ : life);
 }

@@ -35,7 +35,9 @@ recording::McapState read_file(const RingFile& file, const FileVisitor& visitor)
     if (!std::filesystem::exists(file.path)) return recording::McapState::kWhole;
     throw std::runtime_error(file.path + ": " + error.what());
   }
-  throw std::runtime_error(file.path + ": damaged: its bytes do not match the checksum they were written with");
+  throw std::runtime_error(
+      file.path +
+      ": damaged: its bytes do not match the checksum they were written with; take a good copy of the file");
 }
 
 std::uint64_t next_tick_of(std::string_view image_packet) {

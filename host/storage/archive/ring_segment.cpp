@@ -74,7 +74,8 @@ void RingSegment::write(const char* topic, std::uint64_t tick, std::string_view 
   const auto time_ns = static_cast<std::uint64_t>(static_cast<double>(tick) * period_s_ * 1e9);
   file_->write_message(channel->second, static_cast<std::uint32_t>(tick), time_ns, data);
   file_->flush();
-  if (file_->has_failed()) throw std::runtime_error(path_ + ": a write failed (disk full?)");
+  if (file_->has_failed())
+    throw std::runtime_error(path_ + ": a write failed: make room on the disk, and look at its permissions");
   good_bytes_ = fs::file_size(path_);
 }
 

@@ -78,7 +78,8 @@ std::string chunk_records(std::string_view content, const std::string& path) {
   const bool plausible = size <= kMaxRecordBytes && length == compressed.size();
   std::string records = plausible ? decompress(compressed, compression, size) : std::string();
   if (!plausible || crc_of(records) != crc)
-    throw std::runtime_error("recording " + path + ": damaged: a chunk does not match its checksum");
+    throw std::runtime_error("recording " + path +
+                             ": damaged: a chunk does not match its checksum; take a good copy of the file");
   return records;
 }
 
@@ -102,7 +103,8 @@ class RecordFile {
     std::fseek(file_.get(), 0, SEEK_END);
     size_ = static_cast<std::uint64_t>(std::max(0L, std::ftell(file_.get())));
     std::rewind(file_.get());
-    if (read(mcap::kMagic.size()) != mcap::kMagic) throw std::runtime_error("recording " + path + ": not an MCAP file");
+    if (read(mcap::kMagic.size()) != mcap::kMagic)
+      throw std::runtime_error("recording " + path + ": not an MCAP file: give a recording, such as ticks.mcap");
   }
 
   // The next record; false at the end of the file, or when it ends inside the record.
