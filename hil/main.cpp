@@ -90,7 +90,8 @@ void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, b
                  "share by which the joints of a segment bend unevenly at most, from 0 to 0.5, drawn from the seed")
       ->check(within(0.0, 0.5));
   app.add_flag("--fixture", options.fixture, "the arm starts exactly in its start pose");
-  app.add_option("--cross-wired", paths.cross_wired, "two drives, e.g. 3,4, that have each other's cable");
+  app.add_option("--cross-wired", paths.cross_wired,
+                 "two drives, counted from 1, e.g. 4,5, that have each other's cable");
   app.add_flag("--no-spread", no_spread, "the arm is exactly as the table says (for tests)");
   app.add_flag("--check", is_check, "look at all that is given, and end");
   app.add_option("--eds", paths.data_sheet,
@@ -131,11 +132,11 @@ std::vector<std::size_t> two_drives(const std::string& list, std::size_t count) 
   const std::vector<std::string> parts = split(list);
   for (const std::string& part : parts) {
     const bool number = !part.empty() && part.size() < 4 && part.find_first_not_of("0123456789") == std::string::npos;
-    if (number && std::stoul(part) < count) drives.push_back(std::stoul(part));
+    if (number && std::stoul(part) >= 1 && std::stoul(part) <= count) drives.push_back(std::stoul(part) - 1);
   }
   if (parts.size() == 2 && drives.size() == 2 && drives[0] != drives[1]) return drives;
-  throw std::runtime_error("--cross-wired: \"" + list + "\"; allowed are two different drives from 0 to " +
-                           std::to_string(count - 1) + ", e.g. 3,4");
+  throw std::runtime_error("--cross-wired: \"" + list + "\"; allowed are two different drives from 1 to " +
+                           std::to_string(count) + ", e.g. 4,5");
 }
 
 double number_up_to(const std::string& text, double most) {

@@ -1,6 +1,7 @@
 #include "hil/config/fault_config.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 #include "hil/config/fault_kinds.hpp"
@@ -19,10 +20,36 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
+// Fewest letters to add, leave out or replace that make one word of the other.
+std::size_t letters_between(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t before = row[0]++;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = before + (a[i - 1] == b[j - 1] ? 0 : 1);
+      before = row[j];
+      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+// What is allowed in place of `given`: the name that is near, or "a, b, c".
+std::string allowed_names(const std::string& given, const std::vector<std::string>& names) {
+  constexpr std::size_t kNear = 2;
+  const auto nearer = [&](const std::string& a, const std::string& b) {
+    return letters_between(given, a) < letters_between(given, b);
+  };
+  const auto nearest = std::min_element(names.begin(), names.end(), nearer);
+  const bool is_near = nearest != names.end() && letters_between(given, *nearest) <= std::min(kNear, given.size() / 2);
+  return is_near ? "did you mean " + *nearest + "?" : "allowed are " + listed(names);
+}
+
 void refuse_others(const JsonFile& file, const std::string& field, const std::vector<std::string>& allowed) {
   for (const std::string& key : file.keys(field))
     if (std::find(allowed.begin(), allowed.end(), key) == allowed.end())
-      file.fail(field + "/" + key, "is not known here; allowed are " + listed(allowed));
+      file.fail(field + "/" + key, "is not known here; " + allowed_names(key, allowed));
 }
 
 const KindOfFault& read_kind(const JsonFile& file, const std::string& field) {
@@ -32,21 +59,22 @@ const KindOfFault& read_kind(const JsonFile& file, const std::string& field) {
     if (name == kind.name) return kind;
     names.emplace_back(kind.name);
   }
-  file.fail(field, "is \"" + name + "\"; allowed are " + listed(names));
+  file.fail(field, "is \"" + name + "\"; " + allowed_names(name, names));
 }
 
 std::vector<std::size_t> read_drives(const JsonFile& file, const std::string& field, std::size_t count) {
-  const int last = static_cast<int>(count) - 1;
+  const auto drive_at = [&](const std::string& place) {  // counted from 1
+    return static_cast<std::size_t>(file.integer(place, 1, static_cast<int>(count)) - 1);
+  };
   std::vector<std::size_t> drives;
   if (file.is_text(field)) {
     if (file.text(field) != "all")
-      file.fail(field, "is \"" + file.text(field) + "\"; allowed are an index, a list of them, or \"all\"");
+      file.fail(field, "is \"" + file.text(field) + "\"; allowed are a drive's number, a list of them, or \"all\"");
     for (std::size_t i = 0; i < count; ++i) drives.push_back(i);
     return drives;
   }
-  if (!file.is_list(field)) return {static_cast<std::size_t>(file.integer(field, 0, last))};
-  for (std::size_t i = 0; i < file.size(field); ++i)
-    drives.push_back(static_cast<std::size_t>(file.integer(field + "/" + std::to_string(i), 0, last)));
+  if (!file.is_list(field)) return {drive_at(field)};
+  for (std::size_t i = 0; i < file.size(field); ++i) drives.push_back(drive_at(field + "/" + std::to_string(i)));
   if (drives.empty()) file.fail(field, "is an empty list; name at least one drive");
   std::vector<std::size_t> sorted = drives;
   std::sort(sorted.begin(), sorted.end());

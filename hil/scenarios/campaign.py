@@ -116,7 +116,9 @@ class Sequence:
         values, may_end = BENCH_KINDS[kind]
         fault = {
             "kind": kind,
-            "drive": self.draw.choice([self.draw.randrange(DRIVES)] * 4 + [sorted(self.draw.sample(range(DRIVES), 2))]),
+            "drive": self.draw.choice(
+                [self.draw.randrange(1, DRIVES + 1)] * 4 + [sorted(self.draw.sample(range(1, DRIVES + 1), 2))]
+            ),
             "at_slot": self.begin(),
             **{name: self.draw.choice(of) for name, of in values.items()},
         }

@@ -8,6 +8,7 @@ import arms
 import predicates
 from embedded import TRAVEL_DEG
 from liana.client import brief
+from liana.drive_names import drive_text
 from liana.system import System
 from run_scenario import LimitedRun
 from scenario_file import Failed, expect_that
@@ -118,7 +119,7 @@ class HostRun(LimitedRun):
         for drive in summary["drives"]:
             expect_that(
                 drive["quick_stops"] == 1 and drive["statusword"] & 0x6F == 0x40,
-                f"node {drive['node']} did not stop by itself: {drive}",
+                f"{drive_text(drive['node'] - 1)} did not stop by itself: {drive}",
             )
         self.judge_travel(truth, last)
 

@@ -26,7 +26,8 @@ Member = collections.namedtuple(
 
 
 def bench(drive, kind, **values):
-    return {"drive": drive, "kind": kind, **values}
+    """`drive`: an index, as in the faults of the state."""
+    return {"drive": drive + 1, "kind": kind, **values}
 
 
 def drop(bus, **rule):

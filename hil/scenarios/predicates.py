@@ -5,6 +5,8 @@ import collections
 import math
 import re
 
+from liana.drive_names import drive_text
+
 ENABLE_OPERATION = 0x0F
 TARGET_OF = range(0x201, 0x280)
 REPORT_OF = range(0x181, 0x200)
@@ -87,7 +89,7 @@ def target_steps(traffic, limit_counts, jump_counts=0.0):
             step = abs(now.target - before.target)
             if is_enabling(before) and is_enabling(now) and jumps.is_too_fast(node, step, periods):
                 complaints.append(
-                    f"node {node}, slot {now.slot}: the target changes by {step} counts, allowed are"
+                    f"{drive_text(node - 1)}, slot {now.slot}: the target changes by {step} counts, allowed are"
                     f" {limit_counts * periods:.0f}"
                 )
     return complaints
@@ -104,7 +106,7 @@ def enabling_commands(traffic, first_slot, end_slot):
 def enabling_without_clear(traffic, first_slot, end_slot):
     """Between the stop and the operator's clear and enable, no drive is told to enable operation."""
     return [
-        f"node {node}, slot {found[0].slot}: told to enable operation while the fault is latched ({len(found)} times)"
+        f"{drive_text(node - 1)}, slot {found[0].slot}: told to enable operation while the fault is latched ({len(found)} times)"
         for node, found in enabling_commands(traffic, first_slot, end_slot)
     ]
 
@@ -118,7 +120,7 @@ def targets_that_move(traffic, first_slot, end_slot):
         targets = [command.target for command in found]
         if max(targets) != min(targets):
             complaints.append(
-                f"node {node}: the target moves by {max(targets) - min(targets)} counts while the fault is latched"
+                f"{drive_text(node - 1)}: the target moves by {max(targets) - min(targets)} counts while the fault is latched"
             )
     return complaints
 
@@ -132,7 +134,7 @@ def drums_that_move(traffic, first_slot, end_slot, left_out=(), allowed_counts=1
         places = [report.position for report in reports if first_slot <= report.slot < end_slot]
         if node not in left_out and places and max(places) - min(places) > allowed_counts:
             complaints.append(
-                f"node {node}: the drum moves by {max(places) - min(places)} counts while the fault is latched"
+                f"{drive_text(node - 1)}: the drum moves by {max(places) - min(places)} counts while the fault is latched"
             )
     return complaints
 

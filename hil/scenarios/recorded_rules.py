@@ -12,6 +12,7 @@ import typing
 
 import predicates
 import torque_rules
+from liana.drive_names import drive_text
 
 REACTIONS_PAGE = pathlib.Path(__file__).resolve().parent / "reactions.json"
 
@@ -157,7 +158,7 @@ def target_steps(ticks, limits):
                 and jumps.is_too_fast(drive, abs(new - old))
             ):
                 complaints.append(
-                    f"tick {now.tick}: the target of drive {drive} changes by {new - old} counts, allowed are"
+                    f"tick {now.tick}: the target of {drive_text(drive)} changes by {new - old} counts, allowed are"
                     f" {limits.step_counts:.0f}"
                 )
     return complaints
@@ -413,7 +414,7 @@ def quick_stops_cut_short(ticks, reactions):
                 and now.tick < since + QUICK_STOP_TICKS
             ):
                 complaints.append(
-                    f"tick {now.tick}: drive {drive} is told 0x{word:02X} while its quick stop is under way"
+                    f"tick {now.tick}: {drive_text(drive)} is told 0x{word:02X} while its quick stop is under way"
                 )
     return complaints
 
@@ -430,7 +431,7 @@ def stops_not_confirmed(ticks):
             unplaced += not shown and (3008, drive) not in names(now)
             if not shown and (3008, drive) not in names(now) and unplaced > now.dropped:
                 complaints.append(
-                    f"tick {now.tick}: {now.state} is reached, but drive {drive} is not shown to be without torque, nor"
+                    f"tick {now.tick}: {now.state} is reached, but {drive_text(drive)} is not shown to be without torque, nor"
                     " is 3008 latched"
                 )
     return complaints
@@ -480,7 +481,7 @@ def drums_moving_while_off(ticks, left_out):
             places = [row.position[drive] for row in rows if row.age[drive] == 0]
             if drive not in left_out and places and max(places) - min(places) > 1:
                 complaints.append(
-                    f"ticks {first} to {end}: the drum of drive {drive} moves by {max(places) - min(places)} counts"
+                    f"ticks {first} to {end}: the drum of {drive_text(drive)} moves by {max(places) - min(places)} counts"
                     " while the arm is off"
                 )
     return complaints

@@ -43,7 +43,7 @@ MOMENTS = {
 
 
 def bench(kind, drive=None, **values):
-    return {"kind": kind, **({} if drive is None else {"drive": drive}), **values}
+    return {"kind": kind, **({} if drive is None else {"drive": drive + 1}), **values}
 
 
 # What every kind is told; those of the bus are rules of its script.
@@ -103,7 +103,7 @@ class Slit:
         self.fault_slot, self.during, self.time_limit_s = self.moment.fault_slot, "move", 900
         self.fault = dict(FAULTS[kind]) if kind in FAULTS else None
         if drive is not None:
-            self.fault["drive"] = drive
+            self.fault["drive"] = drive + 1
         self.target = TARGETS["camera" if kind.startswith("camera") else kind]
         if second:  # what either may do
             worse = max(self.target["contact_N"], TARGETS[second]["contact_N"])

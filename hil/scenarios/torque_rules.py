@@ -4,6 +4,7 @@ and rate [counts/s], in place of a target.
 import collections
 
 import predicates
+from liana.drive_names import drive_text
 
 RAMP_S = 0.1  # from rated torque to none
 ROUNDING_PERMILLE = 2  # of both ends
@@ -45,7 +46,7 @@ def told(traffic, robot, period_s):
                 continue
             periods = max(1, now.slot - before.slot)
             most_step = RATED_PERMILLE * period_s / RAMP_S * periods + ROUNDING_PERMILLE
-            where = f"node {node}, slot {now.slot}"
+            where = f"{drive_text(node - 1)}, slot {now.slot}"
             if abs(now.torque) > RATED_PERMILLE:
                 complaints.append(f"{where}: told {now.torque} permille of its rated torque")
             if abs(now.torque - before.torque) > most_step:
@@ -61,5 +62,5 @@ def rates_while_latched(traffic, robot, first_slot, end_slot):
     for node, found in predicates.enabling_commands(traffic, first_slot, end_slot):
         fastest = max(abs(command.rate) for command in found)
         if fastest > STILL * fastest_counts_s(robot, node):
-            complaints.append(f"node {node}: told a rate of {fastest} counts/s while the fault is latched")
+            complaints.append(f"{drive_text(node - 1)}: told a rate of {fastest} counts/s while the fault is latched")
     return complaints

@@ -20,8 +20,9 @@ SELF_REPORTS = (
 
 
 def drives_of(fault, count):
+    """Indices of a fault's drives, which its list counts from 1."""
     drives = fault.get("drive", [])  # those of the camera have none
-    return range(count) if drives == "all" else drives if isinstance(drives, list) else [drives]
+    return range(count) if drives == "all" else [n - 1 for n in (drives if isinstance(drives, list) else [drives])]
 
 
 def self_reporting(faults, count):

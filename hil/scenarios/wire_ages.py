@@ -1,6 +1,8 @@
 """How old each drive's report was in every tick, from the CAN logs alone; whether the core was told so."""
 import collections
 
+from liana.drive_names import drive_text
+
 REPORT_BYTES = 8  # as TPDO 1 is mapped; others are not taken
 OF_REPORTS = 0x180
 UNHEARD = 1000000
@@ -48,7 +50,7 @@ def wrong_ages(ticks, arrivals, left_out=()):
             # What waited while the core stood still it takes for new when it goes on; 2001 is latched then.
             if not min(youngest - now.lost_ticks, MAX_AGE) <= now.age[drive] <= oldest + LATE:
                 complaints.append(
-                    f"tick {now.tick}: the core takes drive {drive}'s report to be {now.age[drive]} ticks old; the wire"
+                    f"tick {now.tick}: the core takes the report of {drive_text(drive)} to be {now.age[drive]} ticks old; the wire"
                     f" shows {youngest} to {oldest}"
                 )
                 break

@@ -5,6 +5,8 @@ import collections
 import shutil
 import subprocess
 
+from liana.drive_names import drive_text
+
 RESETS, START = (129, 130), 1  # NMT commands: reset node, reset communication; start
 BOOT_UP, OPERATIONAL = 0, 5  # states in the heartbeat
 IDENTITY = 0x1018
@@ -79,7 +81,7 @@ def boot_order(frames, node):
     steps = list(of_node(frames, node))
     resets = [i for i, (step, _) in enumerate(steps) if step == "reset"]
     if not resets:
-        return [f"node {node}: no reset communication"]
+        return [f"{drive_text(node - 1)}: no reset communication"]
     steps = steps[resets[-1] + 1 :]
     order = []
     for step, frame in steps:
@@ -88,11 +90,11 @@ def boot_order(frames, node):
     names = [step for step, _ in order]
     if names[:4] not in (["boot-up", "SDO", "start", "operational"], ["boot-up", "SDO", "start", "PDO"]):
         return [
-            f"node {node}: after the reset come {', '.join(names[:5])}; CiA 301 asks for boot-up, SDO, start, then PDO"
+            f"{drive_text(node - 1)}: after the reset come {', '.join(names[:5])}; CiA 301 asks for boot-up, SDO, start, then PDO"
             " and operational"
         ]
     objects = [frame.object for step, frame in steps if step == "SDO"]
     if IDENTITY not in objects:
-        return [f"node {node}: the identity (0x1018) was never read"]
+        return [f"{drive_text(node - 1)}: the identity (0x1018) was never read"]
     written_first = [f"0x{found:04X}" for found in objects[: objects.index(IDENTITY)] if found not in (0x1000, None)]
-    return [f"node {node}: {written_first[0]} comes before the identity was read"] if written_first else []
+    return [f"{drive_text(node - 1)}: {written_first[0]} comes before the identity was read"] if written_first else []

@@ -3,6 +3,7 @@
 -- leads through the step's on_fail to over, with on_fail = "pause" to stuck, and from there on people's word through boot to
 -- the step again; a failure that `next` has a way for leads through recover to that step. People may pause it.
 local check = require "liana.check"
+local fault_text = require "liana.fault_text"
 local operator_control = require "liana.operator_control"
 local arm_state = require "liana.arm_state"
 local transitions = require "liana.transitions"
@@ -316,16 +317,8 @@ end
 
 -- ---- failing ------------------------------------------------------------------------------------------------------
 
--- Number, name, and where they are told, drive or bus and detail.
-local function name_of(fault)
-  local index, detail = fault.index or -1, fault.detail or 0
-  return fault.number .. " " .. fault.name .. (index >= 0 and " " .. index or "") .. (detail ~= 0 and " (detail " .. detail .. ")" or "")
-end
-
 function Runner:fault_names()
-  local names = {}
-  for i, fault in ipairs(self.arm.state.faults) do names[i] = name_of(fault) end
-  return #names > 0 and table.concat(names, ", ") or "none named"
+  return fault_text(self.arm.state.faults)
 end
 
 -- Answers that still come are those of a step that is over.

@@ -72,7 +72,7 @@ class BootedDrive {
     for (const std::uint16_t controlword : kCommands) cycle(controlword, target);
   }
 
-  std::string refusals() const { return describe(boot.mismatches(0), boot.more_mismatches(0), "can0"); }
+  std::string refusals() const { return describe(boot.mismatches(0), boot.more_mismatches(0), "node 1 on can0"); }
 
   bench::Drive drive;
   canopen::BootSequence boot;

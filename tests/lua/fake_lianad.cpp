@@ -204,8 +204,12 @@ Json FakeLianad::state() const {
   const bool held = behaviour_.hold_fault_in_step != 0 && step_ >= behaviour_.hold_fault_in_step;
   const bool refused_motion = behaviour_.refuse_motion_in_step != 0 && step_ >= behaviour_.refuse_motion_in_step;
   Json faults = Json::array();
-  if (held) faults.push_back({{"number", 5001}, {"name", "cable_slack"}, {"index", 2}});
-  if (fault) faults.push_back({{"number", 3101}, {"name", "drive_silent"}, {"index", 3}});
+  if (held)
+    faults.push_back(
+        {{"number", 5001}, {"name", "cable_slack"}, {"index", 2}, {"where", "drive 3 (node 3, segment 1)"}});
+  if (fault)
+    faults.push_back(
+        {{"number", 3101}, {"name", "drive_silent"}, {"index", 3}, {"where", "drive 4 (node 4, segment 2)"}});
   return {{"op", "state"},
           {"tick", tick_},
           {"time_s", static_cast<double>(tick_) * 0.004},

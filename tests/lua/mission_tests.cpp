@@ -262,7 +262,9 @@ TEST(Mission, GivesUpWhenAnotherTakesMotion) {
 TEST(Mission, ADriveFaultFailsItByNameAndNumber) {
   const MissionRun run = run_mission_against({.fault_in_step = 4});
   EXPECT_EQ(run.report["outcome"], "failed");
-  EXPECT_NE(run.report["reason"].get<std::string>().find("3101 drive_silent 3"), std::string::npos) << run.report;
+  EXPECT_NE(run.report["reason"].get<std::string>().find("3101 drive_silent: drive 4 (node 4, segment 2)"),
+            std::string::npos)
+      << run.report;
   EXPECT_TRUE(run.ops("retract").empty());  // the drives are stopped: there is nothing to command
 }
 
@@ -295,7 +297,9 @@ TEST(Mission, AFaultThatOnlyHoldsTheArmFailsTheStepThoughTheArmIsAtRest) {
   const MissionRun run = run_mission_against({.hold_fault_in_step = 1});
   EXPECT_EQ(run.report["outcome"], "failed");
   EXPECT_EQ(run.report["steps"][0]["outcome"], "failed");
-  EXPECT_NE(run.report["reason"].get<std::string>().find("fault 5001 cable_slack 2"), std::string::npos) << run.report;
+  EXPECT_NE(run.report["reason"].get<std::string>().find("fault 5001 cable_slack: drive 3 (node 3, segment 1)"),
+            std::string::npos)
+      << run.report;
   EXPECT_EQ(run.last_command(), "hold");
 }
 

@@ -7,7 +7,8 @@ import { creditOf, proofOf } from '../../host/apps/web/src/live/protocol';
 import { Rate } from '../../host/apps/web/src/live/rate';
 import { StateAge } from '../../host/apps/web/src/live/state_age';
 import { AlarmBook, conditionsOf, type Condition } from '../../host/apps/web/src/model/alarms';
-import { near } from './support';
+import { driveText, placesText } from '../../host/apps/web/src/model/drive_names';
+import { ARM, MICRO, near } from './support';
 
 if (!('crypto' in globalThis)) Object.assign(globalThis, { crypto: webcrypto }); // Node 18
 
@@ -93,15 +94,22 @@ test('what has come back has to be seen anew', () => {
 });
 
 test('fifteen silent drives are one alarm with the remedy of the fault table, before what matters less', () => {
-  const faults = Array.from({ length: 15 }, (_, index) => ({ number: 3002, name: 'drive_silent', index }));
+  const faults = Array.from({ length: 15 }, (_, i) => ({ number: 3002, name: 'drive_silent', where: driveText(i, ARM) }));
   const book = new AlarmBook();
   const clearance = { body: 'wall', sure: 'camera', camera: 'none', level: 'slow' };
   for (const now_s of [0, 1]) book.update(conditionsOf({ faults, clearance }), now_s);
   const [first, second] = book.list();
   assert.equal(book.list().length, 2);
-  assert.match(first.title, /^3002 drive silent: drives or buses 0, 1, 2/);
+  assert.match(first.title, /^3002 drive silent: drives 1, 2, 3/);
   assert.match(first.todo, /Check the bus for errors and load/);
   assert.match(second.title, /close to the wall/);
+});
+
+test('drives count from 1, with node and segment', () => {
+  assert.equal(driveText(3, ARM), 'drive 4 (node 4, segment 2)');
+  assert.equal(driveText(3, MICRO), 'drive 4 (node 4)');
+  assert.equal(placesText([driveText(3, ARM), driveText(4, ARM)]), 'drives 4 (node 4, segment 2) and 5 (node 5, segment 2)');
+  assert.equal(placesText(['bus can0', driveText(0, MICRO)]), 'bus can0 and drive 1 (node 1)');
 });
 
 test('an alarm that passes by itself is gone 3 s after its cause, seen or not', () => {

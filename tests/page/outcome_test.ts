@@ -20,14 +20,14 @@ test('of a failed run it says what failed, where, why, and the remedy of the fau
   const outcome = outcomeOf(head({
     report: { mission: 'slit_crossing', outcome: 'failed', reason: 'the arm is STOPPING', faults: [], steps: [done, { ...done, name: 'into the slit', outcome: 'failed', reason: 'fault' }] },
     events: [
-      { sequence: 1, tick: 250, kind: 'fault', number: 5006, subject: 'drive 7', values: {}, text: `It is gone. ${faultRow(5006)!.remedy} [5006 cable_break]` },
-      { sequence: 2, tick: 260, kind: 'fault', number: 3002, subject: 'drive 7', values: {}, text: 'later' },
+      { sequence: 1, tick: 250, kind: 'fault', number: 5006, subject: 'drive 8 (node 8, segment 3)', values: {}, text: `It is gone. ${faultRow(5006)!.remedy} [5006 cable_break]` },
+      { sequence: 2, tick: 260, kind: 'fault', number: 3002, subject: 'drive 8 (node 8, segment 3)', values: {}, text: 'later' },
     ],
   }));
   assert.equal(outcome.success, false);
   assert.equal(outcome.what, 'slit_crossing failed in "into the slit"');
   assert.equal(outcome.where, 'at 1.0 s, in step 2: into the slit');
-  assert.match(outcome.why, /^drive 7 \(node 8, segment 3\): It is gone. \[5006 cable_break\]/);
+  assert.match(outcome.why, /^drive 8 \(node 8, segment 3\): It is gone. \[5006 cable_break\]/);
   assert.match(outcome.todo[0], /look at the cable and its clamp/);
   assert.equal(outcome.tick, 250);
 });
@@ -61,10 +61,10 @@ test('a run without a report says so', () => {
 });
 
 test('what the mission saw of the fault that ended the run is not said beside it, what else it saw is', () => {
-  const events = [{ sequence: 1, tick: 250, kind: 'fault', number: 5006, subject: 'drive 7', values: {}, text: 'cable_break: gone' }];
+  const events = [{ sequence: 1, tick: 250, kind: 'fault', number: 5006, subject: 'drive 8 (node 8, segment 3)', values: {}, text: 'cable_break: gone' }];
   const why = (faults: string) => outcomeOf(head({ report: { outcome: 'failed', reason: `the arm is STOPPING (stop category stop), faults: ${faults}`, faults: [], steps: [] }, events })).why;
-  assert.equal(why('5006 cable_break 7'), 'drive 7 (node 8, segment 3): cable_break: gone');
-  assert.match(why('5006 cable_break 7, 3002 drive_silent 4'), / \u2013 the arm is STOPPING .*3002 drive_silent 4$/);
+  assert.equal(why('5006 cable_break: drive 8 (node 8, segment 3)'), 'drive 8 (node 8, segment 3): cable_break: gone');
+  assert.match(why('5006 cable_break: drive 8 (node 8, segment 3), 3002 drive_silent: drive 5 (node 5, segment 2)'), / \u2013 the arm is STOPPING .*3002 drive_silent: drive 5 \(node 5, segment 2\)$/);
 });
 
 test('a reason that event, step and report spell differently is said once', () => {

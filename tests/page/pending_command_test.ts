@@ -6,7 +6,7 @@ import type { Alarm } from '../../host/apps/web/src/model/alarms';
 import { alarmBadge, ownerBadge, stateBadge } from '../../host/apps/web/src/model/badges';
 import { endingOf, refusalText, type Ending, type Taken } from '../../host/apps/web/src/model/outcome_text';
 import { hardwareText } from '../../host/apps/web/src/model/hardware';
-import { sampleOf } from './support';
+import { ARM, MICRO, sampleOf } from './support';
 
 const resting: Facts = { state: 'ENABLED', at_rest: true, is_busy: false, faults: [], stop: null, owner: 'anna' };
 const moving: Facts = { ...resting, at_rest: false, is_busy: true };
@@ -88,7 +88,7 @@ test('a name is what the gateway takes: 1 to 32 bytes, no control characters', (
 
 test('the largest motor current is named with its drive, the tick where there is real time', () => {
   const sample = sampleOf({ 'drives.torque_permille': [120, -342, 80] }, resting);
-  assert.equal(hardwareText(sample), 'Largest motor current 34 % of rated (node 2).');
-  assert.match(hardwareText(sampleOf({ 'drives.torque_permille': [0], tick_us: [143] }, resting)), /0 % of rated \(node 1\)\. Longest tick 143 us\.$/);
-  assert.equal(hardwareText(sampleOf({}, resting)), '');
+  assert.equal(hardwareText(sample, ARM), 'Largest motor current 34 % of rated, drive 2 (node 2, segment 1).');
+  assert.match(hardwareText(sampleOf({ 'drives.torque_permille': [0], tick_us: [143] }, resting), MICRO), /0 % of rated, drive 1 \(node 1\)\. Longest tick 143 us\.$/);
+  assert.equal(hardwareText(sampleOf({}, resting), ARM), '');
 });

@@ -44,7 +44,7 @@ TEST(TorqueDriveFaults, EveryKindEndsInTheDrivesOwnSafeState) {
                                                        {"node_twice", ""},
                                                        {"slow_sdo", ""}};
   for (const auto& [kind, more] : kinds) {
-    Stand stand(7, fault(kind, std::string(R"(,"drive":3)") + more), false);
+    Stand stand(7, fault(kind, std::string(R"(,"drive":4)") + more), false);
     stand.start();
     while (stand.now_s() < 3.7) stand.press(30.0);
     ASSERT_GT(std::fabs(stand.plant.wrist().force_N.z), 3.0) << kind << ": there is a force to get rid of";

@@ -58,7 +58,7 @@ class Calibration(Messages, unittest.TestCase):
     def test_a_pose_that_would_hide_an_exchange_is_refused(self):
         process, out, error = self.mission(self.content, "short", "--in-pose", "zero")
         self.assertEqual((process.returncode, out), (2, ""), error)
-        self.assert_names(error, "--in-pose", "zero", "cables 0 and 1", "0.0 mm")
+        self.assert_names(error, "--in-pose", "zero", "cable 1 (segment 1) and cable 2 (segment 1)", "0.0 mm")
 
     def test_the_drums_directions_and_zeros_of_the_simulated_arm_are_found(self):
         self.assertEqual(len(self.content["cables"]), 15)
@@ -69,19 +69,19 @@ class Calibration(Messages, unittest.TestCase):
 
     def test_exchanged_cables_are_named_and_leave_no_file(self):
         out_file = self.directory / "crossed.json"
-        crossed = run("liana", "calibrate", "--cross-wired", "3,4", "--out", out_file)
+        crossed = run("liana", "calibrate", "--cross-wired", "4,5", "--out", out_file)
         self.assertEqual(crossed.returncode, 1, crossed.stderr)
-        self.assert_names(crossed.stdout, "drive 3", "node 4", "cable 4")
-        self.assert_names(crossed.stdout, "drive 4", "node 5", "cable 3")
+        self.assert_names(crossed.stdout, "drive 4 (node 4, segment 2)", "cable 5 (segment 2)")
+        self.assert_names(crossed.stdout, "drive 5 (node 5, segment 2)", "cable 4 (segment 2)")
         self.assertEqual(len(crossed.stdout.strip().splitlines()), 2, crossed.stdout)
         self.assertFalse(out_file.exists())
 
     def test_drives_to_exchange_that_are_not_two_of_the_robot_are_refused_before_anything_starts(self):
         for words in (["calibrate"], ["run", MISSIONS / "short.lua"]):
-            for drives in ("3,99", "3,3", "3", "3,4,", "3,4,5"):
+            for drives in ("3,99", "0,3", "3,3", "3", "3,4,", "3,4,5"):
                 done = run("liana", *words, "--cross-wired", drives)
                 self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
-                self.assert_names(done.stderr, "--cross-wired", drives, "two", "0", "14")
+                self.assert_names(done.stderr, "--cross-wired", drives, "two", "1", "15")
 
     def test_an_interrupt_ends_with_130_whatever_is_under_way_and_leaves_nothing(self):
         for says in ("pose 1", "pose 2"):

@@ -126,7 +126,7 @@ class DryRuns(Checks):
 
     def test_a_fault_of_a_drive_ends_it_and_is_told(self):
         faults = self.short().parent / "faults.json"
-        faults.write_text(json.dumps([{"drive": 3, "kind": "fault", "at_slot": 2000}]))
+        faults.write_text(json.dumps([{"drive": 4, "kind": "fault", "at_slot": 2000}]))
         told = self.check(MISSIONS / "short.lua", "--faults", faults, code=1)
         self.assertEqual(told["outcome"], "failed")
         self.assertIn(3003, [fault["number"] for fault in told["faults"]])

@@ -184,7 +184,7 @@ class DriveCommand(SystemTest):
         self.assertEqual(good.returncode, 0, good.stdout + good.stderr)
         self.assert_names(good.stdout, "micro", "7 of 7 drives")
         bus = self.bus_of("{ type = 'maxon_epos4', bench = 'elmo_gold', nodes = { 2 } }")
-        missing = {"drive": 4, "kind": "missing", "at_slot": 1}
+        missing = {"drive": 5, "kind": "missing", "at_slot": 1}
         with Desk(bus, faults=[missing]) as desk:
             done = run("liana", "drive", "check", "--robot", "micro", "--json", *desk.where())
         self.assertEqual(done.returncode, 1, done.stderr)
@@ -313,7 +313,7 @@ class DriveCommand(SystemTest):
             self.assertEqual(statusword & STATE, SWITCH_ON_DISABLED)
 
     def test_jog_ends_with_1_and_names_the_emergency_code_when_the_drive_fails(self):
-        fault = {"drive": 2, "kind": "fault", "code": 0x7305, "at_slot": 500}
+        fault = {"drive": 3, "kind": "fault", "code": 0x7305, "at_slot": 500}
         code, said, error, statusword = self.jog("--by", "0.02", "--speed", "0.01", faults=[fault])
         self.assertEqual(code, 1, said)
         self.assertIn("emergency 0x7305, additional modules", error)
@@ -322,7 +322,7 @@ class DriveCommand(SystemTest):
         self.assertEqual(statusword & STATE, FAULT)
 
     def test_jog_ends_with_1_when_the_drive_is_not_heard_any_more_and_says_that_nobody_knows(self):
-        silence = {"drive": 2, "kind": "silent", "at_slot": 500}
+        silence = {"drive": 3, "kind": "silent", "at_slot": 500}
         code, said, error, statusword = self.jog("--by", "0.02", "--speed", "0.01", faults=[silence])
         self.assertEqual((code, said["is_off"]), (1, False), said)
         self.assertIn("its reports stopped coming", error)

@@ -10,7 +10,7 @@ DRIVE, NODE = 3, 4
 
 
 def fault(kind, at_slot=FAULT_SLOT):
-    return [{"drive": DRIVE, "kind": kind, "at_slot": at_slot}]
+    return [{"drive": DRIVE + 1, "kind": kind, "at_slot": at_slot}]
 
 
 def says(state, *parts):
@@ -47,10 +47,12 @@ class DrivesThatDoNotBoot(SystemTest):
 
     # req:C2
     def test_a_missing_drive_is_named_and_nothing_is_enabled(self):
-        self.refused_boot("missing", 3001, "node 4 on can0", "no boot-up")
+        self.refused_boot("missing", 3001, "drive 4 (node 4, segment 2) on can0", "no boot-up")
 
     def test_a_wrong_identity_is_named_with_what_was_expected_and_found(self):
-        self.refused_boot("wrong_identity", 3007, "node 4 on can0", "0x1018:2", "expected 1", "found 2")
+        self.refused_boot(
+            "wrong_identity", 3007, "drive 4 (node 4, segment 2) on can0", "0x1018:2", "expected 1", "found 2"
+        )
 
 
 class DrivesThatFailInMotion(SystemTest):
@@ -117,12 +119,12 @@ class DrivesThatFailInMotion(SystemTest):
         self.assertEqual(system.emergencies()[NODE][:2], [0x2310, 0])
 
     def test_an_emergency_of_a_drive_that_goes_on_is_an_event_and_no_fault(self):
-        emergency = [{"drive": DRIVE, "kind": "emcy", "code": 0x4210, "at_slot": FAULT_SLOT}]
+        emergency = [{"drive": DRIVE + 1, "kind": "emcy", "code": 0x4210, "at_slot": FAULT_SLOT}]
         with System(faults=emergency) as system:
             client = system.client()
             client.enable()
             client.start_moving()
-            client.until(lambda state: says(state, f"drive {DRIVE} sent emergency 0x4210: "))
+            client.until(lambda state: says(state, f"drive {DRIVE + 1} (node 4, segment 2) sent emergency 0x4210: "))
             self.assertEqual(client.state["faults"], [])
             client.until(lambda state: not state["is_busy"])
             self.assert_holds(client.state)

@@ -25,7 +25,7 @@ class DriveTypes(SystemTest):
         when = {"enabled": True, "moving": True, "for_slots": 50}
         for drive in range(len(types)):
             with self.subTest(types[drive]):
-                faults = [{"drive": drive, "kind": "fault", "when": when}]
+                faults = [{"drive": drive + 1, "kind": "fault", "when": when}]
                 with System(bus=self.bus_of(drives), faults=faults, **ARM) as system:
                     client = system.client()
                     client.enable()
@@ -48,7 +48,7 @@ class DriveTypes(SystemTest):
             client.until(lambda state: state["state"] == "FAULT")
             self.assertEqual([(each["number"], each["index"]) for each in client.state["faults"]], [(3007, 1)])
             text = client.state["faults"][0]["text"]
-            for word in ("node 2 on can0", "0x1018:1", "expected 19529", "found 251", "0x6076"):
+            for word in ("drive 2 (node 2) on can0", "0x1018:1", "expected 19529", "found 251", "0x6076"):
                 self.assertIn(word, text)
 
     def test_the_bus_table_carries_the_types_that_it_names(self):

@@ -35,7 +35,7 @@ class EventsOfARun(SystemTest):
         """Lets setUpClass make an instance whose clean-ups outlive single tests."""
 
     def eventful_run(self):
-        faults = [{"drive": DRIVE, "kind": "fault", "at_slot": FAULT_SLOT}]
+        faults = [{"drive": DRIVE + 1, "kind": "fault", "at_slot": FAULT_SLOT}]
         system = self.enterContext(System("client,archive", faults=faults, bus_script=FULL_QUEUE))
         system.start_archive()
         client = system.client()
@@ -69,7 +69,7 @@ class EventsOfARun(SystemTest):
         return client, system.events(), recorded, system.log("liana-archive")
 
     def run_without_a_drive(self):
-        with System(faults=[{"drive": DRIVE, "kind": "missing", "at_slot": 0}]) as system:
+        with System(faults=[{"drive": DRIVE + 1, "kind": "missing", "at_slot": 0}]) as system:
             client = system.client()
             client.until(lambda state: state["state"] == "FAULT")
             system.shut_down(client)
@@ -108,10 +108,12 @@ class EventsOfARun(SystemTest):
 
     def test_an_event_says_number_subject_and_values(self):
         (fault,) = self.told("fault")
-        self.assertEqual((fault.number, fault.subject, fault.values["detail"]), (3003, "drive 3", 0x2310))
+        self.assertEqual(
+            (fault.number, fault.subject, fault.values["detail"]), (3003, "drive 4 (node 4, segment 2)", 0x2310)
+        )
         self.assertLessEqual(abs(fault.values["tick"] - FAULT_SLOT), 5)
         (emergency,) = [event for event in self.told("emergency") if event.number != 0]
-        self.assertEqual((emergency.number, emergency.subject), (0x2310, "drive 3"))
+        self.assertEqual((emergency.number, emergency.subject), (0x2310, "drive 4 (node 4, segment 2)"))
         (stop,) = self.told("stop")
         self.assertEqual((stop.number, stop.subject), (2, "operator"))
         self.assert_names(stop.text, "emergency stop", "operator", "enough")
@@ -134,7 +136,9 @@ class EventsOfARun(SystemTest):
         self.assertEqual([(event.number, event.subject) for event in trouble], [(4, "bus can0"), (5, "bus can0")])
         self.assertEqual(trouble[1].values, {"count": 1})
         (missing,) = [event for event in self.unbooted if event.kind == "boot_problem"]
-        self.assertEqual((missing.number, missing.subject, missing.values), (3001, "drive 3", {"drive": 3}))
+        self.assertEqual(
+            (missing.number, missing.subject, missing.values), (3001, "drive 4 (node 4, segment 2)", {"drive": 4})
+        )
 
     def test_who_floods_is_counted(self):
         (left_out,) = self.told("left_out")

@@ -132,7 +132,7 @@ class EveryRequest(SystemTest):
 
     def faults(self):
         slot = FAULT_SLOT if "fault" in self._testMethodName else None
-        return [{"kind": "fault", "drive": 4, "at_slot": slot}] if slot else []
+        return [{"kind": "fault", "drive": 5, "at_slot": slot}] if slot else []
 
     def judge(self):
         self.client.request(LAST)

@@ -258,7 +258,7 @@ class StopsFromTheCommandLine(SystemTest):
         self.assert_names(done.stderr, "no system")
 
     def test_clear_takes_back_the_stop_and_the_faults_by_name_and_enables_nothing(self):
-        _, client = self.moving([{"drive": 3, "kind": "fault", "at_slot": 2500}])
+        _, client = self.moving([{"drive": 4, "kind": "fault", "at_slot": 2500}])
         client.until(lambda state: state["faults"])
         code, _, error = self.while_running("clear", [client])
         self.assertEqual(code, 1)
@@ -329,7 +329,7 @@ class StopsFromTheCommandLine(SystemTest):
         client.until(lambda state: state["state"] == "DISABLED")
 
     def test_a_fault_that_is_still_there_is_not_cleared_and_several_systems_are_not_cleared_at_once(self):
-        first, client = self.moving([{"drive": 3, "kind": "silent", "at_slot": 2500}])
+        first, client = self.moving([{"drive": 4, "kind": "silent", "at_slot": 2500}])
         client.until(lambda state: state["state"] == "FAULT")
         client.call("release")
         code, cleared, error = self.while_running("clear", [client])

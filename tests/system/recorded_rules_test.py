@@ -97,15 +97,15 @@ class Rules(unittest.TestCase):
 
     def test_a_target_that_steps_too_far_is_found_where_the_drive_has_torque(self):
         self.assertEqual(rules.target_steps(changed(5, target=(1036, 2000)), LIMITS), [])
-        self.broken(rules.target_steps(changed(5, target=(1000, 1963)), LIMITS), "tick 5", "drive 1")
+        self.broken(rules.target_steps(changed(5, target=(1000, 1963)), LIMITS), "tick 5", "drive 2 (node 2)")
         self.assertEqual(rules.target_steps(changed(5, target=(9000, 2000), controlword=(0, 0)), LIMITS), [])
 
     def test_a_target_that_lets_go_may_jump_so_far_and_not_again_and_again(self):
         limits = LIMITS._replace(let_go_counts=5000)
         self.assertEqual(rules.target_steps(changed(5, target=(6000, 2000)), limits), [])
-        self.broken(rules.target_steps(changed(5, target=(6001, 2000)), limits), "tick 5", "drive 0")
+        self.broken(rules.target_steps(changed(5, target=(6001, 2000)), limits), "tick 5", "drive 1 (node 1)")
         to_and_fro = [GOOD._replace(tick=i, target=(1000 + 3000 * (i % 2), 2000)) for i in range(10)]
-        self.broken(rules.target_steps(to_and_fro, limits), "tick 7", "drive 0")
+        self.broken(rules.target_steps(to_and_fro, limits), "tick 7", "drive 1 (node 1)")
 
     def test_a_telecommand_before_its_time_after_its_expiry_or_never_released_is_found(self):
         self.assertEqual(rules.commands_out_of_time(ticks(10, active_sequence=7)), [])
@@ -169,7 +169,7 @@ class Rules(unittest.TestCase):
     def test_a_quick_stop_that_is_cut_short_is_found(self):
         stopping = [*ticks(5), *(GOOD._replace(tick=i, **STOPPED) for i in range(5, 9))]
         cut = GOOD._replace(tick=9, **{**STOPPED, "controlword": (0x00, 0x00)})
-        self.broken(rules.quick_stops_cut_short([*stopping, cut], REACTIONS), "drive 0", "0x00")
+        self.broken(rules.quick_stops_cut_short([*stopping, cut], REACTIONS), "drive 1 (node 1)", "0x00")
         self.assertEqual(
             rules.quick_stops_cut_short(
                 [*stopping, cut._replace(statusword=(SWITCH_ON_DISABLED, IN_FAULT))], REACTIONS
@@ -182,8 +182,10 @@ class Rules(unittest.TestCase):
         stopping = GOOD._replace(tick=4, **STOPPED)
         ended = GOOD._replace(tick=5, **{**STOPPED, "state": "FAULT", "statusword": (SWITCH_ON_DISABLED, IN_FAULT)})
         self.assertEqual(rules.stops_not_confirmed([stopping, ended]), [])
-        self.broken(rules.stops_not_confirmed([stopping, ended._replace(age=(3, 0))]), "drive 0", "3008")
-        self.broken(rules.stops_not_confirmed([stopping, ended._replace(statusword=(ENABLED, IN_FAULT))]), "drive 0")
+        self.broken(rules.stops_not_confirmed([stopping, ended._replace(age=(3, 0))]), "drive 1 (node 1)", "3008")
+        self.broken(
+            rules.stops_not_confirmed([stopping, ended._replace(statusword=(ENABLED, IN_FAULT))]), "drive 1 (node 1)"
+        )
         self.assertEqual(
             rules.stops_not_confirmed([stopping, ended._replace(age=(3, 0), faults=(fault(3003), fault(3008, 0)))]), []
         )
@@ -243,7 +245,7 @@ class Rules(unittest.TestCase):
         self.broken(rules.torque_while_off(off, [0] * 12 + [1] + [0] * 7), "slot 12")
         self.assertEqual(rules.drums_moving_while_off(off, ()), [])
         rolling = [tick._replace(position=(1000, 2000 + 2 * (tick.tick > 10))) for tick in off]
-        self.broken(rules.drums_moving_while_off(rolling, ()), "drive 1")
+        self.broken(rules.drums_moving_while_off(rolling, ()), "drive 2 (node 2)")
         self.assertEqual(rules.drums_moving_while_off(rolling, {1}), [])
 
     def test_reactions_are_those_of_the_page_written_by_hand_and_each_has_its_reason(self):
@@ -284,7 +286,7 @@ class Rules(unittest.TestCase):
         self.assertEqual(rules.faults_not_latched(cleared, LIMITS), [], "an operator's clear emptied the full list")
         stopping = GOOD._replace(tick=4, **STOPPED)
         ended = GOOD._replace(tick=5, **{**STOPPED, "state": "FAULT", "age": (3, 3), "dropped": 1})
-        self.broken(rules.stops_not_confirmed([stopping, ended]), "drive 1", "3008")
+        self.broken(rules.stops_not_confirmed([stopping, ended]), "drive 2 (node 2)", "3008")
         self.assertEqual(rules.stops_not_confirmed([stopping, ended._replace(dropped=2)]), [])
 
     def test_a_false_alarm_is_found(self):
@@ -311,10 +313,12 @@ class Wire(unittest.TestCase):
         believed = wire_ages.wrong_ages(ticks(20), arrivals)
         self.assertIn("tick 11", believed[0])
         lost = wire_ages.wrong_ages(changed(5, age=(0, 3)), arrivals)
-        self.assertIn("drive 1", lost[0])
+        self.assertIn("drive 2 (node 2)", lost[0])
         self.assertEqual(wire_ages.wrong_ages(changed(5, age=(0, 3)), arrivals, {1}), [])
         short = [logs[0], logs[1].replace("46FF", "46")]
-        self.assertIn("drive 1", wire_ages.wrong_ages(ticks(10), wire_ages.Arrivals(short, predicates.LINE, 0.004))[0])
+        self.assertIn(
+            "drive 2 (node 2)", wire_ages.wrong_ages(ticks(10), wire_ages.Arrivals(short, predicates.LINE, 0.004))[0]
+        )
 
 
 class FakeTruth:

@@ -79,7 +79,7 @@ class TorqueRules(unittest.TestCase):
         self.assertEqual(self.told((11, 0x0F, 40, 0), (13, 0x0F, -40, 0)), [])
         found = self.told((11, 0x0F, 60, 0))
         self.assertEqual(len(found), 1)
-        self.assertIn("node 4, slot 11", found[0])
+        self.assertIn("drive 4 (node 4), slot 11", found[0])
         self.assertEqual(self.told((11, 0x06, 900, 0)), [], "a drive that is not enabled may be told anything")
 
     def test_no_more_than_the_rated_torque_and_no_rate_that_the_joint_cannot_have(self):
@@ -103,7 +103,7 @@ class Rules(unittest.TestCase):
         self.assertEqual(predicates.target_steps(traffic(good), 36), [])
         found = predicates.target_steps(traffic(good + [(14, 0x0F, 1127)]), 36)
         self.assertEqual(len(found), 1)
-        self.assertIn("node 4, slot 14", found[0])
+        self.assertIn("drive 4 (node 4), slot 14", found[0])
 
     def test_a_target_of_a_drive_without_torque_may_follow_it_anywhere(self):
         self.assertEqual(
@@ -307,7 +307,7 @@ class Files(Messages, unittest.TestCase):
         self.assertTrue(all(child.returncode is not None for child in run.system.children.values()))
 
     def test_what_the_bench_refuses_ends_a_scenario_with_its_words(self):
-        run = self.read(faults=[{"drive": 3, "kind": "silnt", "at_slot": 1}]).run()
+        run = self.read(faults=[{"drive": 4, "kind": "silnt", "at_slot": 1}]).run()
         with self.assertRaises(ProgramRefused) as caught:
             run.go()
         self.assert_names(str(caught.exception), "kind", "silnt")

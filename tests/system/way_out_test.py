@@ -95,7 +95,7 @@ class TheWayOut(SystemTest):
         self.assertFalse(client.step()["retracted"])
 
     def test_a_fault_that_holds_the_arm_leaves_the_way_back_open(self):
-        system = System(faults=[{"drive": 13, "kind": "cable_slip", "length_m": 0.0005, "at_slot": 9000}])
+        system = System(faults=[{"drive": 14, "kind": "cable_slip", "length_m": 0.0005, "at_slot": 9000}])
         client, start = self.enabled(system)
         self.moved(client)
         self.assertLess(client.state["tick"], 9000, "the cable has to slip where there is a way back")

@@ -14,6 +14,7 @@
 #include "host/drives/calibration/calibrate.hpp"
 #include "host/drives/calibration/fixture.hpp"
 #include "host/drives/calibration/fixture_prompt.hpp"
+#include "host/model/config/drive_names.hpp"
 
 namespace liana::cli {
 namespace {
@@ -102,7 +103,7 @@ std::vector<calibration::CalibrationReading> read_all(const CalibrateOptions& op
   return readings;
 }
 
-void show(const calibration::CalibrationResult& result, bool as_json) {
+void show(const calibration::CalibrationResult& result, const config::DriveNames& names, bool as_json) {
   if (as_json) {
     Json report{{"problems", result.problems}, {"calibration", nullptr}};
     if (result.problems.empty()) report["calibration"] = Json::parse(calibration::calibration_json(result.calibration));
@@ -111,11 +112,11 @@ void show(const calibration::CalibrationResult& result, bool as_json) {
   }
   for (const std::string& problem : result.problems) std::printf("%s\n", problem.c_str());
   if (!result.problems.empty()) return;
-  std::printf("drive  serial  direction      zero  drum radius mm  offset mm  tension N\n");
+  std::printf("drive                          serial  direction      zero  drum radius mm  offset mm  tension N\n");
   for (std::size_t i = 0; i < result.calibration.cables.size(); ++i) {
     const calibration::CableCalibration& cable = result.calibration.cables[i];
-    std::printf("%5zu  %6u  %9d  %8d  %14.4f  %9.3f  %9.1f\n", i, cable.serial, cable.direction, cable.zero_counts,
-                1e3 * cable.drum_radius_m, 1e3 * cable.offset_m, cable.pretension_N);
+    std::printf("%-29s  %6u  %9d  %8d  %14.4f  %9.3f  %9.1f\n", names.drive(i).c_str(), cable.serial, cable.direction,
+                cable.zero_counts, 1e3 * cable.drum_radius_m, 1e3 * cable.offset_m, cable.pretension_N);
   }
 }
 
@@ -191,7 +192,7 @@ int calibrate_command(const CalibrateOptions& options) {
   }
   const calibration::CalibrationResult result =
       calibration::calibrate(robot, read_all(options, simulated, poses, thetas_rad), calibration::today_utc());
-  show(result, options.json);
+  show(result, config::DriveNames(robot.table), options.json);
   if (!result.problems.empty()) return launcher::kExitFailure;
   if (!options.out_file.empty())
     launcher::write_output(options.out_file, calibration::calibration_json(result.calibration));

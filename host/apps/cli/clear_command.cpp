@@ -8,6 +8,7 @@
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/observer.hpp"
 #include "host/base/event/event_json.hpp"
+#include "host/base/event/fault_groups.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::cli {
@@ -36,7 +37,7 @@ std::string only_system(const std::string& given) {
 
 Json state_of(api::ApiClient& client) {
   auto state = launcher::wait_for(client, "state", kAnswerTimeout_s);
-  if (!state) throw std::runtime_error("lianad runs but sent no state within 5 s");
+  if (!state) throw std::runtime_error("lianad runs but sent no state within 5 s: see docs/how-to/nothing-answers.md");
   return *state;
 }
 
@@ -53,7 +54,8 @@ void ask(api::ApiClient& client, Json request, int id) {
   request["id"] = id;
   client.send(request);
   if (!launcher::wait_for(client, "ok", kAnswerTimeout_s))
-    throw std::runtime_error("lianad did not answer " + request.value("op", "") + " within 5 s");
+    throw std::runtime_error("lianad did not answer " + request.value("op", "") +
+                             " within 5 s: see docs/how-to/nothing-answers.md");
 }
 
 // What lianad says of the faults it was to clear.
@@ -94,10 +96,8 @@ void print_text(const std::string& api, const Clearing& clearing) {
     std::printf("%s: cleared: emergency stop by %s%s\n", api.c_str(), clearing.stop.value("by", "").c_str(),
                 (reason.empty() ? "" : ": " + reason).c_str());
   }
-  for (const Json& fault : clearing.faults) {
-    std::printf("%s: %s: fault %d %s (index %d)\n", api.c_str(), clearing.good ? "cleared" : "not cleared",
-                fault.value("number", 0), fault.value("name", "").c_str(), fault.value("index", -1));
-  }
+  for (const event::FaultGroup& group : event::fault_groups(clearing.faults))
+    std::printf("%s: %s: fault %s\n", api.c_str(), clearing.good ? "cleared" : "not cleared", group.title().c_str());
   if (!clearing.said.empty()) std::printf("%s: %s\n", api.c_str(), clearing.said.c_str());
 }
 

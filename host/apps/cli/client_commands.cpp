@@ -6,6 +6,7 @@
 #include "host/apps/cli/commands.hpp"
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/observer.hpp"
+#include "host/base/event/fault_groups.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::cli {
@@ -80,10 +81,8 @@ void print_state(const std::string& api, const Json& state) {
     std::printf("step %d %s%s\n", step.value("index", 0), step.value("name", "").c_str(),
                 waits.is_string() ? (" waits, " + waits.text()).c_str() : "");
   }
-  for (const Json& fault : state.value("faults", Json::array())) {
-    std::printf("fault %d %s (index %d): %s\n", fault.value("number", 0), fault.value("name", "").c_str(),
-                fault.value("index", -1), fault.value("text", "").c_str());
-  }
+  for (const event::FaultGroup& group : event::fault_groups(state.value("faults", Json::array())))
+    std::printf("fault %s: %s\n", group.title().c_str(), group.text.c_str());
   const Json clearance = state.value("clearance", Json());
   if (clearance.is_object()) {
     std::printf("clearance at least %.1f mm (%s, link %d; %s, bound %.1f mm; %s)\n",
@@ -101,7 +100,8 @@ void print_state(const std::string& api, const Json& state) {
 int status_command(const ClientOptions& options) {
   std::vector<Talk> talks = begin_talks(options, "liana status", launcher::Observer::kSeeing, [](api::ApiClient&) {});
   for (Talk& talk : talks) {
-    Json state = answer_of(talk, "state", "lianad runs but sent no state within 5 s");
+    Json state =
+        answer_of(talk, "state", "lianad runs but sent no state within 5 s: see docs/how-to/nothing-answers.md");
     if (!talk.problem.empty()) continue;
     if (options.json) {
       state["api"] = talk.api;

@@ -47,18 +47,19 @@ void print_outlook(const Json& said) {
 }
 
 // What a look at the boot of this drive has found.
-Json looked_at(DriveSession& session, commissioning::Place at, const canopen::ExpectedDrive& drive,
+Json looked_at(DriveSession& session, const std::string& who, const canopen::ExpectedDrive& drive,
                canopen::BootReference reference) {
   const std::unique_ptr<canopen::BootNode> node = session.desk.look_at_boot(drive);
   Json said = outlook(*node);
-  said["node"] = at.node;
+  said["node"] = drive.node;
+  said["name"] = who;
   said["type"] = drive.type.name;
   said["ok"] = node->mismatches().empty();
   said["stops_by_itself"] = drive.type.stops_by_itself();
   if (const std::string warning = nothing_stops(drive.type); !warning.empty()) said["warning"] = warning;
   said["refusals"] = Json::array();
   for (const canopen::BootMismatch& mismatch : node->mismatches())
-    said["refusals"].push_back(canopen::describe({&mismatch, 1}, 0, session.bus_of(at), reference));
+    said["refusals"].push_back(canopen::describe({&mismatch, 1}, 0, who, reference));
   return said;
 }
 
@@ -70,7 +71,8 @@ int check_one(DriveSession& session, const DriveOptions& options, std::uint8_t n
   const commissioning::Place at = session.place(node);
   if (const commissioning::Answer there = session.desk.read(at, 0x1000, 0); !there.is_done())
     return tell_failure(session, at, "reading 1000", there, options.json);
-  const Json said = looked_at(session, at, expected_drive(session, at, options), canopen::BootReference::kDesk);
+  const Json said =
+      looked_at(session, session.where(at), expected_drive(session, at, options), canopen::BootReference::kDesk);
   const bool is_good = said["ok"].get<bool>();
   if (options.json) {
     std::printf("%s\n", said.dump().c_str());
@@ -94,23 +96,22 @@ std::vector<canopen::ExpectedDrive> drives_of_robot(const std::string& name, con
   });
 }
 
-Json silent(const DriveSession& session, commissioning::Place at, const canopen::ExpectedDrive& drive) {
-  return {{"node", at.node},
+Json silent(const std::string& who, const canopen::ExpectedDrive& drive) {
+  return {{"node", drive.node},
+          {"name", who},
           {"type", drive.type.name},
           {"ok", false},
           {"answers", false},
-          {"refusals", {session.where(at) + ": no answer within 1 s: it is missing, or has another id or bit rate"}}};
+          {"refusals", {who + ": no answer within 1 s: it is missing, or has another id or bit rate"}}};
 }
 
-void print_robot(const DriveSession& session, const std::string& robot, const Json& all, int good) {
+void print_robot(const std::string& robot, const Json& all, int good) {
   for (const Json& said : all) {
     print_refusals(said);
     if (said.contains("warning")) std::printf("warning: %s\n", said["warning"].text().c_str());
     if (!said["ok"].get<bool>()) continue;
-    const auto node = static_cast<std::uint8_t>(said["node"].get<int>());
     std::printf("%s answers as type %s has to; %zu objects are not there, so not checked\n",
-                session.where({session.buses.bus_of_node(node), node}).c_str(), said["type"].text().c_str(),
-                said["not_there"].size());
+                said["name"].text().c_str(), said["type"].text().c_str(), said["not_there"].size());
   }
   std::printf("%s: %d of %zu drives answer as they have to; nothing was written\n", robot.c_str(), good, all.size());
 }
@@ -121,8 +122,8 @@ int check_robot(DriveSession& session, const DriveOptions& options, const std::v
   for (const canopen::ExpectedDrive& drive : drives) {
     const commissioning::Place at{drive.bus, drive.node};
     const bool answers = session.desk.read(at, 0x1000, 0).is_done();
-    all.push_back(answers ? looked_at(session, at, drive, canopen::BootReference::kRobotTable)
-                          : silent(session, at, drive));
+    const std::string who = canopen::name_of(drive) + " on " + session.bus_of(at);
+    all.push_back(answers ? looked_at(session, who, drive, canopen::BootReference::kRobotTable) : silent(who, drive));
     answering += answers ? 1 : 0;
     good += all.back()["ok"].get<bool>() ? 1 : 0;
   }
@@ -130,7 +131,7 @@ int check_robot(DriveSession& session, const DriveOptions& options, const std::v
   if (options.json) {
     std::printf("%s\n", Json{{"ok", is_good}, {"robot", options.robot}, {"drives", all}}.dump().c_str());
   } else {
-    print_robot(session, options.robot, all, good);
+    print_robot(options.robot, all, good);
   }
   if (answering == 0) return kNobodyAnswers;
   return is_good ? launcher::ExitCode::kExitOk : launcher::ExitCode::kExitFailure;

@@ -262,7 +262,7 @@ int tell_outcome(const DriveSession& session, commissioning::Place at, const com
 int tell_refusals(const DriveSession& session, commissioning::Place at, const canopen::BootNode& node, bool json) {
   Json refusals = Json::array();
   for (const canopen::BootMismatch& mismatch : node.mismatches())
-    refusals.push_back(canopen::describe({&mismatch, 1}, 0, session.bus_of(at), canopen::BootReference::kDesk));
+    refusals.push_back(canopen::describe({&mismatch, 1}, 0, session.where(at), canopen::BootReference::kDesk));
   const Json said = {{"ok", false}, {"node", at.node}, {"is_off", true}, {"refusals", refusals}};
   if (json) std::printf("%s\n", said.dump().c_str());
   for (const Json& each : refusals) std::fprintf(stderr, "liana: refused: %s\n", each.text().c_str());

@@ -9,6 +9,7 @@
 #include "host/apps/cli/slit_part.hpp"
 #include "host/apps/launcher/tables.hpp"
 #include "host/base/json/json.hpp"
+#include "host/model/config/drive_names.hpp"
 
 namespace liana::cli {
 namespace {
@@ -34,14 +35,14 @@ Json pose_of(const cable::RobotParams& table, const cable::ThetaVector& theta_ra
           {"cable_length_change_m", change}};
 }
 
-void print_summary(const Json& pose) {
+void print_summary(const config::DriveNames& names, const Json& pose) {
   for (const Json& row : pose["tip_pose"]) {
     std::printf("%10.6f %10.6f %10.6f %11.6f m\n", row[0].get<double>(), row[1].get<double>(), row[2].get<double>(),
                 row[3].get<double>());
   }
   const Json& change = pose["cable_length_change_m"];
   for (std::size_t c = 0; c < change.size(); ++c) {
-    std::printf("cable %2zu: %10.6f m, %+9.3f mm\n", c, pose["cable_length_m"][c].get<double>(),
+    std::printf("%-22s: %10.6f m, %+9.3f mm\n", names.cable(c).c_str(), pose["cable_length_m"][c].get<double>(),
                 1000.0 * change[c].get<double>());
   }
   if (pose.contains("slit")) std::printf("slit: %s\n", pose["slit"].dump().c_str());
@@ -64,7 +65,7 @@ int pose_command(const PoseOptions& options) {
   if (options.json) {
     std::puts(pose.dump().c_str());
   } else {
-    print_summary(pose);
+    print_summary(config::DriveNames(robot.table), pose);
   }
   return 0;
 }

@@ -13,6 +13,7 @@
 #include "host/base/json/json.hpp"
 #include "host/drives/calibration/calibrate.hpp"
 #include "host/drives/calibration/fixture.hpp"
+#include "host/model/config/drive_names.hpp"
 #include "host/model/config/field.hpp"
 #include "host/planning/workspace/picture.hpp"
 #include "host/planning/workspace/region.hpp"
@@ -86,15 +87,16 @@ Json poses_of(const config::RobotConfig& robot, Json& problems) {
 void look_at_holes(const cable::RobotParams& table, Json& problems) {
   const cable::CableLayout layout = cable_layout(table);
   const auto cables = static_cast<std::size_t>(layout.cable_count);
+  const config::DriveNames names(table);
   for (std::size_t a = 0; a < cables; ++a) {
     for (std::size_t b = a + 1; b < cables; ++b) {
       const double distance_m =
           std::hypot(layout.hole_y_m[a] - layout.hole_y_m[b], layout.hole_z_m[a] - layout.hole_z_m[b]);
       if (distance_m < kMinHoleDistance_m)
         problems.push_back(
-            text("cables %zu and %zu: their holes are %.1f mm apart in the discs that both pass: turn "
-                 "a segment's cables.phase_deg",
-                 a + 1, b + 1, 1e3 * distance_m));
+            names.cable(a) + " and " + names.cable(b) +
+            text(": their holes are %.1f mm apart in the discs that both pass: turn a segment's cables.phase_deg",
+                 1e3 * distance_m));
     }
   }
 }

@@ -6,6 +6,7 @@
 
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/observer.hpp"
+#include "host/base/event/fault_groups.hpp"
 
 namespace liana::launcher {
 namespace {
@@ -60,7 +61,8 @@ Json LockstepSession::ask_and_wait(const Json& request, const std::function<bool
     const Json state = next_state();
     if (since_s < 0.0) since_s = state.value("time_s", 0.0);
     const Json faults = state.value("faults", Json::array());
-    if (!faults.empty()) give_up("fault " + faults[0].value("name", "") + ": " + faults[0].value("text", ""));
+    if (!faults.empty())
+      give_up("fault " + event::fault_groups(faults).front().title() + ": " + faults[0].value("text", ""));
     if (state.value("time_s", 0.0) - since_s > kRequestPatience_s) give_up("the arm did not answer " + request.dump());
     if (look) look(state);
     // A state that was on its way when the request was sent says nothing of it.

@@ -22,7 +22,7 @@ struct RunOptions {
   std::string fixture;       // empty: it begins near its start pose; a named pose: the simulated arm lies exactly there
   std::string in_pose;       // empty: nobody knows; a named pose: lianad enables only an arm that lies there, and the
                              // simulated one does
-  std::string cross_wired;   // empty, or two drives whose cables are exchanged, e.g. 3,4
+  std::string cross_wired;   // empty, or two drives whose cables are exchanged, e.g. 4,5
   std::string faults;        // empty, or the bench's fault list: a file (docs/how-to/run-hil.md)
   std::string fault;         // empty, or the name of a fault list of the mission's own (mission_faults.hpp)
   std::string scene_offset;  // empty, or MM,DEG: the simulated scene is so far from where the table has it

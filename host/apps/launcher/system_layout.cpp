@@ -433,7 +433,7 @@ void check_cross_wired(const std::string& list, std::size_t drives) {
     std::size_t drive = 0;
     const char* end = word.data() + word.size();
     const auto [stopped, error] = std::from_chars(word.data(), end, drive);
-    if (error != std::errc() || stopped != end || drive >= drives) return std::nullopt;
+    if (error != std::errc() || stopped != end || drive < 1 || drive > drives) return std::nullopt;
     return drive;
   };
   const std::string_view words = list;
@@ -441,8 +441,8 @@ void check_cross_wired(const std::string& list, std::size_t drives) {
   const auto first = drive_of(words.substr(0, comma));
   const auto second = drive_of(words.substr(std::min(comma + 1, words.size())));
   if (first && second && first != second) return;
-  throw BadInput("--cross-wired: '" + list + "': allowed are two different drives from 0 to " +
-                 std::to_string(drives - 1) + ", e.g. 3,4");
+  throw BadInput("--cross-wired: '" + list + "': allowed are two different drives from 1 to " + std::to_string(drives) +
+                 ", e.g. 4,5");
 }
 
 void clean_up(const SystemLayout& plan, bool success) {

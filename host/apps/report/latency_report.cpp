@@ -3,9 +3,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <map>
 
 #include "host/apps/report/line.hpp"
+#include "host/base/event/fault_groups.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::report {
@@ -27,15 +27,9 @@ std::string row(const char* name, const Json& times) {
 
 // Each kind of fault once: a starved machine loses all drives at a time.
 std::string faults_text(const Json& faults) {
-  std::map<int, std::pair<int, std::string>> kinds;
-  for (const Json& fault : faults) {
-    auto& [count, words] = kinds[fault.value("number", 0)];
-    ++count;
-    words = fault.value("name", "") + ": " + fault.value("text", "");
-  }
   std::string text;
-  for (const auto& [number, kind] : kinds)
-    text += line("  fault %d (%d times) %s\n", number, kind.first, kind.second.c_str());
+  for (const event::FaultGroup& group : event::fault_groups(faults))
+    text += "  fault " + group.title() + ": " + group.text + "\n";
   return text;
 }
 

@@ -5,11 +5,13 @@
 #include <filesystem>
 #include <fstream>
 
+#include "firmware_like/math/trig.hpp"
 #include "host/apps/report/line.hpp"
 #include "host/apps/report/payload_text.hpp"
 #include "host/apps/report/timeline.hpp"
 #include "host/apps/report/truth.hpp"
 #include "host/apps/report/truth_figures.hpp"
+#include "host/base/event/fault_groups.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::report {
@@ -266,11 +268,8 @@ std::string report_text(const Json& report) {
   std::string text =
       "outcome " + report.value("outcome", "") + line(", arm time %.1f s\n", report.value("duration_s", 0.0));
   if (!report.value("reason", "").empty()) text += "reason: " + report.value("reason", "") + "\n";
-  for (const Json& fault : report.value("faults", Json::array())) {
-    const int detail = fault.value("detail", 0);
-    text += "fault " + std::to_string(fault.value("number", 0)) + " " + fault.value("name", "") +
-            (detail != 0 ? " (detail " + std::to_string(detail) + "): " : ": ") + fault.value("text", "") + "\n";
-  }
+  for (const event::FaultGroup& group : event::fault_groups(report.value("faults", Json::array())))
+    text += "fault " + group.title() + ": " + group.text + "\n";
   if (report.contains("fault")) text += fault_text(report["fault"]);
   for (const Json& step : report.value("steps", Json::array())) {
     text += line("  %7.1f s  ", step.value("duration_s", 0.0)) + step.value("outcome", "") + "  " +
@@ -278,7 +277,7 @@ std::string report_text(const Json& report) {
   }
   if (report.contains("tip_error_m")) {
     text += line("tip error %.2f mm", 1e3 * report["tip_error_m"].get<double>()) +
-            line(", %.3f deg", 57.29577951308232 * report["tip_attitude_error_rad"].get<double>()) +
+            line(", %.3f deg", report["tip_attitude_error_rad"].get<double>() / kDegree) +
             line(" (open loop %.1f mm)\n", 1e3 * report.value("open_loop_tip_error_m", 0.0));
   }
   if (report.contains("cable_tension_N")) {

@@ -205,7 +205,8 @@ std::vector<BootProblem> DriveChannel::boot_problems() {
     const bool missing = last == canopen::BootFailure::kNoBootUp || last == canopen::BootFailure::kNoAnswer;
     problems.push_back({static_cast<int>(i), missing ? FaultNumber::kDriveMissing : FaultNumber::kDriveNotOperational,
                         canopen::describe({refused.mismatch.data(), refused.count}, refused.more,
-                                          bus_names_[static_cast<std::size_t>(drives_[i].bus)])});
+                                          canopen::name_of(drives_[i]) + " on " +
+                                              bus_names_[static_cast<std::size_t>(drives_[i].bus)])});
   }
   return problems;
 }

@@ -36,8 +36,8 @@ std::vector<Contradiction> contradictions(const cable::RobotParams& table, const
 
 std::string text_of(const Contradiction& found) {
   char text[100];
-  std::snprintf(text, sizeof text, "%zu to %zu (segment %zu) contradict each other by %.1f mm", found.first,
-                found.first + found.cables - 1, found.segment + 1, 1e3 * found.largest_m);
+  std::snprintf(text, sizeof text, "%zu to %zu (segment %zu) contradict each other by %.1f mm", found.first + 1,
+                found.first + found.cables, found.segment + 1, 1e3 * found.largest_m);
   return text;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <type_traits>
 
 #include "host/api/device/driver.hpp"
 #include "host/api/server/registry.hpp"
@@ -118,6 +119,8 @@ int serve(const Setup& setup, const Robot& robot, liana::realtime::ArmMailbox<Ar
           liana::server::ArmServer& desk) {
   std::unique_ptr<liana::realtime::RtCycle<Arm>> cycle;
   liana::server::ServiceConfig config = service_config(setup, robot.canonical_json);
+  if constexpr (std::is_same_v<Robot, liana::config::RobotConfig>)
+    config.drive_names = liana::config::DriveNames(robot.table);
   config.boot_problems = [&] { return cycle->line().boot_problems(); };
   config.serials = [&] { return cycle->line().serials(); };
   liana::server::Service service(config, desk);

@@ -39,6 +39,7 @@ Service::Service(const ServiceConfig& config, ArmServer& desk)
           config_.buses.tick_s()),
       server_(config.api_path, *this, config.api_group) {
   api::require_fit_in_welcome(config.robot_json, config.scene_json, config.buses.canonical_json);
+  notes_.drive_names = config.drive_names;
   if (!config.events_file.empty()) file_.emplace(config.events_file, config_.buses.tick_s());
   if (!config.commands_file.empty()) dispatch_.emplace(config.commands_file);
   if (!config.verify_times_file.empty())
@@ -160,7 +161,7 @@ void Service::watch_arm() {
   note_clear();
   if (dispatch_) dispatch_->note_active(tick(), now().active_sequence);
   note(trouble_.changes(config_.buses, desk_.report()));
-  note(faults_.changes(now().faults));
+  note(faults_.changes(now().faults, config_.buses, config_.drive_names));
   note(desk_.take_events());
   if (mission_end_tick_) {
     if (is_over_after_mission()) begin_shutdown("the mission has ended");
@@ -180,7 +181,7 @@ void Service::watch_arm() {
   }
   if (boot != realtime::BootPhase::kFailed) return;
   notes_.boot_problems = config_.boot_problems();
-  note(boot_failed_events(notes_.boot_problems));
+  note(boot_failed_events(notes_.boot_problems, config_.drive_names));
 }
 
 // What a drive reports beside its statusword; whether it is a fault, its statusword says.
@@ -188,7 +189,7 @@ void Service::note_emergencies(const CycleInputs& inputs) {
   for (std::size_t i = 0; i < inputs.drive.size(); ++i) {
     const std::uint16_t code = inputs.drive[i].emergency_code;
     if (code == 0) continue;
-    note(emergency_event(i, code));
+    note(emergency_event(i, code, config_.drive_names));
   }
 }
 
@@ -289,7 +290,8 @@ void Service::request(Request what) {
   if (boot_seen_ != realtime::BootPhase::kDone && !asks_again)
     return;  // drives that are not booted have no power, and a stop in force keeps it so
   if (!desk_.link().requests.push(what))
-    throw api::RequestError("busy", "too many requests are waiting for the next ticks");
+    throw api::RequestError("busy",
+                            "too many requests are waiting for the next ticks: send fewer in a command interval");
 }
 
 // Drives that are not booted have no power.

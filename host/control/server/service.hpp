@@ -36,6 +36,7 @@ struct ServiceConfig {
   timing::TimeMode time_mode = timing::TimeMode::kFast;
   std::string robot_json, scene_json;  // canonical
   config::BusesConfig buses;
+  config::DriveNames drive_names;
   double camera_latency_s = 0.0;
   std::string events_file;                                            // path; empty: events are not written
   std::string commands_file;                                          // path; empty: commands are not logged

@@ -10,13 +10,6 @@
 namespace liana::server {
 namespace {
 
-std::string drive_name(long long index) { return "drive " + std::to_string(index); }
-
-std::string subject_of(const Fault& fault) {
-  if (fault.index < 0) return "";
-  return fault.number == FaultNumber::kBusLost ? "bus " + std::to_string(fault.index) : drive_name(fault.index);
-}
-
 std::string condition_names(std::uint32_t conditions) {
   std::string text;
   for (std::uint32_t bit = 1; bit != 0; bit <<= 1) {
@@ -25,11 +18,11 @@ std::string condition_names(std::uint32_t conditions) {
   return text;
 }
 
-event::Event fault_event(const Fault& fault) {
+event::Event fault_event(const Fault& fault, const std::string& place) {
   const FaultInfo& info = fault_info(fault.number);
   return {.kind = event::EventKind::kFault,
           .number = event::number_of(fault.number),
-          .subject = subject_of(fault),
+          .subject = place,
           .values = {{"detail", static_cast<double>(fault.detail)}, {"tick", static_cast<double>(fault.tick)}},
           .text = std::string(info.text) + " " + info.remedy + " [" + std::to_string(event::number_of(fault.number)) +
                   " " + info.name + "]"};
@@ -49,6 +42,12 @@ bool has(const FaultList& list, const Fault& wanted) {
 
 }  // namespace
 
+std::string place_of(const Fault& fault, const config::BusesConfig& buses, const config::DriveNames& names) {
+  if (fault.index < 0) return "";
+  const auto index = static_cast<std::size_t>(fault.index);
+  return fault.number == FaultNumber::kBusLost ? "bus " + buses.buses.at(index).name : names.drive(index);
+}
+
 event::Event booted_event() {
   return {.kind = event::EventKind::kBoot,
           .number = event::number_of(event::BootEvent::kDone),
@@ -61,14 +60,15 @@ event::Event boot_goes_on_event() {
           .text = "booting goes on: a drive has come, or is asked for again"};
 }
 
-std::vector<event::Event> boot_failed_events(const std::vector<realtime::BootProblem>& problems) {
+std::vector<event::Event> boot_failed_events(const std::vector<realtime::BootProblem>& problems,
+                                             const config::DriveNames& names) {
   std::vector<event::Event> events;
   events.reserve(problems.size());
   for (const realtime::BootProblem& problem : problems) {
     events.push_back({.kind = event::EventKind::kBootProblem,
                       .number = event::number_of(problem.number),
-                      .subject = drive_name(problem.drive),
-                      .values = {{"drive", static_cast<double>(problem.drive)}},
+                      .subject = names.drive(static_cast<std::size_t>(problem.drive)),
+                      .values = {{"drive", problem.drive + 1.0}},
                       .text = problem.text});
   }
   events.push_back({.kind = event::EventKind::kBoot,
@@ -98,14 +98,15 @@ event::Event clear_event(const ClearResult& clear) {
           .text = result + "; checked: " + condition_names(clear.checked)};
 }
 
-event::Event emergency_event(std::size_t drive, std::uint16_t code) {
-  char text[96];
-  std::snprintf(text, sizeof text, "drive %zu sent emergency 0x%04X: %s", drive, static_cast<unsigned>(code),
+event::Event emergency_event(std::size_t drive, std::uint16_t code, const config::DriveNames& names) {
+  const std::string name = names.drive(drive);
+  char text[128];
+  std::snprintf(text, sizeof text, "%s sent emergency 0x%04X: %s", name.c_str(), static_cast<unsigned>(code),
                 canopen::emergency_text(code));
   return {.kind = event::EventKind::kEmergency,
           .number = code,
-          .subject = drive_name(static_cast<long long>(drive)),
-          .values = {{"drive", static_cast<double>(drive)}},
+          .subject = name,
+          .values = {{"drive", static_cast<double>(drive + 1)}},
           .text = text};
 }
 
@@ -186,10 +187,11 @@ event::Event last_step_event(const std::string& after) {
   return {.kind = event::EventKind::kStep, .text = "steps over; what ended the last: " + after};
 }
 
-std::vector<event::Event> FaultMonitor::changes(const FaultList& now) {
+std::vector<event::Event> FaultMonitor::changes(const FaultList& now, const config::BusesConfig& buses,
+                                                const config::DriveNames& names) {
   std::vector<event::Event> events;
   for (std::size_t i = 0; i < static_cast<std::size_t>(now.count); ++i) {
-    if (!has(seen_, now.fault[i])) events.push_back(fault_event(now.fault[i]));
+    if (!has(seen_, now.fault[i])) events.push_back(fault_event(now.fault[i], place_of(now.fault[i], buses, names)));
   }
   if (now.dropped > seen_.dropped) events.push_back(faults_without_place_event(now.dropped - seen_.dropped));
   seen_ = now;

@@ -1,5 +1,5 @@
-// Events (docs/reference/formats.md) from what the service sees. Subjects are named as people name them: "drive 3",
-// "bus can0".
+// Events (docs/reference/formats.md) from what the service sees. Subjects are named as people name them:
+// "drive 4 (node 4, segment 2)", "bus can0".
 #pragma once
 
 #include <cstdint>
@@ -15,18 +15,24 @@
 #include "host/control/server/emergency_stop.hpp"
 #include "host/control/server/owner.hpp"
 #include "host/control/verification/verdict.hpp"
+#include "host/model/config/config.hpp"
+#include "host/model/config/drive_names.hpp"
 
 namespace liana::server {
+
+// Drive or bus of a fault; empty where it has neither.
+std::string place_of(const Fault& fault, const config::BusesConfig& buses, const config::DriveNames& names);
 
 event::Event booted_event();
 event::Event boot_goes_on_event();
 // One for each drive that did not boot, and one for all of them.
-std::vector<event::Event> boot_failed_events(const std::vector<realtime::BootProblem>& problems);
+std::vector<event::Event> boot_failed_events(const std::vector<realtime::BootProblem>& problems,
+                                             const config::DriveNames& names);
 event::Event homed_event();
 event::Event not_homed_event(const std::string& why);
 event::Event clear_event(const ClearResult& clear);
 // `drive`: 0-based.
-event::Event emergency_event(std::size_t drive, std::uint16_t code);
+event::Event emergency_event(std::size_t drive, std::uint16_t code, const config::DriveNames& names);
 // A command that verification refused.
 event::Event verdict_event(std::uint64_t command, const verification::Verdict& verdict);
 // A path that begins, has come to an end or is refused.
@@ -52,7 +58,8 @@ event::Event last_step_event(const std::string& after);
 class FaultMonitor {
  public:
   // Events of what `now` has and the list of the last call had not.
-  std::vector<event::Event> changes(const FaultList& now);
+  std::vector<event::Event> changes(const FaultList& now, const config::BusesConfig& buses,
+                                    const config::DriveNames& names);
 
  private:
   FaultList seen_;

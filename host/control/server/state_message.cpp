@@ -6,13 +6,14 @@
 #include "firmware_like/drive/pdo.hpp"
 #include "firmware_like/safety/faults.hpp"
 #include "host/control/server/host_warning.hpp"
+#include "host/control/server/service_events.hpp"
 #include "host/control/verification/refusal_table.hpp"
 
 namespace liana::server {
 
 namespace {
 
-Json faults_json(const FaultList& list) {
+Json faults_json(const FaultList& list, const config::BusesConfig& buses, const config::DriveNames& names) {
   Json faults = Json::array();
   for (std::size_t i = 0; i < static_cast<std::size_t>(list.count); ++i) {
     const Fault& f = list.fault[i];
@@ -20,6 +21,7 @@ Json faults_json(const FaultList& list) {
     faults.push_back({{"number", static_cast<int>(f.number)},
                       {"name", info.name},
                       {"index", f.index},
+                      {"where", place_of(f, buses, names)},
                       {"detail", f.detail},
                       {"tick", f.tick},
                       {"text", info.text},
@@ -29,12 +31,13 @@ Json faults_json(const FaultList& list) {
 }
 
 // Of drives that did not boot: the core has not run, and knows nothing of them. The text is about this drive.
-void add_boot_faults(Json& state, const std::vector<realtime::BootProblem>& problems) {
+void add_boot_faults(Json& state, const std::vector<realtime::BootProblem>& problems, const config::DriveNames& names) {
   for (const realtime::BootProblem& problem : problems) {
     const FaultInfo& info = fault_info(problem.number);
     state["faults"].push_back({{"number", static_cast<int>(problem.number)},
                                {"name", info.name},
                                {"index", problem.drive},
+                               {"where", names.drive(static_cast<std::size_t>(problem.drive))},
                                {"detail", 0},
                                {"tick", state["tick"]},
                                {"text", problem.text},
@@ -162,11 +165,11 @@ Json state_message(const config::BusesConfig& buses, const ArmServer& desk, cons
              {"stop", stop_json(notes.stop)},
              {"stopping", notes.stopping},
              {"stop_category", stop_name(o.stop_category)},
-             {"faults", faults_json(o.faults)},
+             {"faults", faults_json(o.faults, buses, notes.drive_names)},
              {"limits", limits_json(o.limits)}};
   if (notes.tick_us) state["tick_us"] = *notes.tick_us;
   desk.add_state(state);
-  add_boot_faults(state, notes.boot_problems);
+  add_boot_faults(state, notes.boot_problems, notes.drive_names);
   return state;
 }
 

@@ -14,6 +14,7 @@
 #include "host/control/server/owner.hpp"
 #include "host/control/server/tip_tool.hpp"
 #include "host/model/config/config.hpp"
+#include "host/model/config/drive_names.hpp"
 
 namespace liana::server {
 
@@ -25,6 +26,7 @@ struct Notes {
   LastVerdict verdict{};
   std::int64_t verdict_us = 0;  // arm time at which it was given
   std::uint64_t refusals = 0, refused_motions = 0;
+  config::DriveNames drive_names;
   std::vector<realtime::BootProblem> boot_problems;  // faults of drives that did not boot
   EmergencyStop stop;
   TipTool tool;

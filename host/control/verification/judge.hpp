@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <string_view>
 
 #include "firmware_like/math/trig.hpp"
 #include "host/control/verification/verdict.hpp"
+#include "host/model/config/drive_names.hpp"
 
 namespace liana::verification {
 
@@ -24,7 +26,8 @@ constexpr Unit kNewtons{"N", 1.0}, kMillimetres{"mm", 1e-3}, kMetresPerSecond{"m
 // the tightest pass, by `conclude`: hundreds of ticks are looked at, of which one says something.
 class Judge {
  public:
-  explicit Judge(Verdict& verdict) : verdict_(verdict) {}
+  // `cables`: of which arm a quantity whose name ends in "cable" is; nullptr: of none.
+  explicit Judge(Verdict& verdict, const cable::RobotParams* cables = nullptr) : verdict_(verdict), cables_(cables) {}
 
   // `value` and `limit` are in SI units, `unit` is that of the text. Whatever is refused comes nearer to its limit than
   // all that passed before it, and what is no number to neither side.
@@ -61,8 +64,13 @@ class Judge {
     std::snprintf(text, sizeof text, "%.6g %s", value / unit.in_si, unit.name);
     return text;
   }
-  static std::string describe(const Pass& pass) {
-    return pass.index < 0 ? pass.what : pass.what + std::string(" ") + std::to_string(pass.index + 1);
+  std::string describe(const Pass& pass) const {
+    if (pass.index < 0) return pass.what;
+    const std::string_view what = pass.what, cable = "cable";
+    if (cables_ != nullptr && what.ends_with(cable))
+      return std::string(what.substr(0, what.size() - cable.size())) +
+             config::DriveNames(*cables_).cable(static_cast<std::size_t>(pass.index));
+    return std::string(what) + " " + std::to_string(pass.index + 1);
   }
   void tighten(Refusal code, const Pass& pass, const Unit& unit, double value, double limit) {
     if (!std::isfinite(value)) return refuse(Refusal::kNotFinite, describe(pass) + " is not a finite number");
@@ -73,6 +81,7 @@ class Judge {
   }
 
   Verdict& verdict_;
+  const cable::RobotParams* cables_;
   Pass tightest_;
 };
 

@@ -67,7 +67,7 @@ class StopSwing {
 class MomentJudge {
  public:
   MomentJudge(const MotionRules& rules, const simulation::Motion* stop, SimulationVerdict& verdict)
-      : table_(rules.table), zone_(rules.zone), stop_(stop), verdict_(verdict), judge_(verdict) {}
+      : table_(rules.table), zone_(rules.zone), stop_(stop), verdict_(verdict), judge_(verdict, &rules.table) {}
 
   void told(const simulation::JointSequence& sequence) {
     for (Index row = 0; row < sequence.rows_rad.size(); ++row) {
@@ -163,22 +163,22 @@ class MomentJudge {
                       slack_text(c, tension_N, limits.floor_anywhere_N / passed_share[c] + unsure_N));
       }
       least(verdict_.margins.tension_N, std::fmin(limits.alarm_N - tension_N - unsure_N, left_N));
-      note("cable", c, moment.time_s);
+      if (is_first_limit()) verdict_.first = {config::DriveNames(table_).cable(c), moment.time_s};
     }
   }
 
-  static std::string slack_text(Index c, double tension_N, double asked_N) {
-    char text[128];
-    std::snprintf(text, sizeof text,
-                  "slack with inertia: cable %d would have %.1f N at the motor, %.1f N are asked for",
-                  static_cast<int>(c) + 1, tension_N, asked_N);
-    return text;
+  std::string slack_text(Index c, double tension_N, double asked_N) const {
+    char text[80];
+    std::snprintf(text, sizeof text, " would have %.1f N at the motor, %.1f N are asked for", tension_N, asked_N);
+    return "slack with inertia: " + config::DriveNames(table_).cable(c) + text;
   }
+
+  bool is_first_limit() const { return !verdict_.passed() && verdict_.first.body.empty(); }
 
   static constexpr Index kNoIndex = ~Index{0};
 
   void note(const char* what, Index index, double time_s) {
-    if (verdict_.passed() || !verdict_.first.body.empty()) return;
+    if (!is_first_limit()) return;
     verdict_.first = {index == kNoIndex ? what : numbered(what, index), time_s};
   }
 

@@ -6,7 +6,7 @@ namespace liana::verification {
 
 void judge_model(const cable::RobotParams& table, const cable::Outputs& now, ExecutionVerdict& verdict) {
   if (!verdict.passed() || now.state != OperatingState::kEnabled || now.faults.count > 0) return;
-  Judge judge(verdict);
+  Judge judge(verdict, &table);
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
     judge.check(Refusal::kModel, "the model does not hold: measured less commanded theta", kDegrees,
                 static_cast<int>(i), now.theta_measured_rad[i] - now.theta_command_rad[i], kModelAngle_rad);

@@ -31,13 +31,19 @@ void judge_tip(const typename Arm::Table& table, const Outputs<Arm>& outputs, co
               kIkAngle_rad);
 }
 
+const cable::RobotParams* cables_of(const cable::RobotParams& table) { return &table; }
+const cable::RobotParams* cables_of(const serial::RobotParams& /*table*/) { return nullptr; }
+
 // Which fault would be latched: the newest one of the list, unless the list was full before.
-std::string fault_text(const FaultList& faults) {
+std::string fault_text(const FaultList& faults, const cable::RobotParams* cables) {
   if (faults.count == 0 || faults.dropped > 0) return "the controller would latch one more fault";
   const Fault& newest = faults.fault[static_cast<std::size_t>(faults.count - 1)];
   const std::string text = "the controller would latch fault " + std::to_string(static_cast<int>(newest.number)) + " " +
                            fault_info(newest.number).name;
-  return newest.index < 0 ? text : text + ", drive or bus " + std::to_string(newest.index + 1);
+  if (newest.index < 0) return text;
+  if (newest.number == FaultNumber::kBusLost) return text + ", bus " + std::to_string(newest.index + 1);
+  const config::DriveNames names = cables == nullptr ? config::DriveNames() : config::DriveNames(*cables);
+  return text + ", " + names.drive(static_cast<std::size_t>(newest.index));
 }
 
 constexpr const char* kNoRestText = "the arm would not come to rest within 3 s after the command";
@@ -52,12 +58,13 @@ ExecutionVerdict judge_execution(const typename Arm::Table& table, const Candida
   ExecutionVerdict verdict;
   verdict.sequence = candidate.sequence();
   verdict.trial = candidate.trial();
-  Judge judge(verdict);
+  Judge judge(verdict, cables_of(table));
   for (std::size_t i = 0; i < prediction.ticks.size(); ++i) {
     const Outputs<Arm>& outputs = prediction.ticks[i];
     const auto faults = static_cast<std::uint64_t>(outputs.faults.count) + outputs.faults.dropped;
     const bool accepted = i >= prediction.command_ticks || outputs.active_sequence == candidate.sequence();
-    if (faults > prediction.faults_before) judge.refuse(Refusal::kTwinFault, fault_text(outputs.faults));
+    if (faults > prediction.faults_before)
+      judge.refuse(Refusal::kTwinFault, fault_text(outputs.faults, cables_of(table)));
     judge.require((outputs.limits & kLimitGate) == 0, Refusal::kGate, "the gate would refuse an output");
     judge.require(accepted, Refusal::kNotAccepted, "the controller would not take the command");
     judge_targets(table, i > 0 ? &prediction.ticks[i - 1] : nullptr, outputs, judge);
@@ -82,7 +89,7 @@ SimulationVerdict judge_motion(const typename Arm::Table& table, const Candidate
   SimulationVerdict verdict;
   verdict.sequence = candidate.sequence();
   verdict.trial = candidate.trial();
-  Judge judge(verdict);
+  Judge judge(verdict, cables_of(table));
   for (const Outputs<Arm>& outputs : prediction.ticks) {
     judge_joints(table, prediction.ticks.front(), outputs, judge);
     judge_tip<Arm>(table, outputs, zone, judge);

@@ -7,10 +7,10 @@
 #include <stdexcept>
 
 #include "firmware_like/cable/arm/cables.hpp"
-#include "firmware_like/drive/pdo.hpp"
 #include "firmware_like/math/convert.hpp"
 #include "host/drives/calibration/fixture.hpp"
 #include "host/drives/calibration/text.hpp"
+#include "host/model/config/drive_names.hpp"
 #include "host/model/config/sha256.hpp"
 
 namespace liana::calibration {
@@ -83,36 +83,31 @@ std::optional<Index> followed_by(const Lengths& lengths, Index drive) {
 
 std::string problem_of(const config::RobotConfig& robot, const Lengths& lengths, Index drive, const Fit& own) {
   const std::optional<Index> other = followed_by(lengths, drive);
-  const int node = static_cast<int>(node_of_drive(drive));
-  if (other && *other != drive) {
-    return text(
-        "drive %d (node %d) moves as cable %d does, not as its own: their cables are exchanged: wind each cable on its "
-        "own drum, or "
-        "exchange the drives' node ids, then calibrate again",
-        static_cast<int>(drive), node, static_cast<int>(*other));
-  }
+  const config::DriveNames names(robot.table);
+  const std::string who = names.drive(drive);
+  if (other && *other != drive)
+    return who + " moves as " + names.cable(*other) +
+           " does, not as its own: their cables are exchanged: wind each cable on its own drum, or exchange the "
+           "drives' node ids, then calibrate again";
   if (own.misfit_m <= kMisfit_m) {
     return text(
-        "drive %d (node %d): drum radius %.4f mm: allowed %.4f mm +- %.0f %%: look whether cable lies on cable, or "
-        "correct "
+        "%s: drum radius %.4f mm: allowed %.4f mm +- %.0f %%: look whether cable lies on cable, or correct "
         "drives.drum_radius_m of robot %s",
-        static_cast<int>(drive), node, 1e3 * std::fabs(own.scale) * robot.drum_radius_m, 1e3 * robot.drum_radius_m,
-        100.0 * kDrumShare, robot.name.c_str());
+        who.c_str(), 1e3 * std::fabs(own.scale) * robot.drum_radius_m, 1e3 * robot.drum_radius_m, 100.0 * kDrumShare,
+        robot.name.c_str());
   }
   return text(
-      "drive %d (node %d): its position misses the fixtures' poses by %.1f mm: allowed %.1f mm: look whether the arm "
-      "lies in every "
+      "%s: its position misses the fixtures' poses by %.1f mm: allowed %.1f mm: look whether the arm lies in every "
       "fixture and the cable is on its drum",
-      static_cast<int>(drive), node, 1e3 * own.misfit_m, 1e3 * kMisfit_m);
+      who.c_str(), 1e3 * own.misfit_m, 1e3 * kMisfit_m);
 }
 
 // Without a number of its own a drive cannot be told from another one when it is swapped later. Empty: it has one.
 std::string serial_problem_of(const config::RobotConfig& robot, std::span<const CalibrationReading> readings,
                               Index drive) {
   const std::uint32_t serial = readings.front().serial[drive];
-  const int node = static_cast<int>(node_of_drive(drive));
-  const std::string who =
-      text("drive %d (node %d): serial number %u (object 0x1018:4)", static_cast<int>(drive), node, serial);
+  const config::DriveNames names(robot.table);
+  const std::string who = names.drive(drive) + text(": serial number %u (object 0x1018:4)", serial);
   if (serial == 0)
     return who +
            ": allowed 1 or more: a drive without a number of its own cannot be told from another: give it one, or take "
@@ -124,7 +119,7 @@ std::string serial_problem_of(const config::RobotConfig& robot, std::span<const 
   }
   for (Index other = 0; other < as_index(robot.table.cable_count()); ++other) {
     if (other != drive && readings.front().serial[other] == serial)
-      return who + text(": drive %d says it, too: give each a number of its own", static_cast<int>(other));
+      return who + ": " + names.drive(other) + " says it, too: give each a number of its own";
   }
   return "";
 }
@@ -154,14 +149,15 @@ bool are_opposite(const RobotParams& robot, Index a, Index b) {
 }
 
 [[noreturn]] void refuse_alike(const RobotParams& robot, Index a, Index b) {
-  const std::string who = text("cables %d and %d", static_cast<int>(a), static_cast<int>(b));
+  const config::DriveNames names(robot);
+  const std::string who = names.cable(a) + " and " + names.cable(b);
   if (are_opposite(robot, a, b))
     throw std::runtime_error(who +
-                             " (cables are counted from 0) sit opposite each other in one segment and change alike in "
+                             " sit opposite each other in one segment and change alike in "
                              "every pose: no pose tells them apart: turn one of their holes, cables.phase_deg, by 15 "
                              "deg or more");
   throw std::runtime_error(who +
-                           " (cables are counted from 0) change alike between these poses: add one that bends the arm "
+                           " change alike between these poses: add one that bends the arm "
                            "another way");
 }
 
@@ -177,8 +173,9 @@ void check_poses(const config::RobotConfig& robot, std::span<const ThetaVector> 
   for (Index a = 0; a < Index(cables.cols()); ++a) {
     if (cables.col(column(a)).lpNorm<Eigen::Infinity>() < kMinChange_m)
       throw std::runtime_error(
-          text("cable %d changes by less than %.0f mm between these poses: add one that bends its segment more",
-               static_cast<int>(a), 1e3 * kMinChange_m));
+          config::DriveNames(robot.table).cable(a) +
+          text(" changes by less than %.0f mm between these poses: add one that bends its segment more",
+               1e3 * kMinChange_m));
     for (Index b = 0; b < Index(cables.cols()); ++b) {
       const Fit alike = fit(cables.col(column(a)), cables.col(column(b)));
       if (a != b && alike.misfit_m < kApart_m && std::fabs(std::fabs(alike.scale) - 1.0) <= 2.0 * kDrumShare)

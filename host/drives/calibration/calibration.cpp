@@ -148,7 +148,7 @@ Calibration parse_calibration(const std::string& text, const std::string& file, 
   out.date = table.at("date").json().get<std::string>();
   const auto count = static_cast<std::size_t>(robot.table.cable_count());
   const config::Field cables = table.at("cables");
-  cables.size(count, count, "one entry per cable, segment 1 cable 0 first");
+  cables.size(count, count, "one entry per cable, those of segment 1 first");
   for (std::size_t i = 0; i < count; ++i) out.cables.push_back(read_cable(cables.element(i), robot));
   if (content.contains("friction")) out.friction = read_friction(table.at("friction"), robot);
   return out;

@@ -6,10 +6,10 @@
 #include <stdexcept>
 
 #include "firmware_like/cable/arm/tension.hpp"
-#include "firmware_like/drive/pdo.hpp"
 #include "firmware_like/math/trig.hpp"
 #include "host/base/options/nearest.hpp"
 #include "host/drives/calibration/text.hpp"
+#include "host/model/config/drive_names.hpp"
 
 namespace liana::calibration {
 
@@ -26,11 +26,13 @@ bool is_off(double reported_m, double expected_m) {
 }
 
 // Of the drives that are off, two that read what the other one should.
-std::string exchanged(const std::vector<Index>& off, const CableVector& reported_m, const CableVector& expected_m) {
+std::string exchanged(const config::DriveNames& names, const std::vector<Index>& off, const CableVector& reported_m,
+                      const CableVector& expected_m) {
   for (const Index a : off) {
     for (const Index b : off) {
       if (a >= b || is_off(reported_m[a], expected_m[b]) || is_off(reported_m[b], expected_m[a])) continue;
-      return text("; drives %zu and %zu read what the other one should: their cables are exchanged", a, b);
+      return "; " + names.drive(a) + " and " + names.drive(b) +
+             " read what the other one should: their cables are exchanged";
     }
   }
   return "";
@@ -40,16 +42,9 @@ std::string exchanged(const std::vector<Index>& off, const CableVector& reported
 
 ThetaVector named_pose_rad(const config::RobotConfig& robot, const std::string& name) {
   const auto found = robot.named_poses_deg.find(name);
-  if (found == robot.named_poses_deg.end()) {
-    std::string known;
-    std::vector<std::string> names;
-    for (const auto& [pose, angles] : robot.named_poses_deg) {
-      known += (known.empty() ? "" : ", ") + pose;
-      names.push_back(pose);
-    }
-    throw std::runtime_error("pose '" + name + "': allowed are the named poses of robot " + robot.name + ": " + known +
-                             options::did_you_mean(name, names));
-  }
+  if (found == robot.named_poses_deg.end())
+    throw std::runtime_error("pose '" + name + "': allowed are the named poses of robot " + robot.name + ": " +
+                             options::allowed_names(name, options::names_of(robot.named_poses_deg)));
   ThetaVector theta_rad{};
   for (Index i = 0; i < found->second.size(); ++i) theta_rad[i] = found->second[i] * kDegree;
   return theta_rad;
@@ -66,6 +61,7 @@ CableVector beyond_zero_m(const RobotParams& table, const ThetaVector& theta_rad
 }
 
 void check_tells_apart(const config::RobotConfig& robot, const std::string& name) {
+  const config::DriveNames names(robot.table);
   CableVector tension_N;
   tension_N.fill(robot.table.tension.plan_N);
   const CableVector expected_m = beyond_zero_m(robot.table, named_pose_rad(robot, name), tension_N);
@@ -73,11 +69,10 @@ void check_tells_apart(const config::RobotConfig& robot, const std::string& name
     for (Index b = 0; b < a; ++b) {
       const double apart_m = std::fabs(expected_m[a] - expected_m[b]);
       if (apart_m >= kApart * kFixtureTolerance_m) continue;
-      throw std::runtime_error(
-          "pose '" + name +
-          text("': cables %zu and %zu are only %.1f mm apart there, so that nobody would see them exchanged: allowed "
-               "are poses that tell every two cables apart by %.0f mm",
-               b, a, 1e3 * apart_m, 1e3 * kApart * kFixtureTolerance_m));
+      throw std::runtime_error("pose '" + name + "': " + names.cable(b) + " and " + names.cable(a) +
+                               text(" are only %.1f mm apart there, so that nobody would see them exchanged: allowed "
+                                    "are poses that tell every two cables apart by %.0f mm",
+                                    1e3 * apart_m, 1e3 * kApart * kFixtureTolerance_m));
     }
   }
 }
@@ -92,13 +87,14 @@ std::string contradiction(const config::RobotConfig& robot, const std::string& n
   if (off.empty()) return "";
   const auto by_m = [&](Index c) { return std::fabs(paid_out_m[c] - expected_m[c]); };
   std::stable_sort(off.begin(), off.end(), [&](Index a, Index b) { return by_m(a) > by_m(b); });
+  const config::DriveNames names(robot.table);
   std::string out = "the arm does not lie in pose " + name + ": ";
   for (Index i = 0; i < std::min(off.size(), kNamed); ++i)
-    out += text("%sdrive %zu (node %u) is off by %+.1f mm", i == 0 ? "" : ", ", off[i], node_of_drive(off[i]),
-                1e3 * (paid_out_m[off[i]] - expected_m[off[i]]));
+    out += (i == 0 ? "" : ", ") + names.drive(off[i]) +
+           text(" is off by %+.1f mm", 1e3 * (paid_out_m[off[i]] - expected_m[off[i]]));
   if (off.size() > kNamed) out += text(" and %zu more", off.size() - kNamed);
   out += text(", allowed %.0f mm", 1e3 * kFixtureTolerance_m);
-  return out + exchanged(off, paid_out_m, expected_m) +
+  return out + exchanged(names, off, paid_out_m, expected_m) +
          "; put the arm into its fixture, look whether each cable is taut and on its own drum, then run liana "
          "calibrate";
 }

@@ -96,14 +96,11 @@ std::string text_of(const BootMismatch& m, const Words& words) {
 
 }  // namespace
 
-std::string describe(std::span<const BootMismatch> mismatches, std::uint32_t more, const std::string& bus_name,
+std::string describe(std::span<const BootMismatch> mismatches, std::uint32_t more, const std::string& who,
                      BootReference reference) {
   const Words& words = reference == BootReference::kDesk ? kDeskWords : kRobotWords;
   std::string text;
-  for (const BootMismatch& mismatch : mismatches) {
-    const std::string who = "node " + std::to_string(mismatch.node) + " on " + bus_name + ": ";
-    text += (text.empty() ? who : "; ") + text_of(mismatch, words);
-  }
+  for (const BootMismatch& mismatch : mismatches) text += (text.empty() ? who + ": " : "; ") + text_of(mismatch, words);
   return more == 0 ? text : text + "; and " + std::to_string(more) + " more";
 }
 

@@ -40,9 +40,10 @@ struct BootMismatch {
 // do on a desk.
 enum class BootReference : std::uint8_t { kRobotTable, kDesk };
 
-// "node 3 on can0: object 0x1018:2 (product code): expected 1 (0x1), found 2 (0x2): what to do", and the same for each
-// further one of the node, behind "; "; `more` is how many are not among them. Allocates: not for the real-time thread.
-std::string describe(std::span<const BootMismatch> mismatches, std::uint32_t more, const std::string& bus_name,
+// `who` is "drive 3 (node 3, segment 1) on can0". "WHO: object 0x1018:2 (product code): expected 1 (0x1), found 2
+// (0x2): what to do", and the same for each further one of the node, behind "; "; `more` is how many are not among
+// them. Allocates: not for the real-time thread.
+std::string describe(std::span<const BootMismatch> mismatches, std::uint32_t more, const std::string& who,
                      BootReference reference = BootReference::kRobotTable);
 
 }  // namespace liana::canopen

@@ -9,6 +9,7 @@
 #include "firmware_like/cable/arm/drive_limits.hpp"
 #include "firmware_like/drive/pdo.hpp"
 #include "firmware_like/serial/drive_units.hpp"
+#include "host/model/config/drive_names.hpp"
 #include "host/model/config/drive_types_of_buses.hpp"
 
 namespace liana::canopen {
@@ -51,6 +52,7 @@ ExpectedDrive common_expectation(const Robot& robot, const config::BusesConfig& 
 // What of one drive is its own.
 struct OwnDrive {
   double window_counts = 0.0;  // of following error
+  int segment = 0;
   DriveProfile demand;
 };
 
@@ -66,11 +68,12 @@ std::vector<ExpectedDrive> expectations(const Robot& robot, const std::vector<Ow
     drive.node = static_cast<std::uint8_t>(node);
     drive.bus = buses.bus_of_node(node);
     if (drive.bus < 0) {
-      throw std::runtime_error("bus table " + buses.name + ": buses: node " + std::to_string(node) + " of robot " +
-                               robot.name + " is on no bus; each drive must be on exactly one");
+      throw std::runtime_error("bus table " + buses.name + ": buses: " + config::drive_text(i, own[i].segment) +
+                               " of robot " + robot.name + " is on no bus; each drive must be on exactly one");
     }
     if (!robot.drive_serials.empty()) drive.serial = robot.drive_serials[i];
     if (const auto named = types.find(node); named != types.end()) drive.type = named->second;
+    drive.segment = own[i].segment;
     drive.following_window_counts = rounded(own[i].window_counts);
     drive.demand = own[i].demand;
     drives.push_back(drive);
@@ -80,16 +83,20 @@ std::vector<ExpectedDrive> expectations(const Robot& robot, const std::vector<Ow
 
 }  // namespace
 
+std::string name_of(const ExpectedDrive& drive) { return config::drive_text(drive.node - 1u, drive.segment); }
+
 std::vector<ExpectedDrive> drive_expectations(const config::RobotConfig& robot, const config::BusesConfig& buses) {
   const cable::RobotParams& table = robot.table;
   cable::CableVector zero_payout_m = cable::cable_layout(table).zero_length_m;
   for (double& each : zero_payout_m) each += table.lead_m;
   const GateLimits limits = cable::make_gate_limits(table, zero_payout_m);
+  const config::DriveNames names(table);
   std::vector<OwnDrive> own;
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.cable_count()); ++i) {
     const double metres_per_count = table.drive[i].metres_per_count;
     own.push_back(
         {kFollowingWindow_m / metres_per_count,
+         names.segment_of(i),
          {limits.drive[i].min_counts, limits.drive[i].max_counts, table.limits.cable_speed_m_s / metres_per_count}});
   }
   return expectations(robot, own, buses);
@@ -103,6 +110,7 @@ std::vector<ExpectedDrive> drive_expectations(const config::SerialRobotConfig& r
     const double rad_per_count = robot.table.drive[i].rad_per_count;
     own.push_back(
         {kFollowingWindow_rad / rad_per_count,
+         0,
          {limits.drive[i].min_counts, limits.drive[i].max_counts, robot.table.joint[i].rate_rad_s / rad_per_count}});
   }
   return expectations(robot, own, buses);

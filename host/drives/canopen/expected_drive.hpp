@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "host/model/config/config.hpp"
@@ -21,6 +22,7 @@ struct DriveProfile {
 struct ExpectedDrive {
   int bus = 0;            // 0-based
   std::uint8_t node = 1;  // 1..126
+  int segment = 0;        // from 1, of a cable arm
   config::DriveType type;
   // Must be found, unless the type knows better.
   std::uint32_t vendor = 0;             // 1018:1
@@ -39,6 +41,9 @@ struct ExpectedDrive {
   std::uint16_t master_timeout_ms = 300;      // 1016:1
   std::uint32_t following_window_counts = 0;  // 6065
 };
+
+// "drive 4 (node 4, segment 2)"
+std::string name_of(const ExpectedDrive& drive);
 
 // One expectation per drive, in the order of the cables or joints. Throws std::runtime_error when a node is on no bus.
 std::vector<ExpectedDrive> drive_expectations(const config::RobotConfig& robot, const config::BusesConfig& buses);

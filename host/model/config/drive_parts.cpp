@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "host/model/config/drive_names.hpp"
 #include "host/model/config/robot_parts.hpp"
 
 namespace liana::config {
@@ -40,8 +41,8 @@ void check_nodes(const std::string& robot, std::int32_t drives, const std::strin
       ": allowed the nodes 1 to " + std::to_string(drives) + " of robot " + robot + ", each on one bus: ";
   for (std::int32_t node = 1; node <= drives; ++node) {
     if (buses.bus_of_node(node) < 0) {
-      throw std::runtime_error(file + ": buses " + buses.name + ": node " + std::to_string(node) + " is on no bus" +
-                               allowed + "add it to a bus");
+      throw std::runtime_error(file + ": buses " + buses.name + ": " + drive_text(static_cast<std::size_t>(node - 1)) +
+                               " is on no bus" + allowed + "add it to a bus");
     }
   }
   for (const BusConfig& bus : buses.buses) {

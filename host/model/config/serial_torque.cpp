@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "host/model/config/drive_names.hpp"
 #include "host/model/config/drive_types_of_buses.hpp"
 #include "host/model/config/robot_parts.hpp"
 
@@ -33,7 +34,7 @@ void read_force_control(const Field& field, SerialRobotConfig& out) {
   torque.most_joint_Nm = field.at("most_joint_Nm").number({1, out.rated_torque_Nm});
   torque.most_travel_m = field.at("most_travel_m").number({0.001, 1});
   torque.most_aside_m = field.at("most_aside_m").number({0.001, 1});
-  torque.most_turn_rad = field.at("most_turn_deg").number({0.1, 45}) * kRadPerDeg;
+  torque.most_turn_rad = field.at("most_turn_deg").number({0.1, 45}) * kDegree;
   torque.wrist_still_samples = static_cast<std::uint16_t>(field.at("wrist_still_samples").integer(0, 10000));
   read_gains(field.at("gains"), out);
 }
@@ -68,8 +69,9 @@ void check_drive_modes(const SerialRobotConfig& robot, const std::string& file, 
     if ((named != types.end() && named->second.is_cst) == torque) continue;
     const std::string type = named != types.end() ? named->second.name : "cia402_csp";
     throw std::runtime_error(file + ": drives.mode: \"" + (torque ? "torque" : "position") +
-                             "\": allowed is the mode of the drives' types, but node " + std::to_string(node) +
-                             " of bus table " + buses.name + " is a " + type + ": " +
+                             "\": allowed is the mode of the drives' types, but " +
+                             drive_text(static_cast<std::size_t>(node - 1)) + " of bus table " + buses.name + " is a " +
+                             type + ": " +
                              (torque ? "use buses whose drives follow torques, as embedded_payload"
                                      : "use buses whose drives follow positions, as embedded_micro"));
   }

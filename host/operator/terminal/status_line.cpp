@@ -4,14 +4,13 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
-#include <numbers>
 
+#include "firmware_like/math/trig.hpp"
+#include "host/base/event/fault_groups.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::terminal {
 namespace {
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 #if defined(__GNUC__)
 __attribute__((format(printf, 1, 2)))
@@ -94,10 +93,8 @@ std::vector<std::string> trouble_lines(const Json& state) {
   if (const Json& stop = object(state, "stop"); !stop.empty())
     lines.push_back("STOPPED     by " + stop.value("by", "") + ": " + stop.value("reason", ""));
   if (const Json& faults = state.member_or_null("faults"); faults.is_array()) {
-    for (const Json& fault : faults)
-      lines.push_back(text_of("FAULT       %d %s of %d  ", fault.value("number", 0), fault.value("name", "").c_str(),
-                              fault.value("index", -1)) +
-                      fault.value("remedy", ""));
+    for (const event::FaultGroup& group : event::fault_groups(faults))
+      lines.push_back("FAULT       " + group.title() + "  " + group.remedy);
   }
   if (const Json& verdict = object(state, "verdict"); verdict.value("code", 0) != 0)
     lines.push_back("REFUSED     " + verdict.value("text", "") + ": " + verdict.value("remedy", ""));
@@ -137,7 +134,7 @@ std::vector<std::string> status_lines(const Json& state, const Shown& shown, std
       text_of("%s  %s  %s  %s  %.1f s", shown.robot.c_str(), state.value("state", "no state yet").c_str(),
               owner_of(state, shown.name).c_str(), what_next(state, shown).c_str(), state.value("time_s", 0.0)),
       text_of("speed       %.0f mm/s, %.1f deg/s, along the %s axes", 1e3 * shown.speed.tip_m_s,
-              kDegPerRad * shown.speed.turn_rad_s, shown.speed.in_tip ? "tip's" : "base's"),
+              shown.speed.turn_rad_s / kDegree, shown.speed.in_tip ? "tip's" : "base's"),
       "",
       tip_line(state),
       clearance_line(state),

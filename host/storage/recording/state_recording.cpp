@@ -25,6 +25,7 @@ constexpr const char* kStateSchema = R"({"title":"state","description":"docs/ref
 "limits":{"type":"array","items":{"type":"string"}},
 "faults":{"type":"array","items":{"type":"object","properties":{"number":{"type":"integer"},"name":{"type":"string"},
 "index":{"type":"integer"},"detail":{"type":"integer"},"tick":{"type":"integer"},"text":{"type":"string"},
+"where":{"type":"string"},
 "remedy":{"type":"string"}}}},
 "drives":{"type":"array","items":{"type":"object","properties":{"node":{"type":"integer"},"state":{"type":"string"},
 "position_m":{"type":"number"},"tension_N":{"type":"number"}}}},

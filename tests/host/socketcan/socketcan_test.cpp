@@ -114,7 +114,7 @@ TEST(SocketCan, BootsDrivesOnTwoInterfacesAndCollectsTheirFeedback) {
     bus->end_tick();
   }
   EXPECT_EQ(master.boot().state(), canopen::BootState::kOperational)
-      << canopen::describe(master.boot().mismatches(0), master.boot().more_mismatches(0), "vcan0");
+      << canopen::describe(master.boot().mismatches(0), master.boot().more_mismatches(0), "node 1 on vcan0");
   EXPECT_GE(tpdos, 100);
   EXPECT_FALSE(master.heartbeats().lost(1));
   EXPECT_EQ(bus->stats(0).state, BusState::kActive);

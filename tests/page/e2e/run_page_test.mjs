@@ -77,13 +77,13 @@ test('a crossing leaves one file that shows it from the disk, without any reques
 
 test('the page of a run that failed says what failed, where, why and what to do, and stands at that moment', async () => {
   const faults = join(folder, 'faults.json');
-  writeFileSync(faults, JSON.stringify([{ drive: 7, kind: 'cable_break', at_slot: 3500 }]));
+  writeFileSync(faults, JSON.stringify([{ drive: 8, kind: 'cable_break', at_slot: 3500 }]));
   const page = await openPage(chromium.browser, pathToFileURL(await run('broken', 'slit_crossing', '--faults', faults)).href);
   await page.waitForSelector('.finding.bad');
   const finding = await text(page, '.finding');
   assert.match(finding, /slit_crossing failed in "around the obstacle to the panel edge"/);
   assert.match(finding, /at 14\.0 s, in step 2/);
-  assert.match(finding, /drive 7 \(node 8, segment 3\): .*\[5006 cable_break\]/);
+  assert.match(finding, /drive 8 \(node 8, segment 3\): .*\[5006 cable_break\]/);
   assert.equal(finding.split('look at the cable and its clamp').length, 2); // said once
   assert.match(await text(page, '.clock'), /^14\.0/);
   await picture(page, 'run_failed');

@@ -37,7 +37,7 @@ void add_physics(CLI::App& sub, std::string& physics, const std::string& of_what
 
 void add_cross_wired(CLI::App& sub, std::string& drives) {
   sub.add_option("--cross-wired", drives,
-                 "to try it out: two drives of the simulated arm, e.g. 3,4, have each other's cable");
+                 "to try it out: two drives of the simulated arm, counted from 1, e.g. 4,5, have each other's cable");
 }
 
 void add_control_points(CLI::App& sub, std::vector<std::string>& targets) {

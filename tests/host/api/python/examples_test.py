@@ -32,8 +32,8 @@ class Examples(unittest.TestCase):
     def test_a_whole_system_moves_the_arm_and_leaves_a_recording(self):
         self.assertRegex(said_by(EXAMPLES[0]), r"^\d{4,} ticks, ends \w+, moved [12]\.\d deg\n$")
 
-    def test_what_the_readme_shows_is_accepted(self):
-        self.assertEqual(said_by(README[0]), "")
+    def test_what_the_readme_shows_moves_the_arm_and_says_where_it_is(self):
+        self.assertEqual(said_by(README[0]), "theta 9 is at 2.0 deg\n")
 
     def test_the_smallest_example_reads_the_state(self):
         said = said_by((FOLDER / "01_read_state" / "read_state.py").read_text())
@@ -64,7 +64,7 @@ class Ends(unittest.TestCase):
     def test_input_that_a_program_refuses_is_said_in_its_words(self):
         with contextlib.redirect_stderr(io.StringIO()):
             with self.assertRaisesRegex(ProgramRefused, "kind.*silnt"):
-                with System(faults=[{"drive": 3, "kind": "silnt", "at_slot": 1}]) as system:
+                with System(faults=[{"drive": 4, "kind": "silnt", "at_slot": 1}]) as system:
                     system.client().go_on(1.0)
         with self.assertRaisesRegex(ProgramRefused, "nosuch"):
             System(bus="nosuch").write_tables()

@@ -89,7 +89,11 @@ class EveryRobot(Messages, unittest.TestCase):
         file.write_text(json.dumps(table))
         checked = liana_json("robot", "check", file, expected=(1,))
         text = "\n".join(checked["problems"])
-        for named in (("cables 1 and 4", "holes", "0.0 mm"), ("pose look", "tensions"), ("fixture_poses",)):
+        for named in (
+            ("cable 1 (segment 1) and cable 4 (segment 2)", "holes", "0.0 mm"),
+            ("pose look", "tensions"),
+            ("fixture_poses",),
+        ):
             self.assert_names(text, *named)
         code, out, _ = liana("robot", "check", file)
         self.assertEqual((code, out.splitlines()[-1]), (1, "does NOT fit as it is"))
@@ -135,7 +139,7 @@ class EveryRobot(Messages, unittest.TestCase):
         file.write_text(file.read_text().replace("{ 0, 75, 150, 270 }", "{ 0, 90, 180, 270 }"))
         code, out, error = liana("calibrate", "--robot", file, "--poses", "zero,bent,back")
         self.assertEqual((code, out), (2, ""), error)
-        self.assert_names(error, "cables 0 and 2", "opposite")
+        self.assert_names(error, "cable 1 (segment 1) and cable 3 (segment 1)", "opposite")
 
     def test_what_no_arm_can_have_is_refused_before_a_file_is_written(self):
         for words, named in (

@@ -35,7 +35,8 @@ TEST(Nearest, WhatIsSaidNamesItAndIsNothingWhereNoneIsNear) {
 }
 
 TEST(Nearest, TheListOfAllowedNamesEndsWithTheNearest) {
-  EXPECT_EQ(allowed_names("zeor", {"fold", "zero"}, ", or 8 angles"), "fold, zero, or 8 angles; did you mean zero?");
+  const std::vector<std::string> poses{"fold", "zero"};
+  EXPECT_EQ(allowed_names("zeor", poses, ", or more"), "fold, zero, or more" + did_you_mean("zeor", poses));
 }
 
 }  // namespace

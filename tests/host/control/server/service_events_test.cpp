@@ -28,23 +28,35 @@ std::vector<std::string> summaries(const std::vector<event::Event>& events) {
   return out;
 }
 
+config::BusesConfig one_bus() {
+  config::BusesConfig buses;
+  buses.buses.resize(1);
+  buses.buses[0].name = "can0";
+  return buses;
+}
+
+const config::BusesConfig kBuses = one_bus();
+const config::DriveNames kNames(verification::SimArm().table());
+
 TEST(Faults, EachIsAnEventWhenItAppearsAndAgainAfterAClear) {
   FaultMonitor watch;
   FaultList list;
-  EXPECT_TRUE(watch.changes(list).empty());
+  EXPECT_TRUE(watch.changes(list, kBuses, kNames).empty());
   latch(list, {FaultNumber::kDriveFault, 3, 0x2310, 100});
   latch(list, {FaultNumber::kBusLost, 0, 0, 100});
-  const std::vector<event::Event> first = watch.changes(list);
-  EXPECT_EQ(summaries(first), (std::vector<std::string>{"fault 3003 drive 3", "fault 4001 bus 0"}));
+  const std::vector<event::Event> first = watch.changes(list, kBuses, kNames);
+  EXPECT_EQ(summaries(first),
+            (std::vector<std::string>{"fault 3003 drive 4 (node 4, segment 2)", "fault 4001 bus can0"}));
   EXPECT_EQ(first[0].values, (std::vector<event::EventValue>{{"detail", 0x2310}, {"tick", 100.0}}));
   EXPECT_NE(first[0].text.find(fault_info(FaultNumber::kDriveFault).name), std::string::npos);
-  EXPECT_TRUE(watch.changes(list).empty()) << "it is still there";
+  EXPECT_TRUE(watch.changes(list, kBuses, kNames).empty()) << "it is still there";
   latch(list, {FaultNumber::kGateRefused, -1, 0, 101});
-  EXPECT_EQ(summaries(watch.changes(list)), (std::vector<std::string>{"fault 6001 "}));
-  EXPECT_TRUE(watch.changes(FaultList{}).empty()) << "that they are gone, the clear says";
+  EXPECT_EQ(summaries(watch.changes(list, kBuses, kNames)), (std::vector<std::string>{"fault 6001 "}));
+  EXPECT_TRUE(watch.changes(FaultList{}, kBuses, kNames).empty()) << "that they are gone, the clear says";
   FaultList again;
   latch(again, {FaultNumber::kDriveFault, 3, 0x2310, 500});
-  EXPECT_EQ(summaries(watch.changes(again)), (std::vector<std::string>{"fault 3003 drive 3"}));
+  EXPECT_EQ(summaries(watch.changes(again, kBuses, kNames)),
+            (std::vector<std::string>{"fault 3003 drive 4 (node 4, segment 2)"}));
 }
 
 TEST(Faults, ThoseWithoutAPlaceAreCounted) {
@@ -52,11 +64,11 @@ TEST(Faults, ThoseWithoutAPlaceAreCounted) {
   FaultList list;
   for (std::int16_t drive = 0; drive < FaultList::kCapacity + 5; ++drive)
     latch(list, {FaultNumber::kDriveSilent, drive, 0, 7});
-  const std::vector<event::Event> events = watch.changes(list);
+  const std::vector<event::Event> events = watch.changes(list, kBuses, kNames);
   ASSERT_EQ(events.size(), FaultList::kCapacity + 1u);
   EXPECT_EQ(events.back().number, 0);
   EXPECT_EQ(events.back().values, (std::vector<event::EventValue>{{"count", 5.0}}));
-  EXPECT_TRUE(watch.changes(list).empty());
+  EXPECT_TRUE(watch.changes(list, kBuses, kNames).empty());
 }
 
 TEST(HostTroubles, EachChangeSaysWhichBusAndHowMuch) {
@@ -204,11 +216,11 @@ TEST(Faults, ThatFindNoPlaceAreNotAnEventOfEveryInterval) {
     for (std::int16_t drive = 0; drive < FaultList::kCapacity + 9; ++drive)
       latch(list, {FaultNumber::kDriveSilent, drive, 0, 7});
     if (tick % 5 != 4) continue;
-    for (event::Event& event : watch.changes(list)) log.add(tick, std::move(event));
+    for (event::Event& event : watch.changes(list, kBuses, kNames)) log.add(tick, std::move(event));
     log.begin_interval(tick);
   }
   EXPECT_EQ(told.size(), FaultList::kCapacity + 1u);
-  EXPECT_EQ(summaries({told.front()}), (std::vector<std::string>{"fault 3002 drive 0"}));
+  EXPECT_EQ(summaries({told.front()}), (std::vector<std::string>{"fault 3002 drive 1 (node 1, segment 1)"}));
   log.add(5000, {.kind = event::EventKind::kClear, .number = 0});
   ASSERT_EQ(told.size(), FaultList::kCapacity + 3u);
   const auto count = std::ranges::find(told[told.size() - 2].values, "count", &event::EventValue::name);

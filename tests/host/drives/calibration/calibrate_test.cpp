@@ -113,7 +113,7 @@ TEST(Calibrate, EveryPairOfExchangedCablesIsNamed) {
       std::swap(workshop.cable_of[a], workshop.cable_of[b]);
       const std::vector<std::string> problems = workshop.result().problems;
       ASSERT_EQ(problems.size(), 2u) << a << " and " << b;
-      const std::string first = std::to_string(a), second = std::to_string(b);
+      const std::string first = std::to_string(a + 1), second = std::to_string(b + 1);
       EXPECT_TRUE(names(problems[0], {"drive " + first, "cable " + second}));
       EXPECT_TRUE(names(problems[1], {"drive " + second, "cable " + first}));
     }
@@ -130,19 +130,19 @@ TEST(Calibrate, ADrumThatIsTooFarOffAndACableThatIsInNoFixtureAreNamed) {
   readings[1].position_m[6] += 0.01;
   const std::vector<std::string> problems = calibrate(workshop.arm, readings, kDay).problems;
   ASSERT_EQ(problems.size(), 1u);
-  EXPECT_TRUE(names(problems[0], {"drive 6", "node 7"}));
+  EXPECT_TRUE(names(problems[0], {"drive 7 (node 7, segment 3)"}));
 }
 
 TEST(Calibrate, ADriveWithoutASerialNumberOfItsOwnIsNamed) {
   Workshop none;
   none.serial[2] = 0;
   ASSERT_EQ(none.result().problems.size(), 1u);
-  EXPECT_TRUE(names(none.result().problems[0], {"drive 2", "node 3", "0x1018:4", "0", "1"}));
+  EXPECT_TRUE(names(none.result().problems[0], {"drive 3 (node 3, segment 1)", "0x1018:4", "0", "1"}));
   Workshop twice;
   twice.serial[9] = twice.serial[4];
   const std::vector<std::string> problems = twice.result().problems;
   ASSERT_EQ(problems.size(), 2u);
-  EXPECT_TRUE(names(problems[0], {"drive 4", "node 5", "0x1018:4", "70412", "drive 9"}));
+  EXPECT_TRUE(names(problems[0], {"drive 5 (node 5, segment 2)", "0x1018:4", "70412", "drive 10"}));
   const Workshop workshop;
   std::vector<CalibrationReading> readings = workshop.readings();
   readings[2].serial[7] = 99;
@@ -183,7 +183,7 @@ TEST(Calibrate, PosesThatDoNotTellEnoughAreRefused) {
   };
   EXPECT_EQ(message({"zero", "fixture", "prepare"}), "");
   EXPECT_NE(message({"prepare"}).find("two or more"), std::string::npos);
-  EXPECT_NE(message({"prepare", "prepare"}).find("cable 0"), std::string::npos);
+  EXPECT_NE(message({"prepare", "prepare"}).find("cable 1 (segment 1)"), std::string::npos);
 }
 
 // Homing itself, without fixtures: at prepare, an arm whose two cables are exchanged contradicts itself.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/model/config/drive_names.hpp"
 #include "tests/host/model/config/tables.hpp"
 #include "tests/message.hpp"
 
@@ -40,10 +41,11 @@ class Fixture : public ::testing::Test {
 TEST_F(Fixture, AnArmThatLiesInItContradictsNothing) { EXPECT_EQ(said(), ""); }
 
 TEST_F(Fixture, EveryPairOfExchangedCablesIsNamed) {
+  const config::DriveNames of_arm(robot_.table);
   for (std::size_t a = 0; a < 15; ++a) {
     for (std::size_t b = a + 1; b < 15; ++b) {
       std::swap(reported_m_[a], reported_m_[b]);
-      EXPECT_TRUE(names(said(), {"drives " + std::to_string(a) + " and " + std::to_string(b), "other"}));
+      EXPECT_TRUE(names(said(), {of_arm.drive(a) + " and " + of_arm.drive(b), "other"}));
       std::swap(reported_m_[a], reported_m_[b]);
     }
   }
@@ -68,7 +70,7 @@ TEST_F(Fixture, ACableThatIsOffByMoreThanTheToleranceIsNamedAndAccusesNoOther) {
   reported_m_[6] += 0.9 * kFixtureTolerance_m;
   EXPECT_EQ(said(), "");
   reported_m_[6] += 0.2 * kFixtureTolerance_m;
-  EXPECT_TRUE(names(said(), {"drive 6", "node 7", "3.3 mm", "3 mm"}));
+  EXPECT_TRUE(names(said(), {"drive 7 (node 7, segment 3)", "3.3 mm", "3 mm"}));
   EXPECT_EQ(said().find("exchanged"), std::string::npos) << said();
 }
 
@@ -82,8 +84,10 @@ TEST_F(Fixture, AnotherPoseIsRefusedWithTheFarthestThree) {
 
 TEST_F(Fixture, APoseInWhichAnExchangeWouldGoUnnoticedIsRefused) {
   EXPECT_EQ(refusal("fixture"), "");
-  EXPECT_TRUE(names(refusal("zero"), {"zero", "cables 0 and 1", "0.0 mm"})) << refusal("zero");
-  EXPECT_TRUE(names(refusal("prepare"), {"prepare", "cables 1 and 2"})) << refusal("prepare");
+  EXPECT_TRUE(names(refusal("zero"), {"zero", "cable 1 (segment 1) and cable 2 (segment 1)", "0.0 mm"}))
+      << refusal("zero");
+  EXPECT_TRUE(names(refusal("prepare"), {"prepare", "cable 2 (segment 1) and cable 3 (segment 1)"}))
+      << refusal("prepare");
   EXPECT_TRUE(names(refusal("nowhere"), {"nowhere", "zhu2022"}));
 }
 

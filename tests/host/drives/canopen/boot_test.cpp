@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <map>
 #include <memory>
@@ -109,7 +110,9 @@ struct BootBench {
   // What was wrong first; nothing: no failure.
   BootMismatch mismatch(int node) const { return mismatches(node).empty() ? BootMismatch{} : mismatches(node).front(); }
   std::string text(int node) const {
-    return describe(mismatches(node), boot->more_mismatches(static_cast<std::size_t>(node - 1)), "can0");
+    char who[32];
+    std::snprintf(who, sizeof who, "node %d on can0", node);
+    return describe(mismatches(node), boot->more_mismatches(static_cast<std::size_t>(node - 1)), who);
   }
 
   std::vector<ExpectedDrive> expected;

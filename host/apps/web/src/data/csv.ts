@@ -5,11 +5,12 @@ function cell(text: string): string {
   return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 
-// One line for each row of the run between two arm times, a column for each field and index; numbers that are not there
+// One line for each row of the run between two arm times, a column for each field and index, from 1; numbers that are not there
 // stay empty.
 export function csvOf(run: Run, from_s: number, to_s: number): string {
   const { columns } = run.head.telemetry;
-  const names = columns.map((c) => cell(`${c.name}[${c.index}] [${c.unit}]`));
+  const isList = (name: string) => columns.filter((c) => c.name === name).length > 1;
+  const names = columns.map((c) => cell(`${c.name}${isList(c.name) ? `_${c.index + 1}` : ''} [${c.unit}]`));
   const lines = [['tick', 'time_s [s]', ...names].join(',')];
   for (let row = run.rowAt(from_s); row <= run.rowAt(to_s); ++row) {
     const numbers = columns.map((c) => {

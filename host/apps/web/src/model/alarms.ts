@@ -1,5 +1,6 @@
 // What a person should act on: one alarm for each cause, by priority, acknowledged by name, none that flickers.
 import type { Facts } from '../data/sample';
+import { placesText } from './drive_names';
 import { faultRow } from './tables';
 
 export type Priority = 1 | 2 | 3; // 1: act now; 2: act soon; 3: know it
@@ -75,16 +76,16 @@ export class AlarmBook {
 }
 
 function faultConditions(facts: Facts): Condition[] {
-  const groups = new Map<number, { name: string; text?: string; places: number[] }>();
+  const groups = new Map<number, { name: string; text?: string; places: string[] }>();
   for (const fault of facts.faults ?? []) {
     const group = groups.get(fault.number) ?? { name: fault.name, text: fault.text, places: [] };
-    if (fault.index !== undefined && fault.index >= 0) group.places.push(fault.index);
+    if (fault.where) group.places.push(fault.where);
     groups.set(fault.number, group);
   }
   return [...groups].map(([number, group]) => {
     const row = faultRow(number);
-    const where = group.places.length > 0 ? `: ${group.places.length > 1 ? 'drives or buses ' : ''}${group.places.join(', ')}` : '';
-    const title = `${number} ${group.name.replaceAll('_', ' ')}${where}`;
+    const where = placesText(group.places);
+    const title = `${number} ${group.name.replaceAll('_', ' ')}${where === '' ? '' : `: ${where}`}`;
     const todo = row?.remedy ?? 'See docs/reference/faults.md.';
     return { key: `fault ${number}`, priority: 1, title, cause: row?.text ?? group.text ?? '', todo };
   });

@@ -1,4 +1,5 @@
 // Which numbers stand together on a strip, with their colours.
+import { segmentsOf } from '../model/drive_names';
 import type { Robot } from '../model/robot';
 import { segmentColour } from '../scene/palette';
 import type { Curve } from './strip';
@@ -37,11 +38,8 @@ function angleGroups(robot: Robot): Group[] {
 // What the drives report: share of the rated torque, which is that of the rated current.
 function currentGroup(robot: Robot): Group {
   const serial = robot.kind === 'serial';
-  const count = serial ? robot.joints.length : 3 * robot.segments.length;
-  const sources = Array.from({ length: count }, (_, i) => {
-    const segment = serial ? i : Math.floor(i / 3);
-    return source('drives.torque_permille', i, serial ? String(i + 1) : `${segment + 1}.${(i % 3) + 1}`, segmentColour(segment), 0.1);
-  });
+  const colours = serial ? robot.joints.map((_, i) => i) : segmentsOf(robot).map((segment) => segment - 1);
+  const sources = colours.map((colour, i) => source('drives.torque_permille', i, String(i + 1), segmentColour(colour), 0.1));
   return { name: 'current', title: 'motor current, of rated [%]', sources };
 }
 
@@ -50,7 +48,7 @@ function forceGroups(robot: Robot): Group[] {
     const joints = robot.joints.map((_, i) => source('torque_Nm', i, String(i + 1), segmentColour(i)));
     return [{ name: 'torque', title: 'joint torque [N m]', sources: joints }];
   }
-  const cables = robot.segments.flatMap((_, m) => [0, 1, 2].map((c) => source('tension_N', 3 * m + c, `${m + 1}.${c + 1}`, segmentColour(m))));
+  const cables = segmentsOf(robot).map((segment, i) => source('tension_N', i, String(i + 1), segmentColour(segment - 1)));
   return [{ name: 'tension', title: 'cable tension, in the colours of the segments [N]', sources: cables }];
 }
 

@@ -23,16 +23,6 @@ function whereOf(head: RunHead, tick: number): string {
   return step ? `${at}, in step ${step.index}: ${step.name}` : at;
 }
 
-// Drives count from 0, in the order of the cables; on the bus they are nodes, which count from 1
-// (docs/reference/drives.md).
-function whereItIs(subject: string, robot: RunHead['robot']): string {
-  const drive = /^drive (\d+)$/.exec(subject);
-  if (!drive) return subject;
-  const index = Number(drive[1]);
-  const segments = robot.kind === 'serial' ? [] : robot.cables.phase_deg.flatMap((cables, segment) => cables.map(() => segment + 1));
-  return `${subject} (node ${index + 1}${segments[index] ? `, segment ${segments[index]}` : ''})`;
-}
-
 // When the step that failed was over; null: no step did. What came later followed from it.
 function endOfStep(head: RunHead, name: string | undefined, duration_s: number): number | null {
   const begun = head.steps.filter((step) => step.name === name).pop();
@@ -64,17 +54,17 @@ function comparableText(text: string): string {
   return text.toLowerCase().match(/[\p{L}\p{N}.]+/gu)?.join(' ') ?? '';
 }
 
-// "the arm is FAULT (stop category off), faults: 5006 cable_break 7": what the mission saw of a fault or stop. Says it more
+// "the arm is FAULT (stop category off), faults: 5006 cable_break: drive 8 (node 8, segment 3)": what the mission saw of a fault or stop. Says it more
 // than the event that ended the run does?
 function saysMore(reason: string, cause: LianaEvent | undefined): boolean {
   const seen = /the arm is [A-Z]+ \(stop category \w+\), faults: (.+)$/.exec(reason);
   if (!seen || !cause) return true;
-  return seen[1].split(', ').some((fault) => fault !== 'none named' && !fault.startsWith(`${cause.number} `));
+  return seen[1].split(/, (?=\d{4} )/).some((fault) => fault !== 'none named' && !fault.startsWith(`${cause.number} `));
 }
 
 // The event that ended it, then what else report and step say; nothing is said twice, and what to do not here.
-function whyOf(cause: LianaEvent | undefined, robot: RunHead['robot'], reasons: readonly string[], todo: readonly string[]): string {
-  const subject = cause ? whereItIs(cause.subject, robot) : '';
+function whyOf(cause: LianaEvent | undefined, reasons: readonly string[], todo: readonly string[]): string {
+  const subject = cause?.subject ?? '';
   const isNamed = !cause || subject === '' || comparableText(cause.text).includes(comparableText(subject));
   const text = todo.reduce((rest, remedy) => rest.replace(`${remedy} `, ''), cause?.text ?? '');
   const first = cause ? `${isNamed ? '' : `${subject}: `}${text}` : '';
@@ -118,7 +108,7 @@ function failureOf(head: RunHead): Outcome {
     success: false,
     what: `${report.mission ?? head.title} ${report.outcome ?? 'failed'}${failed ? ` in "${failed.name}"` : ''}`,
     where: tick === null ? '' : whereOf(head, tick),
-    why: whyOf(cause, head.robot, [report.reason ?? '', failed?.reason ?? ''], [...todo]),
+    why: whyOf(cause, [report.reason ?? '', failed?.reason ?? ''], [...todo]),
     todo: [...todo],
     tick,
   };

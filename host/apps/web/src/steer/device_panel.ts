@@ -47,8 +47,8 @@ export class DevicePanel {
   }
 
   update(now_s: number): void {
-    const { sample, facts } = this.live;
-    if (!sample) return;
+    const { sample, facts, welcome } = this.live;
+    if (!sample || !welcome) return;
     const clear_m = value(sample, 'clearance.distance_m');
     const level = facts.clearance?.level ?? '';
     this.clearance.set(clear_m / CLEARANCE_SHOWN_M, level === 'slow' || level === 'refuse',
@@ -62,7 +62,7 @@ export class DevicePanel {
     const held = (facts.held ?? []).map((theta) => `theta ${theta}`).join(', ');
     setText(this.mode, `Mode ${free}+${facts.held?.length ?? 0}: ${held ? `${held} held (S2, white discs)` : 'all angles follow the tip'}`);
     this.sayDevice(now_s);
-    setText(this.hardware, hardwareText(sample));
+    setText(this.hardware, hardwareText(sample, welcome.robot));
   }
 
   private sayDevice(now_s: number): void {

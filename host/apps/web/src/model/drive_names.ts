@@ -1,0 +1,26 @@
+// How drives and cables are written in every text: counted from 1, with node and segment.
+import type { Robot } from './robot';
+
+// Segment (from 1) of each drive, in their order; empty for an arm without cables.
+export function segmentsOf(robot: Robot): number[] {
+  return robot.kind === 'serial' ? [] : robot.cables.phase_deg.flatMap((cables, m) => cables.map(() => m + 1));
+}
+
+// "drive 4 (node 4, segment 2)" of the drive with this index, from 0.
+export function driveText(drive: number, robot: Robot): string {
+  const segment = segmentsOf(robot)[drive];
+  return `drive ${drive + 1} (node ${drive + 1}${segment ? `, segment ${segment}` : ''})`;
+}
+
+// "a, b and c"
+function listed(texts: readonly string[]): string {
+  return texts.length < 2 ? (texts[0] ?? '') : `${texts.slice(0, -1).join(', ')} and ${texts[texts.length - 1]}`;
+}
+
+// One text for places such as drives: "drives 4 (node 4, segment 2) and 5 (node 5, segment 2)"; of more than three
+// drives the numbers only.
+export function placesText(places: readonly string[]): string {
+  const drives = places.map((place) => /^drive (\d+)(.*)$/.exec(place));
+  if (places.length < 2 || drives.some((drive) => !drive)) return listed(places);
+  return `drives ${listed(drives.map((drive) => drive![1] + (places.length > 3 ? '' : drive![2])))}`;
+}

@@ -1,0 +1,22 @@
+#include "host/model/config/drive_names.hpp"
+
+#include "firmware_like/cable/arm/cables.hpp"
+#include "firmware_like/drive/pdo.hpp"
+
+namespace liana::config {
+std::string drive_text(std::size_t drive, int segment) {
+  const std::string where = segment > 0 ? ", segment " + std::to_string(segment) : "";
+  return "drive " + std::to_string(drive + 1) + " (node " + std::to_string(node_of_drive(drive)) + where + ")";
+}
+
+DriveNames::DriveNames(const cable::RobotParams& table) {
+  const cable::CableLayout layout = cable::cable_layout(table);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(layout.cable_count); ++c)
+    segments_.push_back(layout.segment[c] + 1);
+}
+
+std::string DriveNames::cable(std::size_t cable) const {
+  return "cable " + std::to_string(cable + 1) + " (segment " + std::to_string(segment_of(cable)) + ")";
+}
+
+}  // namespace liana::config
