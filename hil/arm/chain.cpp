@@ -1,38 +1,13 @@
 #include "hil/arm/chain.hpp"
 
-#include <mujoco/mujoco.h>
-
-#include <cstring>
-#include <stdexcept>
-
 #include "hil/arm/mjcf.hpp"
+#include "hil/arm/mujoco_model.hpp"
 
 namespace liana::bench {
 
-struct Chain::Engine {
-  mjModel* model = nullptr;
-  mjData* data = nullptr;
-  int rod_geom = -1;
-
-  explicit Engine(const std::string& xml) {
-    const auto vfs = std::make_unique<mjVFS>();
-    mj_defaultVFS(vfs.get());
-    mj_makeEmptyFileVFS(vfs.get(), "arm.xml", static_cast<int>(xml.size()));
-    std::memcpy(vfs->filedata[0], xml.data(), xml.size());
-    char error[500] = "";
-    model = mj_loadXML("arm.xml", vfs.get(), error, sizeof error);
-    mj_deleteVFS(vfs.get());
-    if (model == nullptr)
-      throw std::runtime_error(std::string("physics: MuJoCo refuses the model of robot and scene: ") + error);
-    data = mj_makeData(model);
-    rod_geom = mj_name2id(model, mjOBJ_GEOM, "rod");
-  }
-  ~Engine() {
-    mj_deleteData(data);
-    mj_deleteModel(model);
-  }
-  Engine(const Engine&) = delete;
-  Engine& operator=(const Engine&) = delete;
+struct Chain::Engine : MujocoModel {
+  using MujocoModel::MujocoModel;
+  const int rod_geom = mj_name2id(model, mjOBJ_GEOM, "rod");
 };
 
 namespace {

@@ -1,6 +1,5 @@
 #include "hil/bench/drive_bank.hpp"
 
-#include <cmath>
 #include <utility>
 
 namespace liana::bench {
@@ -8,24 +7,6 @@ namespace liana::bench {
 namespace {
 
 constexpr double kTorqueNoise = 0.003;  // of the reading
-
-DriveSettings settings_of(const RobotConfig& robot, const BusesConfig& buses, std::size_t i) {
-  DriveSettings settings;
-  settings.node = static_cast<int>(i) + 1;
-  settings.bus = static_cast<std::uint8_t>(buses.bus_of(settings.node));
-  settings.dictionary = buses.dictionary_of(settings.node);
-  settings.vendor = settings.dictionary.vendor.value_or(robot.vendor);
-  settings.product = settings.dictionary.product.value_or(robot.product);
-  settings.revision = settings.dictionary.revision.value_or(robot.revision);
-  settings.serial = robot.drives[i].serial;
-  settings.counts_per_turn = robot.counts_per_turn;
-  settings.rated_torque_mNm = static_cast<std::uint32_t>(std::lround(1000.0 * robot.rated_torque_Nm));
-  settings.gear = robot.gear;
-  settings.fastest_counts_per_s = robot.fastest_counts_per_s;
-  settings.servo_time_constant_s = robot.servo_time_constant_s;
-  settings.pull_direction = -robot.drives[i].direction;
-  return settings;
-}
 
 }  // namespace
 
@@ -47,7 +28,7 @@ DriveBank::DriveBank(const RobotConfig& robot, const BusesConfig& buses, const T
     const std::size_t cable = cable_of_[i];
     const double paid_out = payout_m[cable] - path_at_zero_m_[cable] - robot.lead_m - truth.zero_offset_m[cable];
     const double counts = robot.drives[i].zero_counts + robot.drives[i].direction * paid_out / robot.metres_per_count();
-    add(settings_of(robot, buses, i), counts);
+    add(drive_settings(robot, buses, i), counts);
   }
 }
 

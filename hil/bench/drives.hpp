@@ -1,15 +1,41 @@
 // The drives of a robot on their buses, and the faults that happen to a drive whatever it moves.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "hil/config/fault_config.hpp"
+#include "hil/config/scene_config.hpp"
 #include "hil/drive/drive.hpp"
 #include "hil/math/random.hpp"
 
 namespace liana::bench {
+
+// What the table of a robot, of either kind, says of its drive i.
+template <class Robot>
+DriveSettings drive_settings(const Robot& robot, const BusesConfig& buses, std::size_t i) {
+  DriveSettings settings;
+  settings.node = static_cast<int>(i) + 1;
+  settings.bus = static_cast<std::uint8_t>(buses.bus_of(settings.node));
+  settings.dictionary = buses.dictionary_of(settings.node);
+  settings.vendor = settings.dictionary.vendor.value_or(robot.vendor);
+  settings.product = settings.dictionary.product.value_or(robot.product);
+  settings.revision = settings.dictionary.revision.value_or(robot.revision);
+  settings.serial = robot.drives[i].serial;
+  settings.counts_per_turn = robot.counts_per_turn;
+  settings.rated_torque_mNm = static_cast<std::uint32_t>(std::lround(1000.0 * robot.rated_torque_Nm));
+  settings.gear = robot.gear;
+  settings.fastest_counts_per_s = robot.fastest_counts_per_s;
+  settings.servo_time_constant_s = robot.servo_time_constant_s;
+  if constexpr (requires { robot.is_torque_controlled; }) {
+    settings.is_torque_controlled = robot.is_torque_controlled;
+  } else {
+    settings.pull_direction = -robot.drives[i].direction;
+  }
+  return settings;
+}
 
 class Drives {
  public:

@@ -1,8 +1,8 @@
 // MuJoCo behind a FlexibleChain.
 #pragma once
 
+#include "hil/arm/mujoco_model.hpp"
 #include "hil/serial/flexible_chain.hpp"
-#include "hil/serial/mujoco_model.hpp"
 
 namespace liana::bench {
 

@@ -1,7 +1,7 @@
 #include "hil/serial/joint_chain.hpp"
 
+#include "hil/arm/mujoco_model.hpp"
 #include "hil/serial/link_axis.hpp"
-#include "hil/serial/mujoco_model.hpp"
 #include "hil/serial/serial_mjcf.hpp"
 
 namespace liana::bench {

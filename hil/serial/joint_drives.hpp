@@ -5,15 +5,11 @@
 #include <vector>
 
 #include "hil/bench/drives.hpp"
-#include "hil/config/scene_config.hpp"
 #include "hil/serial/true_arm.hpp"
 
 namespace liana::bench {
 
 constexpr double kTorqueNoise_permille = 1.0;  // standard deviation of a reading of torque
-
-// What the table says of the drive of joint i.
-DriveSettings joint_drive_settings(const SerialRobotConfig& robot, const BusesConfig& buses, std::size_t i);
 
 class JointDrives final : public Drives {
  public:

@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "hil/arm/mujoco_model.hpp"
 #include "hil/config/scene_config.hpp"
 #include "hil/config/serial_config.hpp"
-#include "hil/serial/mujoco_model.hpp"
 
 namespace liana::bench {
 

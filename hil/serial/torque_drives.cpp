@@ -7,7 +7,7 @@ namespace liana::bench {
 TorqueDrives::TorqueDrives(const TrueArm& arm, const BusesConfig& buses, bool noisy, std::uint64_t seed)
     : Drives(arm.robot.product, seed), arm_(arm), noisy_(noisy), torque_noise_(seed, "torque noise") {
   for (std::size_t i = 0; i < arm.robot.joints.size(); ++i)
-    add(joint_drive_settings(arm.robot, buses, i), counts_of(i, arm.start_rad[i]));
+    add(drive_settings(arm.robot, buses, i), counts_of(i, arm.start_rad[i]));
 }
 
 double TorqueDrives::counts_of(std::size_t i, double rotor_rad) const {

@@ -6,7 +6,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "hil/serial/mujoco_model.hpp"
+#include "hil/arm/mujoco_model.hpp"
 #include "tests/serial/sliding_plate.hpp"
 
 namespace liana::bench {

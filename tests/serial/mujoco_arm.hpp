@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "firmware_like/serial/dynamics.hpp"
+#include "hil/arm/mujoco_model.hpp"
 #include "hil/math/principal.hpp"
-#include "hil/serial/mujoco_model.hpp"
 #include "hil/serial/serial_mjcf.hpp"
 
 namespace liana::test {

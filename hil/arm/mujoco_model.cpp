@@ -1,4 +1,4 @@
-#include "hil/serial/mujoco_model.hpp"
+#include "hil/arm/mujoco_model.hpp"
 
 #include <cstring>
 #include <memory>
@@ -15,7 +15,7 @@ MujocoModel::MujocoModel(const std::string& xml) {
   model = mj_loadXML("arm.xml", vfs.get(), error, sizeof error);
   mj_deleteVFS(vfs.get());
   if (model == nullptr)
-    throw std::runtime_error(std::string("physics: MuJoCo refuses the model of the robot: ") + error);
+    throw std::runtime_error(std::string("physics: MuJoCo refuses the model of robot and scene: ") + error);
   data = mj_makeData(model);
 }
 
