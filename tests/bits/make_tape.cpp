@@ -9,7 +9,7 @@
 #include "host/storage/recording/mcap.hpp"
 #include "host/storage/recording/recording.hpp"
 #include "host/storage/recording/serialise.hpp"
-#include "host/storage/recording/visit_serial.hpp"
+#include "host/storage/recording/visit.hpp"
 #include "tests/bench/worst_cases.hpp"
 #include "tests/bits/tape.hpp"
 #include "tests/bits/what_ifs.hpp"

@@ -2,7 +2,7 @@
 #include "host/storage/recording/recording.hpp"
 #include "host/storage/recording/serialise.hpp"
 #include "host/storage/recording/tick_packet.hpp"
-#include "host/storage/recording/visit_serial.hpp"
+#include "host/storage/recording/visit.hpp"
 #include "tests/firmware_like/micro_arm.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/fuzz/fuzz.hpp"

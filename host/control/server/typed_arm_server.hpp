@@ -19,7 +19,7 @@
 #include "host/control/verification/simulation_verifier.hpp"
 #include "host/control/verification/verify.hpp"
 #include "host/storage/recording/tick_packet.hpp"
-#include "host/storage/recording/visit_serial.hpp"
+#include "host/storage/recording/visit.hpp"
 
 namespace liana::server {
 

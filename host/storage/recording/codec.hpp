@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "host/storage/recording/visit.hpp"
 
@@ -105,16 +106,15 @@ class Reader {
   std::size_t at_ = 0;
 };
 
-// Finds which field a byte offset of the serialised form belongs to.
-class FieldNamer {
+// Calls take(path, bytes) for each field of a structure, in recorded order; paths are such as "drive[3].target_counts".
+template <class Take>
+class FieldWalker {
  public:
-  explicit FieldNamer(std::size_t offset, const RecordedCounts& counts = {}) : offset_(offset), counts_(counts) {}
+  explicit FieldWalker(Take take, const RecordedCounts& counts = {}) : take_(std::move(take)), counts_(counts) {}
 
   template <Scalar T>
   void operator()(const char* name, const T& value) {
-    const std::size_t end = at_ + sizeof(bits_of(value));
-    if (at_ <= offset_ && offset_ < end) found_ = path_ + name;
-    at_ = end;
+    take_(path_ + name, sizeof(bits_of(value)));
   }
   template <class T, std::size_t N>
   void operator()(const char* name, const std::array<T, N>& values) {
@@ -125,7 +125,6 @@ class FieldNamer {
     for (std::size_t i = 0; i < count; ++i)
       (*this)((std::string(name) + "[" + std::to_string(i) + "]").c_str(), values[i]);
   }
-  const RecordedCounts& counts() const { return counts_; }
   template <class T>
   requires std::is_class_v<T>
   void operator()(const char* name, const T& value) {
@@ -134,14 +133,12 @@ class FieldNamer {
     visit(*this, value);
     path_.resize(length);
   }
-  // Path such as "drive[3].target_counts"; empty when the offset is beyond the end.
-  const std::string& found() const { return found_; }
+  const RecordedCounts& counts() const { return counts_; }
 
  private:
-  std::size_t offset_;
+  Take take_;
   RecordedCounts counts_;
-  std::size_t at_ = 0;
-  std::string path_, found_;
+  std::string path_;
 };
 
 }  // namespace liana::recording

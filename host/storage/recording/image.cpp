@@ -4,8 +4,7 @@
 #include <tuple>
 
 #include "host/storage/recording/image_reader.hpp"
-#include "host/storage/recording/visit_cable_state.hpp"
-#include "host/storage/recording/visit_serial_state.hpp"
+#include "host/storage/recording/visit.hpp"
 
 namespace liana::recording {
 

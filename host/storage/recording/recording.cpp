@@ -5,7 +5,6 @@
 #include "host/storage/recording/codec.hpp"
 #include "host/storage/recording/image.hpp"
 #include "host/storage/recording/serialise.hpp"
-#include "host/storage/recording/visit_serial.hpp"
 
 namespace liana::recording {
 

@@ -12,7 +12,7 @@
 #include "host/storage/recording/recording.hpp"
 #include "host/storage/recording/serialise.hpp"
 #include "host/storage/recording/tick_packet.hpp"
-#include "host/storage/recording/visit_serial.hpp"
+#include "host/storage/recording/visit.hpp"
 
 namespace liana::recording {
 

@@ -2,7 +2,6 @@
 
 #include "firmware_like/command/release.hpp"
 #include "host/storage/recording/codec.hpp"
-#include "host/storage/recording/visit_serial.hpp"
 
 namespace liana::recording {
 
@@ -33,17 +32,12 @@ std::size_t size_of() {
   return bytes.size();
 }
 
-template <class Setpoint>
-TelecommandFields<Setpoint> fields_of(const Telecommand<Setpoint>& t) {
-  return {t.sequence(), t.first_tick(), t.expiry_tick(), t.owner(), t.setpoint()};
-}
+}  // namespace
 
 template <class Setpoint>
-Telecommand<Setpoint> source_stamp(const TelecommandFields<Setpoint>& f) {
+Telecommand<Setpoint> telecommand_of(const TelecommandFields<Setpoint>& f) {
   return Release::make(f.sequence, f.first_tick, f.expiry_tick, f.owner, f.setpoint);
 }
-
-}  // namespace
 
 template <class Arm>
 Inputs<Arm> RecordingDecoder::recorded_inputs(std::string_view bytes, const RecordedCounts& counts) {
@@ -55,7 +49,7 @@ Inputs<Arm> RecordingDecoder::recorded_inputs(std::string_view bytes, const Reco
   reader("telecommand_present", present);
   if (present != 0) visit(reader, fields);
   check_length(reader.position(), bytes.size(), "inputs");
-  inputs.telecommand = source_stamp(fields);
+  inputs.telecommand = telecommand_of(fields);
   return inputs;
 }
 
@@ -82,7 +76,7 @@ Inputs<Arm> RecordingDecoder::inputs(std::string_view bytes) {
   visit(reader, inputs);
   visit(reader, fields);
   check_length(reader.position(), bytes.size(), "inputs");
-  inputs.telecommand = source_stamp(fields);
+  inputs.telecommand = telecommand_of(fields);
   return inputs;
 }
 
@@ -133,13 +127,20 @@ std::size_t serialised_outputs_size() {
 
 template <class Arm>
 std::string outputs_field_at(std::size_t offset, const RecordedCounts& counts) {
-  FieldNamer namer(offset, counts);
+  std::string found;
+  std::size_t at = 0;
+  const auto look = [&](const std::string& path, std::size_t bytes) {
+    if (at <= offset && offset < at + bytes) found = path;
+    at += bytes;
+  };
+  FieldWalker walker(look, counts);
   const Outputs<Arm> outputs;
-  visit(namer, outputs);
-  return namer.found();
+  visit(walker, outputs);
+  return found;
 }
 
 #define LIANA_SERIALISED(Arm)                                                                           \
+  template Telecommand<Arm::Setpoint> telecommand_of(const TelecommandFields<Arm::Setpoint>&);          \
   template Inputs<Arm> RecordingDecoder::recorded_inputs<Arm>(std::string_view, const RecordedCounts&); \
   template Inputs<Arm> RecordingDecoder::inputs<Arm>(std::string_view);                                 \
   template void append_recorded(std::string&, const Inputs<Arm>&, const RecordedCounts&);               \

@@ -21,7 +21,7 @@ class RecordingDecoder {
   static Inputs<Arm> recorded_inputs(std::string_view bytes, const RecordedCounts& counts);
 };
 
-// Appends the whole: every field, little-endian, in the order of visit.hpp and visit_serial.hpp.
+// Appends the whole: every field, little-endian, in the order of visit.hpp.
 template <class Arm>
 void append_serialised(std::string& out, const Inputs<Arm>& inputs);
 template <class Arm>

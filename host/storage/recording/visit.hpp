@@ -1,4 +1,6 @@
-// The field lists of everything that is recorded, in recorded order. One list serves writing, reading and naming.
+// What is recorded of the core, in recorded order; the same serves writing, reading and naming. What every tick records
+// has field lists: their names are the format's. State and tables are recorded by their members. Joints of a serial arm
+// count as thetas.
 #pragma once
 
 #include <algorithm>
@@ -6,6 +8,8 @@
 #include <type_traits>
 
 #include "firmware_like/cable_controller.hpp"
+#include "firmware_like/serial_controller.hpp"
+#include "host/storage/recording/members.hpp"
 
 namespace liana::recording {
 
@@ -21,6 +25,11 @@ struct RecordedCounts {
 inline RecordedCounts counts_of(const cable::RobotParams& table) {
   return {static_cast<std::uint8_t>(table.drive_count()), static_cast<std::uint8_t>(table.theta_count()),
           static_cast<std::uint8_t>(table.segment_count)};
+}
+
+inline RecordedCounts counts_of(const serial::RobotParams& table) {
+  const auto joints = static_cast<std::uint8_t>(table.joint_count);
+  return {joints, joints, 0};
 }
 
 // The counts that a visitor goes by; all places when it names none.
@@ -48,14 +57,22 @@ struct TelecommandFields {
   Setpoint setpoint{};
 };
 
+template <class Setpoint>
+TelecommandFields<Setpoint> fields_of(const Telecommand<Setpoint>& t) {
+  return {t.sequence(), t.first_tick(), t.expiry_tick(), t.owner(), t.setpoint()};
+}
+// What was released then (serialise.cpp).
+template <class Setpoint>
+Telecommand<Setpoint> telecommand_of(const TelecommandFields<Setpoint>& fields);
+
 template <class A, Like<Pose> T>
-void visit(A& a, T& p) {
+void visit_listed(A& a, T& p) {
   a("position_m", p.position_m);
   a("quaternion", p.quaternion);
 }
 
 template <class A, Like<cable::NodeTarget> T>
-void visit(A& a, T& n) {
+void visit_listed(A& a, T& n) {
   a("node", n.node);
   a("position_m", n.position_m);
   a("weight", n.weight);
@@ -63,14 +80,14 @@ void visit(A& a, T& n) {
 }
 
 template <class A, Like<cable::KeepClear> T>
-void visit(A& a, T& k) {
+void visit_listed(A& a, T& k) {
   a("centre_m", k.centre_m);
   a("distance_m", k.distance_m);
   a("weight", k.weight);
 }
 
 template <class A, Like<cable::Setpoint> T>
-void visit(A& a, T& s) {
+void visit_listed(A& a, T& s) {
   a("kind", s.kind);
   a("tip_in_base", s.tip_in_base);
   a("held_mask", s.held_mask);
@@ -82,8 +99,11 @@ void visit(A& a, T& s) {
   a("dither_share", s.dither_share);
 }
 
-template <class A, class Fields>
-void visit_telecommand_fields(A& a, Fields& t) {
+template <class A, class T>
+requires requires(const T& t) {
+  []<class Setpoint>(const TelecommandFields<Setpoint>&) {}(t);
+}
+void visit_listed(A& a, T& t) {
   a("sequence", t.sequence);
   a("first_tick", t.first_tick);
   a("expiry_tick", t.expiry_tick);
@@ -91,17 +111,8 @@ void visit_telecommand_fields(A& a, Fields& t) {
   a("setpoint", t.setpoint);
 }
 
-template <class A, class Setpoint>
-void visit(A& a, TelecommandFields<Setpoint>& t) {
-  visit_telecommand_fields(a, t);
-}
-template <class A, class Setpoint>
-void visit(A& a, const TelecommandFields<Setpoint>& t) {
-  visit_telecommand_fields(a, t);
-}
-
 template <class A, Like<DriveFeedback> T>
-void visit(A& a, T& d) {
+void visit_listed(A& a, T& d) {
   a("statusword", d.statusword);
   a("torque_permille", d.torque_permille);
   a("position_counts", d.position_counts);
@@ -115,7 +126,7 @@ void visit(A& a, T& d) {
 // All of Inputs but the telecommand, which follows as TelecommandFields; the arm's own sensors last.
 template <class A, class T>
 requires std::derived_from<T, CycleInputs>
-void visit(A& a, T& i) {
+void visit_listed(A& a, T& i) {
   a("tick", i.tick);
   a("lost_ticks", i.lost_ticks);
   a("lost_bus_mask", i.lost_bus_mask);
@@ -126,7 +137,7 @@ void visit(A& a, T& i) {
 }
 
 template <class A, Like<Fault> T>
-void visit(A& a, T& f) {
+void visit_listed(A& a, T& f) {
   a("number", f.number);
   a("index", f.index);
   a("detail", f.detail);
@@ -134,7 +145,7 @@ void visit(A& a, T& f) {
 }
 
 template <class A, Like<FaultList> T>
-void visit(A& a, T& l) {
+void visit_listed(A& a, T& l) {
   a("fault", l.fault);
   a("count", l.count);
   a("dropped", l.dropped);
@@ -143,7 +154,7 @@ void visit(A& a, T& l) {
 }
 
 template <class A, Like<DriveCommand> T>
-void visit(A& a, T& d) {
+void visit_listed(A& a, T& d) {
   a("controlword", d.controlword);
   a("target_counts", d.target_counts);
   a("torque_permille", d.torque_permille);
@@ -151,7 +162,7 @@ void visit(A& a, T& d) {
 }
 
 template <class A, Like<cable::FrictionStatus> T>
-void visit(A& a, T& f) {
+void visit_listed(A& a, T& f) {
   a("mu", f.mu);
   a("sd", f.sd);
   a("planned_mu", f.planned_mu);
@@ -159,7 +170,7 @@ void visit(A& a, T& f) {
 }
 
 template <class A, Like<cable::ContactStatus> T>
-void visit(A& a, T& c) {
+void visit_listed(A& a, T& c) {
   a("force_N", c.force_N);
   a("sd_N", c.sd_N);
   a("seen", c.seen);
@@ -170,7 +181,7 @@ void visit(A& a, T& c) {
 }
 
 template <class A, Like<cable::Outputs> T>
-void visit(A& a, T& o) {
+void visit_listed(A& a, T& o) {
   a("tick", o.tick);
   a("state", o.state);
   a("stop_category", o.stop_category);
@@ -204,78 +215,133 @@ void visit(A& a, T& o) {
   a("ik_residual", o.ik_residual);
 }
 
-template <class A, Like<cable::SegmentParams> T>
-void visit(A& a, T& s) {
-  a("modules", s.modules);
-  a("cables", s.cables);
-  a("module_length_m", s.module_length_m);
-  a("theta_limit_rad", s.theta_limit_rad);
-  a("module_mass_kg", s.module_mass_kg);
-  a("cable_phase_rad", s.cable_phase_rad);
+template <class A, Like<serial::Wrench> T>
+void visit_listed(A& a, T& w) {
+  a("force_N", w.force_N);
+  a("torque_Nm", w.torque_Nm);
 }
 
-template <class A, Like<cable::TensionLimits> T>
-void visit(A& a, T& t) {
-  a("plan_N", t.plan_N);
-  a("floor_motor_N", t.floor_motor_N);
-  a("floor_anywhere_N", t.floor_anywhere_N);
-  a("ceiling_free_N", t.ceiling_free_N);
-  a("alarm_N", t.alarm_N);
-  a("hard_limit_N", t.hard_limit_N);
+template <class A, Like<serial::WristReading> T>
+void visit_listed(A& a, T& w) {
+  a("on_arm", w.on_arm);
+  a("sequence", w.sequence);
+  a("status", w.status);
+  a("age_ticks", w.age_ticks);
 }
 
-template <class A, Like<cable::CableMonitorParams> T>
-void visit(A& a, T& w) {
-  a("jump_N", w.jump_N);
-  a("contradiction_m", w.contradiction_m);
+template <class A, Like<serial::AdapterReading> T>
+void visit_listed(A& a, T& r) {
+  a("sequence", r.sequence);
+  a("captured", r.captured);
+  a("latch", r.latch);
+  a("lock", r.lock);
+  a("depth_01mm", r.depth_01mm);
+  a("age_ticks", r.age_ticks);
 }
 
-template <class A, Like<cable::TorqueZeroTable> T>
-void visit(A& a, T& t) {
-  a("bias_N", t.bias_N);
-  a("drift_N_h", t.drift_N_h);
+template <class A, Like<serial::Sensors> T>
+void visit_listed(A& a, T& s) {
+  a("wrist", s.wrist);
+  a("adapter", s.adapter);
 }
 
-template <class A, Like<cable::MotionLimits> T>
-void visit(A& a, T& m) {
-  a("theta_rate_rad_s", m.theta_rate_rad_s);
-  a("theta_accel_rad_s2", m.theta_accel_rad_s2);
-  a("tip_speed_m_s", m.tip_speed_m_s);
-  a("tip_speed_slit_m_s", m.tip_speed_slit_m_s);
-  a("tip_accel_m_s2", m.tip_accel_m_s2);
-  a("tip_jerk_m_s3", m.tip_jerk_m_s3);
-  a("tip_rate_rad_s", m.tip_rate_rad_s);
-  a("tip_angular_accel_rad_s2", m.tip_angular_accel_rad_s2);
-  a("tip_angular_jerk_rad_s3", m.tip_angular_jerk_rad_s3);
-  a("cable_speed_m_s", m.cable_speed_m_s);
-  a("tip_lag_s", m.tip_lag_s);
+template <class A, Like<serial::Push> T>
+void visit_listed(A& a, T& p) {
+  a("number", p.number);
+  a("law", p.law);
+  a("tares", p.tares);
+  a("axis_in_tip", p.axis_in_tip);
+  a("force_N", p.force_N);
+  a("travel_m", p.travel_m);
+  a("aside_m", p.aside_m);
+  a("turn_rad", p.turn_rad);
+  a("depth_m", p.depth_m);
+  a("gains", p.gains);
 }
 
-template <class A, Like<cable::DriveParams> T>
-void visit(A& a, T& d) {
-  a("metres_per_count", d.metres_per_count);
-  a("direction", d.direction);
-  a("zero_counts", d.zero_counts);
-  a("newtons_per_permille", d.newtons_per_permille);
+template <class A, Like<serial::InsertStatus> T>
+void visit_listed(A& a, T& p) {
+  a("number", p.number);
+  a("phase", p.phase);
+  a("end", p.end);
+  a("law", p.law);
+  a("wrist", p.wrist);
+  a("touched", p.touched);
+  a("set_N", p.set_N);
+  a("travel_m", p.travel_m);
+  a("aside_m", p.aside_m);
+  a("felt", p.felt);
+  a("given", p.given);
+  a("wrist_age_ticks", p.wrist_age_ticks);
+  a("adapter_age_ticks", p.adapter_age_ticks);
+  a("adapter_sequence", p.adapter_sequence);
+  a("captured", p.captured);
+  a("latch", p.latch);
+  a("lock", p.lock);
+  a("depth_01mm", p.depth_01mm);
 }
 
-template <class A, Like<cable::RobotParams> T>
-void visit(A& a, T& r) {
-  a("segment_count", r.segment_count);
-  a("segment", r.segment);
-  a("hole_radius_m", r.hole_radius_m);
-  a("face_offset_m", r.face_offset_m);
-  a("cable_EA_N", r.cable_EA_N);
-  a("lead_m", r.lead_m);
-  a("friction_mu", r.friction_mu);
-  a("servo_time_constant_s", r.servo_time_constant_s);
-  a("tick_s", r.tick_s);
-  a("interval_ticks", r.interval_ticks);
-  a("tension", r.tension);
-  a("cable_watch", r.cable_monitor);
-  a("torque_zero", r.torque_zero);
-  a("limits", r.limits);
-  a("drive", r.drive);
+template <class A, Like<serial::Setpoint> T>
+void visit_listed(A& a, T& s) {
+  a("kind", s.kind);
+  a("tip_in_base", s.tip_in_base);
+  visit_first(a, "joint_rad", s.joint_rad, counts_of_visitor(a).thetas);
+  a("tip_speed_m_s", s.tip_speed_m_s);
+  a("push", s.push);
+  a("payload_at_tip", s.payload_at_tip);
+}
+
+template <class A, Like<serial::Outputs> T>
+void visit_listed(A& a, T& o) {
+  const std::size_t joints = counts_of_visitor(a).thetas;
+  a("tick", o.tick);
+  a("state", o.state);
+  a("stop_category", o.stop_category);
+  a("limits", o.limits);
+  a("at_rest", o.at_rest);
+  a("homed", o.homed);
+  a("active_sequence", o.active_sequence);
+  a("faults", o.faults);
+  visit_first(a, "drive", o.drive, counts_of_visitor(a).drives);
+  visit_first(a, "joint_command_rad", o.joint_command_rad, joints);
+  visit_first(a, "joint_rate_rad_s", o.joint_rate_rad_s, joints);
+  visit_first(a, "joint_measured_rad", o.joint_measured_rad, joints);
+  visit_first(a, "torque_measured_Nm", o.torque_measured_Nm, joints);
+  a("tip_goal", o.tip_goal);
+  a("tip_command", o.tip_command);
+  a("tip_speed_m_s", o.tip_speed_m_s);
+  a("tip_rate_rad_s", o.tip_rate_rad_s);
+  a("ik_position_error_m", o.ik_position_error_m);
+  a("ik_attitude_error_rad", o.ik_attitude_error_rad);
+  a("ik_outcome", o.ik_outcome);
+  a("ik_residual", o.ik_residual);
+  visit_first(a, "torque_told_Nm", o.torque_told_Nm, joints);
+  a("push", o.push);
+}
+
+// A telecommand in a snapshot is in the open, too; what is read back is what was released then.
+template <class A, class Setpoint>
+void visit_listed(A& a, const Telecommand<Setpoint>& t) {
+  const auto fields = fields_of(t);
+  visit_listed(a, fields);
+}
+template <class A, class Setpoint>
+void visit_listed(A& a, Telecommand<Setpoint>& t) {
+  TelecommandFields<Setpoint> fields;
+  visit_listed(a, fields);
+  t = telecommand_of(fields);
+}
+
+// Visits what has a list above by that, an arm and a Controller by their own, all else by its members.
+template <class A, class T>
+void visit(A& a, T& value) {
+  if constexpr (requires { visit_listed(a, value); }) {
+    visit_listed(a, value);
+  } else if constexpr (requires { value.visit_state(a); }) {
+    value.visit_state(a);
+  } else {
+    visit_members(a, value);
+  }
 }
 
 }  // namespace liana::recording

@@ -9,7 +9,7 @@
 #include "host/storage/recording/recording.hpp"
 #include "host/storage/recording/replay.hpp"
 #include "host/storage/recording/tick_packet.hpp"
-#include "host/storage/recording/visit_serial.hpp"
+#include "host/storage/recording/visit.hpp"
 #include "tests/firmware_like/serial_rig.hpp"
 
 namespace liana::recording {
