@@ -50,6 +50,7 @@ void Arbiter<Arm>::move_joints(const Now& now, const Joints<Arm>& goal_rad, doub
                                const motion::Swings& swings) {
   require_free(now);
   way_.template emplace<JointMove<Arm>>(table_, Kind::command_rad(now), goal_rad, rate_rad_s, swings);
+  motion_begins();
 }
 
 template <class Arm>
@@ -58,12 +59,14 @@ void Arbiter<Arm>::move_line(const Now& now, const Pose& goal, const motion::Swi
   const auto* target = std::get_if<TipTarget<Arm>>(&way_);
   const Pose from = target != nullptr ? target->goal() : now.tip_command;
   way_.template emplace<LineMove<Arm>>(table_, from, goal, tip_speed_m_s_, swings);
+  motion_begins();
 }
 
 template <class Arm>
 void Arbiter<Arm>::servo_tip(const Now& now, const Pose& goal) {
   require_free(now);
   way_.template emplace<TipTarget<Arm>>(goal, wishes_, true);
+  motion_begins();
 }
 
 template <class Arm>
@@ -71,11 +74,12 @@ void Arbiter<Arm>::move_path(const Now& now, const PathRequest<Arm>& request) {
   require_free(now);
   if (now.at_rest == 0) throw api::RequestError("busy", "a path starts from rest: wait for it or send hold");
   const PathRequest<Arm> admitted = admit_path<Arm>(table_, Kind::command_rad(now), request);
-  hold();
+  stop_asking();
   path_work_.start([table = table_, zone = zone_, check = path_check_, from = Kind::command_rad(now), admitted] {
     return look_at_path<Arm>(table, zone, check, from, admitted);
   });
   way_.template emplace<PathMove<Arm>>(path_work_, taken_, request.hash);
+  motion_begins();
 }
 
 template <class Arm>
@@ -89,6 +93,7 @@ void Arbiter<Arm>::servo_target(const Now& now, const visual_servo::ServoRequest
   limits.rate_rad_s = std::min(limits.rate_rad_s, bounds.angular.speed);
   servo_.begin(admitted, now.tip_command);
   way_.template emplace<ServoMove<Arm>>(servo_);
+  motion_begins();
 }
 
 template <class Arm>
@@ -103,9 +108,14 @@ void Arbiter<Arm>::tell(event::PathEvent what, const PathMove<Arm>& move, const 
   path_news_.push_back({what, path, move.duration_s(table_), "path " + path.hash + rest});
 }
 
-// A path that is cut short says how far it has come, and so does a way back.
 template <class Arm>
 void Arbiter<Arm>::hold(const std::string& why) {
+  stop_asking(why);
+}
+
+// A path that is cut short says how far it has come, and so does a way back.
+template <class Arm>
+void Arbiter<Arm>::stop_asking(const std::string& why) {
   if (std::holds_alternative<RetractMove<Arm>>(way_)) way_out_.end(why, command_rad_);
   servo_.end(why);
   const auto* move = std::get_if<PathMove<Arm>>(&way_);
@@ -139,10 +149,11 @@ void Arbiter<Arm>::require_way_back(const Now& now, std::uint64_t until_tick) co
 template <class Arm>
 void Arbiter<Arm>::retract(const Now& now, std::uint64_t until_tick) {
   require_way_back(now, until_tick);
-  hold("another retract was asked for");
+  stop_asking("another retract was asked for");
   wishes_ = {};
   way_out_.begin(until_tick);
   way_.template emplace<RetractMove<Arm>>(table_, way_out_.path(), until_tick);
+  motion_begins();
 }
 
 template <class Arm>
@@ -166,7 +177,7 @@ bool Arbiter<Arm>::refused(const std::string& why, bool may_pass_slower) {
   const auto* back = std::get_if<RetractMove<Arm>>(&way_);
   if ((back != nullptr || may_pass_slower) && std::visit([](auto& way) { return way.refused(); }, way_)) return true;
   const std::string detail = why.empty() ? "" : ": " + why;
-  hold((back != nullptr ? back->why_ended() : "refused") + detail);
+  stop_asking((back != nullptr ? back->why_ended() : "refused") + detail);
   return false;
 }
 
@@ -181,7 +192,7 @@ bool Arbiter<Arm>::begin_interval(std::uint64_t tick, const Now& now) {
   // The newest tick's drives were read at its beginning.
   servo_.note_tip((static_cast<double>(tick) - 1.0) * table_.tick_s, Kind::tip_at(table_, Kind::measured_rad(now)));
   if (now.state != OperatingState::kEnabled) {
-    hold("the arm is not enabled any more");
+    stop_asking("the arm is not enabled any more");
     way_out_.wait();
     wishes_ = {};
     return false;
@@ -216,10 +227,10 @@ void Arbiter<Arm>::end_motion() {
     way_.template emplace<TipTarget<Arm>>(end, wishes_);
     return;
   }
-  if (const auto* back = std::get_if<RetractMove<Arm>>(&way_)) return hold(back->why_ended());
+  if (const auto* back = std::get_if<RetractMove<Arm>>(&way_)) return stop_asking(back->why_ended());
   const auto* path = std::get_if<PathMove<Arm>>(&way_);
   if (path != nullptr && path->outlook()->refusal.empty()) tell(event::PathEvent::kArrives, *path, " has arrived");
-  hold();
+  stop_asking();
 }
 
 template <class Arm>

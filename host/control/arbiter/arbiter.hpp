@@ -1,6 +1,7 @@
 // One wish per command interval: the arbiter chooses between the ways of moving, and makes the setpoint to verify next
-// of what the one under way asks for. What every arm has is here, compiled once for each kind; what a cable arm has
-// besides: cable_arbiter.hpp. Include with it the kind of the arm (cable_kind.hpp, serial_kind.hpp).
+// of what the one under way asks for. What every arm has is here, compiled once for each kind; cable_arbiter.hpp and
+// serial_arbiter.hpp add what their arm can be asked for besides. Include with it the kind of the arm
+// (cable_traits.hpp, serial_traits.hpp).
 #pragma once
 
 #include <cstdint>
@@ -36,6 +37,7 @@ class Arbiter {
                    PathCheck<Arm> check = {});
   Arbiter(const Arbiter&) = delete;  // ways of moving refer to its path and wishes
   Arbiter& operator=(const Arbiter&) = delete;
+  virtual ~Arbiter() = default;
 
   // Requests of the owner; they throw RequestError (not_enabled, fault, busy, refused, out_of_range).
   void move_joints(const Now& now, const Joints<Arm>& goal_rad, double rate_rad_s, const motion::Swings& swings = {});
@@ -55,18 +57,24 @@ class Arbiter {
   const visual_servo::ServoStatus& servo_report() const { return servo_.report(); }
   // Back along the verified path, not beyond `until_tick`: stops, then goes back, whatever is under way. Also while
   // faults are latched that hold the arm.
-  void retract(const Now& now, std::uint64_t until_tick);
+  virtual void retract(const Now& now, std::uint64_t until_tick);
   // Stop along the path: nothing is asked for any more. `why` is told of a retract that it ends.
-  void hold(const std::string& why = "held");
+  virtual void hold(const std::string& why = "held");
 
   // Ends the interval: what to verify for the next one; nothing = the arm holds. `tick` counts the ticks done.
-  std::optional<Setpoint> next_setpoint(std::uint64_t tick, const Now& now);
+  virtual std::optional<Setpoint> next_setpoint(std::uint64_t tick, const Now& now);
   // The setpoint was refused: planned moves end. The way back stops and starts again, some times, and where
   // `may_pass_slower` moves to a goal do (another_try.hpp). Whether what was asked for goes on.
-  bool refused(const std::string& why = "", bool may_pass_slower = false);
+  virtual bool refused(const std::string& why = "", bool may_pass_slower = false);
+  // Whether the last setpoint was a hand's; and whether one was refused for the same limit a moment ago.
+  virtual bool leads_hand() const { return false; }
+  virtual bool stands_refused() const { return false; }
+  // What a hand asks for, with less of its speed than in the setpoint that was refused for `limit` (its name in the
+  // table of refusals), for the same interval; nothing where no hand leads.
+  virtual std::optional<Setpoint> slower(const Now&, const char*) { return std::nullopt; }
 
   // A planned move is under way.
-  bool is_busy() const;
+  virtual bool is_busy() const;
   // What is asked for besides the tip, or the tip goal itself, has not come to be yet.
   bool is_asking() const { return std::holds_alternative<TipTarget<Arm>>(way_); }
   bool is_going_back() const { return std::holds_alternative<RetractMove<Arm>>(way_); }
@@ -81,7 +89,13 @@ class Arbiter {
   // What has become of paths since the last call.
   std::vector<PathEvents> take_path_news() { return std::exchange(path_news_, {}); }
 
-  // For what stands on top of it: the two halves of next_setpoint (false: the arm is not enabled, and all is
+ protected:
+  // One of the motions above begins: what else was asked for ends.
+  virtual void motion_begins() {}
+  // Throws RequestError not_enabled or fault; the second also busy.
+  void require_ready(const Now& now) const;
+  virtual void require_free(const Now& now) const;
+  // The two halves of next_setpoint (false: the arm is not enabled, and all is
   // forgotten), and a tip goal for one interval that no request has set.
   bool begin_interval(std::uint64_t tick, const Now& now);
   std::optional<Setpoint> ask(const Now& now);
@@ -93,9 +107,8 @@ class Arbiter {
   const typename Kind::Wishes& wishes() const { return wishes_; }
   void ask_anew();
   void limit_tip_speed(double speed_m_s) { tip_speed_m_s_ = speed_m_s; }
-  // Throws RequestError not_enabled or fault; the second also busy.
-  void require_ready(const Now& now) const;
-  void require_free(const Now& now) const;
+  const Table& table() const { return table_; }
+  const SpeedZone& zone() const { return zone_; }
 
  private:
   // Nothing is asked for.
@@ -108,6 +121,7 @@ class Arbiter {
 
   void tell(event::PathEvent what, const PathMove<Arm>& move, const std::string& rest);
   void tell_of_outlook(const PathMove<Arm>& move);
+  void stop_asking(const std::string& why = "held");
   void end_motion();
   void require_enabled(const Now& now) const;
   void require_way_back(const Now& now, std::uint64_t until_tick) const;

@@ -37,85 +37,57 @@ Pose pulled_in(const cable::RobotParams& table, const Pose& tip, const Pose& goa
 
 CableArbiter::CableArbiter(const cable::RobotParams& table, const SpeedZone& zone, SearchResult taken,
                            PathCheck<cable::CableArm> check, const virtual_fixtures::Guidance& guidance)
-    : table_(table),
+    : Arbiter(table, zone, taken, std::move(check)),
       asked_speed_m_s_(table.limits.tip_speed_m_s),
       robot_speed_m_s_(table.limits.tip_speed_m_s),
       cap_m_s_(table.limits.tip_speed_m_s),
-      zone_(zone),
       interval_s_(interval_s(table)),
-      moves_(table, zone, taken, std::move(check)),
       lead_(table, taken),
       guidance_(guidance) {}
 
 void CableArbiter::require_free(const cable::Outputs& now) const {
-  moves_.require_ready(now);
+  require_ready(now);
   if (is_searching())
     throw api::RequestError("busy",
                             "the shape that a search has found is gone to: wait until it has settled or send hold");
-  moves_.require_free(now);
   if (dither_.is_under_way())
     throw api::RequestError("busy", "tensions are dithered: wait until it is over or send hold");
+  Base::require_free(now);
   if (device_.engaged()) throw api::RequestError("busy", "the operator steers: wait for the deadman to open");
 }
 
-void CableArbiter::move_joints(const cable::Outputs& now, const cable::ThetaVector& goal_rad, double rate_rad_s,
-                               const motion::Swings& swings) {
-  require_free(now);
-  moves_.move_joints(now, goal_rad, rate_rad_s, swings);
-}
-
-void CableArbiter::move_line(const cable::Outputs& now, const Pose& goal, const motion::Swings& swings) {
-  require_free(now);
-  moves_.move_line(now, goal, swings);
-}
-
-void CableArbiter::move_path(const cable::Outputs& now, const PathRequest<cable::CableArm>& request) {
-  require_free(now);
-  moves_.move_path(now, request);
-}
-
-void CableArbiter::servo_tip(const cable::Outputs& now, const Pose& goal) {
-  require_free(now);
-  moves_.servo_tip(now, goal);
-}
-
-void CableArbiter::servo_target(const cable::Outputs& now, const visual_servo::ServoRequest& request) {
-  require_free(now);
-  moves_.servo_target(now, request);
-}
-
 // The tip stays where it is, unless somebody moves it.
-void CableArbiter::ask_anew(const cable::Outputs& now) {
-  moves_.ask_anew();
+void CableArbiter::ask_objectives_anew(const cable::Outputs& now) {
+  ask_anew();
   lead_.ask_anew();
-  if (!device_.engaged()) moves_.stay_if_idle(now);
+  if (!device_.engaged()) stay_if_idle(now);
 }
 
 void CableArbiter::hold_theta(const cable::Outputs& now, std::uint32_t mask, const cable::ThetaVector& held_rad) {
-  moves_.require_ready(now);
-  moves_.wishes().held_mask = mask;
-  moves_.wishes().held_rad = held_rad;
-  ask_anew(now);
+  require_ready(now);
+  wishes().held_mask = mask;
+  wishes().held_rad = held_rad;
+  ask_objectives_anew(now);
 }
 
 void CableArbiter::shape(const cable::Outputs& now, const cable::NodeTargets& nodes,
                          const cable::KeepClearTargets& clear, bool search) {
-  moves_.require_ready(now);
+  require_ready(now);
   if (search && is_busy())
     throw api::RequestError("busy",
                             "search needs an arm at rest, a planned move is under way: wait for it or send hold");
   if (search && now.at_rest == 0)
     throw api::RequestError("busy", "search looks for a shape of the arm at rest: wait for it or send hold");
   lead_.forget();
-  const CableObjectives& held = moves_.wishes();
+  const CableObjectives& held = wishes();
   if (search) lead_.look_for({now.tip_command, now.theta_command_rad, held.held_mask, held.held_rad, nodes, clear});
   nodes_ = nodes;
-  moves_.wishes().clear = clear;
-  ask_anew(now);
+  wishes().clear = clear;
+  ask_objectives_anew(now);
 }
 
 bool CableArbiter::is_vr_in_slit(const cable::Outputs& now, const DeviceUse& use) const {
-  return use.kind == device::Kind::kVrControllers && !use.anywhere && zone_.holds(now.tip_command.position_m);
+  return use.kind == device::Kind::kVrControllers && !use.anywhere && zone().holds(now.tip_command.position_m);
 }
 
 // A hand that leads the tip would find it going another way under it.
@@ -142,11 +114,11 @@ void CableArbiter::use_device(const cable::Outputs& now, const DeviceUse& use) {
 void CableArbiter::dither(const cable::Outputs& now, double share, double duration_s) {
   require_free(now);
   if (now.at_rest == 0) throw api::RequestError("busy", "dither needs an arm at rest: wait for it or send hold");
-  const cable::TensionLimits& limits = table_.tension;
+  const cable::TensionLimits& limits = table().tension;
   // What is measured, and may be less where something pushes, has to stay taut; what is planned keeps its limits.
   const double taut_N = cable::kSlackCheckShare * limits.floor_motor_N;
   double fits = share;
-  for (std::size_t c = 0; c < static_cast<std::size_t>(table_.cable_count()); ++c) {
+  for (std::size_t c = 0; c < static_cast<std::size_t>(table().cable_count()); ++c) {
     const double planned_N = now.tension_plan_N[c];
     fits = std::min({fits, 1.0 - limits.floor_motor_N / planned_N, limits.ceiling_free_N / planned_N - 1.0,
                      (now.tension_measured_N[c] - taut_N) / planned_N});
@@ -169,7 +141,7 @@ void CableArbiter::cap_tip_speed(double speed_m_s) {
 
 void CableArbiter::ask_speed() {
   const double max_m_s = kHandSpeed * robot_speed_m_s_;
-  moves_.limit_tip_speed(std::max(kLeastShare, ease_.share) * std::min({asked_speed_m_s_, cap_m_s_, max_m_s}));
+  limit_tip_speed(std::max(kLeastShare, ease_.share) * std::min({asked_speed_m_s_, cap_m_s_, max_m_s}));
 }
 
 void CableArbiter::end_shape_transition() {
@@ -188,22 +160,22 @@ void CableArbiter::take_device_away() {
 // The way out takes over from whatever is under way. An operator who could grip again would steer back in as soon as it
 // ends.
 void CableArbiter::retract(const cable::Outputs& now, std::uint64_t until_tick) {
-  moves_.retract(now, until_tick);
+  Base::retract(now, until_tick);
   dither_ = {};
   nodes_ = {};
   lead_.forget();
   take_device_away();
 }
 
-void CableArbiter::hold() {
-  moves_.hold();
+void CableArbiter::hold(const std::string& why) {
+  Base::hold(why);
   dither_ = {};
   lead_.forget();
   device_.let_go();
 }
 
 bool CableArbiter::refused(const std::string& why, bool may_pass_slower) {
-  const bool goes_on = moves_.refused(why, may_pass_slower && !was_engaged_);
+  const bool goes_on = Base::refused(why, may_pass_slower && !was_engaged_);
   dither_ = {};
   if (was_engaged_) refusal_wait_.refuse(led_from_, led_to_);
   return goes_on || was_engaged_;
@@ -225,7 +197,7 @@ std::optional<cable::Setpoint> CableArbiter::next_setpoint(std::uint64_t tick, c
     steer.reset();
   }
   if (!steer || is_busy()) end_shape_transition();
-  if (!moves_.begin_interval(tick, now)) {
+  if (!begin_interval(tick, now)) {
     hold();
     nodes_ = {};
     return std::nullopt;
@@ -234,18 +206,18 @@ std::optional<cable::Setpoint> CableArbiter::next_setpoint(std::uint64_t tick, c
     device_.drop_anchor();  // a hand that closes the deadman now starts from where the move ends
     if (dither_.is_under_way()) return dithering_setpoint();
     set_node_objectives();
-    return moves_.ask(now);
+    return ask(now);
   }
   const ShapeTransition::Found found = lead_.look();
-  if (found == ShapeTransition::Found::kNow) moves_.ask_anew();
+  if (found == ShapeTransition::Found::kNow) ask_anew();
   if (steer) return steered_setpoint(now, *steer);
-  if (was_engaged_) moves_.hold();  // the operator let go: stop along the path
+  if (was_engaged_) Base::hold();  // the operator let go: stop along the path
   was_engaged_ = false;
   ask_speed();
   if (found == ShapeTransition::Found::kNotYet) return std::nullopt;
-  if (lead_.ends(now)) moves_.ask_anew();
+  if (lead_.ends(now)) ask_anew();
   set_node_objectives();
-  return moves_.ask(now);
+  return ask(now);
 }
 
 cable::Setpoint CableArbiter::dithering_setpoint() {
@@ -262,7 +234,7 @@ std::optional<cable::Setpoint> CableArbiter::steered_setpoint(const cable::Outpu
   lead_.ask_anew();
   device_node_ = goal.node;
   set_node_objectives();
-  const std::uint32_t held = moves_.wishes().held_mask;
+  const std::uint32_t held = wishes().held_mask;
   const Pose led = guidance_.guide(goal.tip_in_base, {now.tip_command, now.theta_command_rad, held}, interval_s_);
   if (refusal_wait_.holds(now.tip_command, led, interval_s_)) {
     ease_ = {0.0, virtual_fixtures::SlowdownCause::kRefused, 0, refusal_wait_.limit()};
@@ -271,7 +243,7 @@ std::optional<cable::Setpoint> CableArbiter::steered_setpoint(const cable::Outpu
   led_from_ = now.tip_command;
   led_to_ = led;
   const double most = ease_.share + kEaseRise_1_s * interval_s_;
-  virtual_fixtures::Ease eased = virtual_fixtures::ease(table_, now.theta_command_rad, held, led);
+  virtual_fixtures::Ease eased = virtual_fixtures::ease(table(), now.theta_command_rad, held, led);
   if (eased.share > most) eased = {most, ease_.cause, ease_.theta, ease_.limit};
   ease_ = eased;
   if (refusal_wait_.speed_share() < ease_.share)
@@ -282,12 +254,12 @@ std::optional<cable::Setpoint> CableArbiter::steered_setpoint(const cable::Outpu
 
 cable::Setpoint CableArbiter::led_setpoint(const cable::Outputs& now) {
   ask_speed();
-  return moves_.steer(now, ease_.share < 1.0 ? pulled_in(table_, now.tip_command, led_to_, ease_.share) : led_to_);
+  return steer(now, ease_.share < 1.0 ? pulled_in(table(), now.tip_command, led_to_, ease_.share) : led_to_);
 }
 
 // The operator's node takes the place of its own target, or one that is free.
 void CableArbiter::set_node_objectives() {
-  cable::NodeTargets& wished = moves_.wishes().nodes;
+  cable::NodeTargets& wished = wishes().nodes;
   wished = is_searching() ? lead_.nodes() : nodes_;
   if (device_node_.node == 0) return;
   for (cable::NodeTarget& slot : wished) {

@@ -25,37 +25,6 @@ void SerialArbiter::follow(const Now& now) {
   asked_->kind = CommandKind::kFollow;
 }
 
-void SerialArbiter::move_joints(const Now& now, const serial::JointVector& goal_rad, double rate_rad_s,
-                                const motion::Swings& swings) {
-  Base::move_joints(now, goal_rad, rate_rad_s, swings);
-  asked_.reset();
-}
-
-void SerialArbiter::move_line(const Now& now, const Pose& goal, const motion::Swings& swings) {
-  Base::move_line(now, goal, swings);
-  asked_.reset();
-}
-
-void SerialArbiter::servo_tip(const Now& now, const Pose& goal) {
-  Base::servo_tip(now, goal);
-  asked_.reset();
-}
-
-void SerialArbiter::servo_target(const Now& now, const visual_servo::ServoRequest& request) {
-  Base::servo_target(now, request);
-  asked_.reset();
-}
-
-void SerialArbiter::move_path(const Now& now, const PathRequest<serial::SerialArm>& request) {
-  Base::move_path(now, request);
-  asked_.reset();
-}
-
-void SerialArbiter::retract(const Now& now, std::uint64_t until_tick) {
-  Base::retract(now, until_tick);
-  asked_.reset();
-}
-
 void SerialArbiter::hold(const std::string& why) {
   asked_.reset();
   Base::hold(why);
