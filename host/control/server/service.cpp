@@ -18,11 +18,7 @@ namespace liana::server {
 namespace {
 
 constexpr double kLockstepPatience_s = 10.0;  // a client that stays silent longer is dead
-constexpr double kAfterMission_s = 1.0;       // of arm time at rest
-constexpr double kAfterFault_s = 5.0;         // the same where something failed: elastic cables let the arm swing
-constexpr double kMaxAfterMission_s = 60.0;   // of arm time, at rest or not
 constexpr double kHoming_s = 0.5;             // of arm time after booting: homing takes 0.1 s
-constexpr double kShutdownLimit_s = 10.0;     // of arm time, until the drives are off
 
 }  // namespace
 
@@ -37,6 +33,7 @@ Service::Service(const ServiceConfig& config, ArmServer& desk)
             if (file_) file_->append(event);
           },
           config_.buses.tick_s()),
+      lifecycle_(config_.buses.tick_s(), static_cast<std::uint64_t>(config_.buses.interval_ticks())),
       server_(config.api_path, *this, config.api_group) {
   api::require_fit_in_welcome(config.robot_json, config.scene_json, config.buses.canonical_json);
   notes_.drive_names = config.drive_names;
@@ -144,18 +141,6 @@ void Service::watch_stream() {
   note(stands_still_event(owner_.name(), *ttl_s));
 }
 
-// The run goes on until the arm has been at rest for a while: what a failure leads to belongs to it.
-bool Service::is_over_after_mission() {
-  const bool off = now().state == OperatingState::kDisabled || now().state == OperatingState::kFault;
-  if (!off && now().at_rest == 0) moved_tick_ = tick();
-  const auto since_s = [this](std::uint64_t then) {
-    return static_cast<double>(tick() - then) * config_.buses.tick_s();
-  };
-  const double rested_s = since_s(std::max(*mission_end_tick_, moved_tick_));
-  const double enough_s = now().faults.count == 0 ? kAfterMission_s : kAfterFault_s;
-  return rested_s > enough_s || since_s(*mission_end_tick_) > kMaxAfterMission_s;
-}
-
 // What changes by itself: the end of booting, the end of the run after the mission.
 void Service::watch_arm() {
   note_clear();
@@ -163,11 +148,7 @@ void Service::watch_arm() {
   note(trouble_.changes(config_.buses, desk_.report()));
   note(faults_.changes(now().faults, config_.buses, config_.drive_names));
   note(desk_.take_events());
-  if (mission_end_tick_) {
-    if (is_over_after_mission()) begin_shutdown("the mission has ended");
-  } else if (shutdown_requested_) {
-    begin_shutdown("asked for");
-  }
+  if (const char* why = lifecycle_.why_to_stop(tick(), now())) begin_shutdown(why);
   const realtime::BootPhase boot = desk_.report().boot;
   if (boot == boot_seen_) return;
   if (boot == realtime::BootPhase::kBooting) note(boot_goes_on_event());
@@ -308,8 +289,7 @@ void Service::drop_motion(event::Event why) {
 }
 
 void Service::begin_shutdown(const std::string& reason) {
-  if (shutdown_tick_) return;
-  shutdown_tick_ = tick();
+  if (!lifecycle_.stop(tick())) return;
   notes_.stopping = true;
   press_stop();
   note({.kind = event::EventKind::kShutdown, .text = "shutdown: " + reason});
@@ -324,14 +304,6 @@ void Service::order_stop(const StopOrder& order) {
 void Service::stop_by_itself(const std::string& reason) {
   order_stop({"lianad", printable(reason), tick()});
   publish_state();
-}
-
-bool Service::finished() const {
-  if (!shutdown_tick_) return false;
-  const double waited_s = static_cast<double>(tick() - *shutdown_tick_) * config_.buses.tick_s();
-  const bool off = now().state == OperatingState::kDisabled || now().state == OperatingState::kFault;
-  const bool told = tick() > *shutdown_tick_ + static_cast<std::uint64_t>(config_.buses.interval_ticks());
-  return (off && told) || waited_s > kShutdownLimit_s;
 }
 
 }  // namespace liana::server

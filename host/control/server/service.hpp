@@ -21,6 +21,7 @@
 #include "host/control/server/host_warning.hpp"
 #include "host/control/server/owner.hpp"
 #include "host/control/server/retract_path_file.hpp"
+#include "host/control/server/run_lifecycle.hpp"
 #include "host/control/server/service_events.hpp"
 #include "host/control/server/setpoint_stream.hpp"
 #include "host/control/server/state_message.hpp"
@@ -64,7 +65,7 @@ class Service : private api::ApiHandler {
   void idle(double timeout_s);
   // Stops the arm (stop category stop); finished() becomes true when drives are off, or after 10 s of arm time.
   void begin_shutdown(const std::string& reason);
-  bool finished() const;
+  bool finished() const { return lifecycle_.is_over(tick(), now()); }
   // An emergency stop by lianad, told to all clients at once; for failures after which no cycle may follow.
   void stop_by_itself(const std::string& reason);
   // There will be no further cycle().
@@ -72,7 +73,7 @@ class Service : private api::ApiHandler {
   // Gives slow readers a moment to take what was said last; for the end.
   void flush_and_close() { server_.deliver(1.0); }
   // Somebody has asked for the end; otherwise clients may still want to read the last state.
-  bool dismissed() const { return shutdown_requested_; }
+  bool dismissed() const { return lifecycle_.was_asked_to_end(); }
 
  private:
   using Handler = Json (Service::*)(const api::ClientInfo&, const api::Arguments&);
@@ -113,7 +114,6 @@ class Service : private api::ApiHandler {
   std::string why_taken(const TakeOver& how) const;
   void watch_events_file();
   void watch_arm();
-  bool is_over_after_mission();
   void watch_homing();
   void watch_stream();
   void note_clear();
@@ -157,12 +157,10 @@ class Service : private api::ApiHandler {
   TickWatch tick_watch_;
   std::optional<std::int64_t> clock_ahead_us_;  // of arm time, real time only
   realtime::Overruns overruns_before_;          // at the last reset of the timing
-  std::optional<std::uint64_t> mission_end_tick_, shutdown_tick_;
-  std::uint64_t moved_tick_ = 0;            // the last after the mission's end in which the arm was led on
+  RunLifecycle lifecycle_;
   std::optional<std::uint64_t> stop_tick_;  // of the last stop, whoever asked for it
-  bool shutdown_requested_ = false;
-  int mission_asked_ = 0;  // how often somebody has told the mission something
-  api::ApiServer server_;  // last: its destructor may call gone()
+  int mission_asked_ = 0;                   // how often somebody has told the mission something
+  api::ApiServer server_;                   // last: its destructor may call gone()
 };
 
 }  // namespace liana::server

@@ -80,7 +80,7 @@ void Service::gone(const api::ClientInfo& client, const std::string& why) {
     if (auto lost = notes_.tool.lose()) note(std::move(*lost));
   }
   if (owner_.gone(client.id)) drop_motion(owner_event(event::OwnerEvent::kGone, client.name));
-  if (config_.ends_with_mission && client.role == api::Role::kMission) mission_end_tick_ = tick();
+  if (config_.ends_with_mission && client.role == api::Role::kMission) lifecycle_.mission_ends(tick());
 }
 
 // An owner that stands still must not keep the arm where it is; one that works is left alone.
@@ -125,7 +125,7 @@ Json Service::on_state_command(const api::ClientInfo&, const api::Arguments& fie
       throw api::RequestError("refused",
                               "a stop was asked for in the same command interval: ask again if the arm should go on");
     if (now().faults.count > 0) throw api::RequestError("fault", "a fault is latched: clear it first");
-    if (shutdown_tick_) throw api::RequestError("refused", "lianad is stopping: start it again afterwards");
+    if (lifecycle_.is_stopping()) throw api::RequestError("refused", "lianad is stopping: start it again afterwards");
     require_homed();
     this->request(Request::kEnable);
   } else if (command == "disable") {
@@ -162,10 +162,9 @@ Json Service::on_stop(const api::ClientInfo& client, const api::Arguments& field
   return Json::object();
 }
 
-// Acted on at the next interval: where the end of the mission stops the arm, and the mission has just ended, its
-// (repeatable) time counts.
+// Acted on at the next interval.
 Json Service::on_shutdown(const api::ClientInfo& client, const api::Arguments&) {
-  shutdown_requested_ = true;
+  lifecycle_.ask_to_end();
   note({.kind = event::EventKind::kShutdown,
         .subject = client.name,
         .text = "shutdown asked for by '" + client.name + "'"});
