@@ -317,6 +317,7 @@ void CableArm::report(Report& out) const noexcept {
     out.node_command_m[m] = motion_.arm.node_in_base[m + 1].position_m;
   out.speed_share = motion_.governor.speed_share;
   out.turn_share = motion_.governor.turn_share;
+  out.lost_share = cable::lost_share(motion_);
   out.load_Nm = tension_.load_Nm;
   out.tension_plan_N = pull_N_;
   out.tension_measured_N = tension_measured_N_;

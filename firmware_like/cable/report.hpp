@@ -41,7 +41,8 @@ struct Report {
   double tip_rate_rad_s = 0.0;
   std::array<Vec3, kMaxSegments> node_command_m{};
   double speed_share = 1.0, turn_share = 1.0;  // of the tip's limits that the governor leaves here
-  ThetaVector load_Nm{};             // that the planned tensions give about each theta: what the arm's mass takes
+  double lost_share = 1.0;  // of the way to the tip's target: less where the arm has all but lost a direction of it
+  ThetaVector load_Nm{};    // that the planned tensions give about each theta: what the arm's mass takes
   CableVector tension_plan_N{};      // at the motor
   CableVector tension_measured_N{};  // from drive torque
   CableVector payout_command_m{};    // unstretched length

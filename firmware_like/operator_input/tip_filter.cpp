@@ -57,6 +57,29 @@ Vec3 taken_back(double free, double most, const Vec3& lead, ChannelState& channe
   return taken;
 }
 
+// A velocity of which every direction keeps its share, or comes nearer to it by as much as may be braked in a tick: how
+// slow a direction is changes with the pose.
+Vec3 with_shares(const FilterBounds& bounds, const SlowDirections& slow, double tick_s, const Vec3& velocity) noexcept {
+  Vec3 out = velocity;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double along = dot(slow.axis[i], velocity), speed = std::fabs(along);
+    const double allowed = larger(slow.share[i] * bounds.speed, speed - bounds.accel * tick_s);
+    if (speed > allowed) out = subtract(out, scale(slow.axis[i], along < 0.0 ? allowed - speed : speed - allowed));
+  }
+  return out;
+}
+
+// One tick of a channel that moves as if no direction were slow, and of whose motion each direction has its share.
+ChannelLimits follow_slowed(const FilterBounds& bounds, const SlowDirections& slow, double tick_s, const Vec3& error,
+                            ChannelState& state) noexcept {
+  if (is_even(slow)) return follow_channel(bounds, tick_s, error, state);
+  const Vec3 velocity = with_shares(bounds, slow, tick_s, state.velocity);
+  ChannelState even{unslowed(slow, velocity), saturate(unslowed(slow, state.acceleration), bounds.accel).value};
+  const ChannelLimits limits = follow_channel(bounds, tick_s, error, even);
+  state = {slowed(slow, even.velocity), slowed(slow, even.acceleration)};
+  return limits;
+}
+
 // Integrates both channels into the pose.
 void move_pose(double tick_s, TipFilterState& state) noexcept {
   state.pose.position_m = add(state.pose.position_m, scale(state.linear.velocity, tick_s));
@@ -113,8 +136,10 @@ void filter_tip(const TipFilterConfig& config, const Pose& target, TipFilterStat
   const Vec3 behind_rad = rotation_vector(multiply(aim.pose.quaternion, conjugate(state.pose.quaternion)));
   const Vec3 position_error = add(behind_m, ahead(config.linear, aim.velocity_m_s));
   const Vec3 attitude_error = add(behind_rad, ahead(config.angular, aim.rate_rad_s));
-  const ChannelLimits linear = follow_channel(config.linear, config.tick_s, position_error, state.linear);
-  const ChannelLimits angular = follow_channel(config.angular, config.tick_s, attitude_error, state.angular);
+  const ChannelLimits linear =
+      follow_slowed(config.linear, config.slow_ways, config.tick_s, position_error, state.linear);
+  const ChannelLimits angular =
+      follow_slowed(config.angular, config.slow_turns, config.tick_s, attitude_error, state.angular);
   state.speed_limited = linear.speed || angular.speed;
   state.accel_limited = linear.accel || angular.accel;
   move_pose(config.tick_s, state);

@@ -15,6 +15,7 @@
 #include <cstdint>
 
 #include "firmware_like/math/pose.hpp"
+#include "firmware_like/math/slow_directions.hpp"
 #include "firmware_like/operator_input/tremor_notch.hpp"
 
 namespace liana {
@@ -47,6 +48,7 @@ struct TipFilterConfig {
   FilterBounds linear{};
   FilterBounds angular{};
   double tick_s = 0.0;
+  SlowDirections slow_ways{}, slow_turns{};  // of the base frame, in which the tip takes less of every bound
 };
 
 // What acted in one step of a channel.

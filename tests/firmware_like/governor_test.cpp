@@ -9,14 +9,14 @@
 namespace liana::cable {
 namespace {
 
-// What it finds at a pose after it has looked once.
+// What it finds at a pose after it has looked for a while.
 GovernorState look(const RobotParams& robot, const ThetaVector& theta_rad) {
   const CableLayout layout = cable_layout(robot);
   const ArmTrig trig = arm_trig(robot, theta_rad);
   const CableGeometry geometry = cable_geometry(robot, layout, trig);
   GovernorState state;
   state.room_N.fill(30.0);
-  for (std::uint32_t tick = 0; tick < 20; ++tick)
+  for (std::uint32_t tick = 0; tick < 60; ++tick)
     look_at_load(robot, geometry, TensionRatio{}, forward_kinematics(robot, theta_rad), 0, tick % 10, state);
   return state;
 }
@@ -58,8 +58,9 @@ TEST(Governor, TheSpeedThatItLeavesTakesItsShareOfEveryRateAtMost) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       IkGoal goal;
       goal.tip_in_base = forward_kinematics(robot, theta_rad).tip_in_base;
-      const double way_m = state.speed_share * robot.limits.tip_speed_m_s * 1e-3;
-      goal.tip_in_base.position_m[axis] += way_m;
+      Vec3 way_m{};
+      way_m[axis] = state.speed_share * robot.limits.tip_speed_m_s * 1e-3;
+      goal.tip_in_base.position_m = add(goal.tip_in_base.position_m, slowed(state.slow_ways, way_m));
       ThetaVector moved_rad = theta_rad;
       ik_step(robot, goal, 1e-3, moved_rad);
       for (std::size_t k = 0; k < zhu2022::kThetas; ++k)
@@ -69,18 +70,36 @@ TEST(Governor, TheSpeedThatItLeavesTakesItsShareOfEveryRateAtMost) {
   }
 }
 
-// Towards the straight arm, which cannot turn about its axis nor come nearer.
-TEST(Governor, NearAPoseThatLosesADirectionSpeedFallsFarFasterThanThePoseComesNear) {
+// Towards the straight arm and at it, which cannot turn about its axis (x) nor come nearer.
+TEST(Governor, NearTheStraightArmOnlyTheDirectionsThatItLosesAreSlowAndFarMoreThanThePoseComesNear) {
   ThetaVector theta_rad = zhu2022::radians(zhu2022::kPanelEdge_deg);
-  double before = 1.0;  // each time half as far
-  for (const double scale : {0.1, 0.05, 0.025}) {
+  EXPECT_TRUE(is_even(look(zhu2022::table(), theta_rad).slow_ways)) << "far from it";
+  double way = 1.0, turn = 1.0;
+  for (const double scale : {0.03, 0.015, 0.0}) {
     ThetaVector near_rad = theta_rad;
     for (double& angle : near_rad) angle *= scale;
     const GovernorState state = look(zhu2022::table(), near_rad);
-    EXPECT_GT(state.speed_share, 0.0) << scale;
-    EXPECT_LT(state.speed_share, 0.5 * before) << scale;
-    before = state.speed_share;
+    const Vec3 along = slowed(state.slow_ways, {1.0, 0.0, 0.0}), about = slowed(state.slow_turns, {1.0, 0.0, 0.0});
+    EXPECT_GT(state.slow_ways.share[0], 0.0) << scale;
+    EXPECT_LT(norm(along), 0.5 * way) << scale;
+    EXPECT_LT(norm(about), 0.5 * turn) << scale;
+    for (const Vec3& lateral : {Vec3{0.0, 1.0, 0.0}, Vec3{0.0, 0.0, 1.0}}) {
+      EXPECT_GT(norm(slowed(state.slow_ways, lateral)), 0.99) << scale;
+      EXPECT_GT(norm(slowed(state.slow_turns, lateral)), 0.99) << scale;
+    }
+    EXPECT_EQ(state.speed_share, 1.0) << scale;
+    way = norm(along);
+    turn = norm(about);
   }
+}
+
+// A table of slow joints loses no direction.
+TEST(Governor, JointsThatAreSlowInEveryDirectionMakeNoneOfThemLost) {
+  RobotParams slow = zhu2022::table();
+  slow.limits.theta_rate_rad_s *= 0.03;
+  const GovernorState state = look(slow, zhu2022::radians(zhu2022::kPanelEdge_deg));
+  EXPECT_LT(state.speed_share, kGovernorLost);
+  for (const double share : state.slow_ways.share) EXPECT_GT(share, 0.3);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "firmware_like/math/slow_directions.hpp"
 #include "tests/firmware_like/extremes.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
@@ -96,6 +97,46 @@ TEST(Pose, ValidMeansFiniteAndOfUnitLength) {
   EXPECT_FALSE(is_valid({{}, {1.0 + 1.1e-6, 0.0, 0.0, 0.0}}));
   EXPECT_FALSE(is_valid({{}, {1.0 - 1.1e-6, 0.0, 0.0, 0.0}}));
   EXPECT_FALSE(is_valid({{}, {0.0, 0.0, 0.0, 0.0}}));
+}
+
+// Symmetric matrices of every size and shape, the zero matrix and those with equal eigenvalues among them.
+TEST(SlowDirections, EigenvectorsOfASymmetricMatrixAreUnitVectorsAtRightAnglesThatItOnlyStretches) {
+  Random random(7);
+  for (std::int32_t i = 0; i < 2000; ++i) {
+    const double size = std::pow(10.0, i % 13 - 6);
+    const Vec3 a = i == 0 ? Vec3{} : random.vector(size);
+    const Vec3 b = i % 5 == 0 ? Vec3{} : random.vector(i % 3 == 0 ? 1e-3 * size : size);
+    const double even = i % 7 == 6 ? size : 0.0;
+    Symmetric3 matrix{};
+    std::size_t element = 0;
+    for (std::size_t r = 0; r < 3; ++r) {
+      for (std::size_t s = 0; s <= r; ++s) matrix[element++] = a[r] * a[s] + b[r] * b[s] + (r == s ? even : 0.0);
+    }
+    const std::array<Vec3, 3> vectors = eigenvectors(matrix);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& v = vectors[k];
+      EXPECT_NEAR(dot(v, v), 1.0, 1e-12) << i;
+      EXPECT_NEAR(dot(v, vectors[(k + 1) % 3]), 0.0, 1e-12) << i;
+      const Vec3 image = add(add(scale(a, dot(a, v)), scale(b, dot(b, v))), scale(v, even));
+      EXPECT_LE(norm(subtract(image, scale(v, dot(image, v)))), 1e-12 * (size * size + size)) << i;
+    }
+  }
+}
+
+TEST(SlowDirections, WhatTheyLeaveOfAMotionGivesTheMotionAgain) {
+  SlowDirections slow;
+  EXPECT_TRUE(is_even(slow));
+  slow.axis = eigenvectors({1.0, 0.5, 2.0, 0.1, -0.7, 3.0});
+  slow.share = {1e-6, 1.0, 0.3};
+  EXPECT_FALSE(is_even(slow));
+  Random random(8);
+  for (std::int32_t i = 0; i < 100; ++i) {
+    const Vec3 motion = random.vector(0.1), left = slowed(slow, motion), again = unslowed(slow, left);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(dot(slow.axis[k], left), slow.share[k] * dot(slow.axis[k], motion), 1e-15) << i;
+      EXPECT_NEAR(again[k], motion[k], 1e-9) << i;
+    }
+  }
 }
 
 }  // namespace

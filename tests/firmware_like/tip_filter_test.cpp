@@ -250,5 +250,44 @@ TEST(TipFilter, TurnsAboutTheAxisBetweenTheTwoAttitudesInTheBaseFrame) {
   }
 }
 
+TEST(TipFilter, ASlowDirectionHasItsShareOfEveryBoundAndTheOthersAllOfThem) {
+  TipFilterConfig slow = config();
+  slow.slow_ways.share[0] = 0.01;
+  slow.slow_turns.share[2] = 0.05;
+  TipFilterState state, free;
+  const Pose target{{0.3, 0.3, 0.0}, quaternion_of({0.3, 0.0, 0.3})};
+  for (std::int32_t i = 0; i < 500; ++i) {
+    const TipFilterState before = state;
+    filter_tip(slow, target, state);
+    filter_tip(config(), target, free);
+    ASSERT_LE(std::fabs(state.linear.velocity[0]), 0.01 * slow.linear.speed * kWithRounding) << i;
+    ASSERT_LE(std::fabs(state.linear.acceleration[0]), 0.01 * slow.linear.accel * kWithRounding) << i;
+    ASSERT_LE(std::fabs(state.linear.acceleration[0] - before.linear.acceleration[0]),
+              0.01 * slow.linear.jerk * slow.tick_s * kWithRounding)
+        << i;
+    ASSERT_LE(std::fabs(state.angular.velocity[2]), 0.05 * slow.angular.speed * kWithRounding) << i;
+  }
+  EXPECT_GT(state.pose.position_m[1], 0.6 * free.pose.position_m[1]);
+  EXPECT_LT(state.pose.position_m[0], 0.02 * free.pose.position_m[0]);
+}
+
+// The pose comes near one that loses directions while the tip moves: what it does now goes on, more slowly.
+TEST(TipFilter, ADirectionThatBecomesSlowInMotionBrakesWithinTheBounds) {
+  TipFilterConfig slow = config();
+  slow.slow_ways.share[0] = 0.001;
+  TipFilterState state;
+  const Pose target{{1.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
+  for (std::int32_t i = 0; i < 500; ++i) filter_tip(config(), target, state);
+  ASSERT_GT(state.linear.velocity[0], 0.9 * config().linear.speed);
+  for (std::int32_t i = 0; i < 1000; ++i) {
+    const double before = state.linear.velocity[0];
+    filter_tip(slow, target, state);
+    const double braked = std::fabs(state.linear.velocity[0] - before) / slow.tick_s;
+    ASSERT_LE(braked, 1.002 * config().linear.accel) << i << ": all of it, and the slow direction's share";
+    ASSERT_GE(state.linear.velocity[0], 0.0) << i;
+  }
+  EXPECT_LT(state.linear.velocity[0], 0.0011 * slow.linear.speed);
+}
+
 }  // namespace
 }  // namespace liana::cable

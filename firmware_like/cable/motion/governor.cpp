@@ -13,6 +13,8 @@ using Index = std::size_t;
 using Task = std::array<double, 6>;
 
 constexpr double kDamped = 1e-3;  // m2/rad2: directions that are all but lost take no wild accelerations
+constexpr double kLostTakes =
+    0.01;  // sqrt(kDamped / 10): a lost direction takes as much of ten thetas as one that is not
 
 Index theta_total(const RobotParams& table) noexcept { return static_cast<Index>(table.theta_count()); }
 
@@ -46,8 +48,8 @@ bool factor_of(const RobotParams& table, const Jacobian& J, std::uint32_t held_m
 // What every free theta turns by, per unit of the tip's way and turn, when those that move it least make it; 0 for held
 // ones.
 using ThetaTasks = std::array<Task, kMaxTheta>;
-bool thetas_per_tip(const RobotParams& table, const Jacobian& J, std::uint32_t held_mask, ThetaTasks& out) noexcept {
-  SquareMatrix<6> factor;
+bool thetas_per_tip(const RobotParams& table, const Jacobian& J, std::uint32_t held_mask, SquareMatrix<6>& factor,
+                    ThetaTasks& out) noexcept {
   if (!factor_of(table, J, held_mask, factor)) return false;
   for (Index k = 0; k < theta_total(table); ++k) {
     out[k] = {};
@@ -67,22 +69,59 @@ Task cable_per_tip(const RobotParams& table, const ThetaTasks& theta, const Thet
   return out;
 }
 
-// The largest part of a limit that a unit of the tip's way or turn takes, whichever way it goes.
-class Taken {
- public:
-  void take(const Task& per_tip, double limit) noexcept {
-    const double a = 1.0 / (limit * limit);
-    linear2_ = larger(linear2_, a * (per_tip[0] * per_tip[0] + per_tip[1] * per_tip[1] + per_tip[2] * per_tip[2]));
-    angular2_ = larger(angular2_, a * (per_tip[3] * per_tip[3] + per_tip[4] * per_tip[4] + per_tip[5] * per_tip[5]));
-  }
-  // Shares of so much way and turn that take no more than kGovernorTip.
-  double linear_share(double most) const noexcept { return share(std::sqrt(linear2_) * most); }
-  double angular_share(double most) const noexcept { return share(std::sqrt(angular2_) * most); }
+using LimitRows = std::array<Vec3, kMaxTheta + kMaxCables + 6>;
 
- private:
-  static double share(double taken) noexcept { return taken > kGovernorTip ? kGovernorTip / taken : 1.0; }
-  double linear2_ = 0.0, angular2_ = 0.0;
+// What a unit of the tip's way, and of its turn, takes of every joint's or cable's limit, whichever way it goes.
+struct Taken {
+  LimitRows way{}, turn{};
+  Index count = 0;
+
+  void take(const Task& per_tip, double limit) noexcept {
+    const double a = 1.0 / limit;
+    way[count] = {a * per_tip[0], a * per_tip[1], a * per_tip[2]};
+    turn[count] = {a * per_tip[3], a * per_tip[4], a * per_tip[5]};
+    ++count;
+  }
 };
+
+// The share of so much way or turn, the slow directions less of it, that takes no more than kGovernorTip of any limit.
+double share_of(const LimitRows& rows, Index count, const SlowDirections& slow, double most) noexcept {
+  const bool even = is_even(slow);
+  double taken2 = 0.0;
+  for (Index i = 0; i < count; ++i) {
+    const Vec3 row = even ? rows[i] : slowed(slow, rows[i]);
+    taken2 = larger(taken2, dot(row, row));
+  }
+  const double taken = std::sqrt(taken2) * most;
+  return taken > kGovernorTip ? kGovernorTip / taken : 1.0;
+}
+
+// Which directions are lost, and what is left of them.
+SlowDirections lost_directions(const LimitRows& rows, Index count, double most) noexcept {
+  SlowDirections out;
+  if (share_of(rows, count, out, most) >= kGovernorLost) return out;
+  Symmetric3 sum{};
+  for (Index i = 0; i < count; ++i) {
+    Index element = 0;
+    for (Index r = 0; r < 3; ++r) {
+      for (Index s = 0; s <= r; ++s) sum[element++] += rows[i][r] * rows[i][s];
+    }
+  }
+  out.axis = eigenvectors(sum);
+  Vec3 share{};
+  double best = 0.0;
+  for (Index a = 0; a < 3; ++a) {
+    double taken = 0.0;
+    for (Index i = 0; i < count; ++i) taken = larger(taken, std::fabs(dot(rows[i], out.axis[a])));
+    share[a] = taken * most > kGovernorTip ? kGovernorTip / (taken * most) : 1.0;
+    best = larger(best, share[a]);
+  }
+  for (Index a = 0; a < 3; ++a) {
+    const double left = share[a] / (kGovernorLost * best);
+    if (left < 1.0) out.share[a] = left * left * left * std::sqrt(left);
+  }
+  return out;
+}
 
 // Accelerations grow with the square of the speed: of what turns as it moves, and, far more, where the arm all but
 // loses a direction, whose thetas speed up while the tip does not.
@@ -98,7 +137,15 @@ template <class Limit>
 bool look_at(const RobotParams& table, const Jacobian& J, std::uint32_t held_mask, double theta_limit,
              const std::array<ThetaVector, kMaxCables>& per_theta, const Limit& limit_of, Taken& out) noexcept {
   ThetaTasks theta;
-  if (!thetas_per_tip(table, J, held_mask, theta)) return false;
+  SquareMatrix<6> factor;
+  if (!thetas_per_tip(table, J, held_mask, factor, theta)) return false;
+  // No theta turns for a direction that is lost altogether: the damping stands for them.
+  for (Index r = 0; r < 6; ++r) {
+    Task damped{};
+    damped[r] = kLostTakes;
+    cholesky_solve(factor, damped);
+    out.take(damped, theta_limit);
+  }
   for (Index k = 0; k < theta_total(table); ++k) out.take(theta[k], theta_limit);
   Index c = 0;
   for (Index j = 0; j < theta_total(table) / 2; ++j) {
@@ -114,8 +161,8 @@ void update_accel_shares(const RobotParams& table, const Jacobian& J, std::uint3
   Taken taken;
   const auto room_of = [&state](Index segment) noexcept { return state.room_N[segment]; };
   if (!look_at(table, J, held_mask, limits.theta_accel_rad_s2, state.pull_N_s2, room_of, taken)) return;
-  state.linear_share = taken.linear_share(limits.tip_accel_m_s2);
-  state.angular_share = taken.angular_share(limits.tip_angular_accel_rad_s2);
+  state.linear_share = share_of(taken.way, taken.count, state.slow_ways, limits.tip_accel_m_s2);
+  state.angular_share = share_of(taken.turn, taken.count, state.slow_turns, limits.tip_angular_accel_rad_s2);
 }
 
 void update_speed_shares(const RobotParams& table, const CableGeometry& geometry, const Jacobian& J,
@@ -124,8 +171,12 @@ void update_speed_shares(const RobotParams& table, const CableGeometry& geometry
   Taken taken;
   const auto speed_of_cable = [&limits](Index) noexcept { return limits.cable_speed_m_s; };
   if (!look_at(table, J, held_mask, limits.theta_rate_rad_s, geometry.jacobian_m_rad, speed_of_cable, taken)) return;
-  state.speed_share = speed_of(state.linear_share, taken.linear_share(limits.tip_speed_m_s));
-  state.turn_share = speed_of(state.angular_share, taken.angular_share(limits.tip_rate_rad_s));
+  state.slow_ways = lost_directions(taken.way, taken.count, limits.tip_speed_m_s);
+  state.slow_turns = lost_directions(taken.turn, taken.count, limits.tip_rate_rad_s);
+  state.speed_share =
+      speed_of(state.linear_share, share_of(taken.way, taken.count, state.slow_ways, limits.tip_speed_m_s));
+  state.turn_share =
+      speed_of(state.angular_share, share_of(taken.turn, taken.count, state.slow_turns, limits.tip_rate_rad_s));
 }
 
 // What each theta may brake with by itself, with a part of the room.

@@ -13,6 +13,7 @@
 
 #include "firmware_like/cable/arm/body_inertia.hpp"
 #include "firmware_like/cable/arm/tension.hpp"
+#include "firmware_like/math/slow_directions.hpp"
 
 namespace liana::cable {
 
@@ -25,6 +26,9 @@ constexpr double kGovernorSpeed = 0.7;    // of the acceleration: where less of 
 // Near a pose where the tip all but loses a direction thetas turn with v / s and are accelerated by v^2 / s^3, s the
 // Jacobian's least singular value, with which the share of the rates goes: the speed falls with its power 2.5.
 constexpr double kGovernorLoss = 6.0;
+// A direction that has less than such a share of the speed of the best one is lost: the tip goes there more slowly,
+// with the power 3.5 of what is missing, and in the others as if it were not lost.
+constexpr double kGovernorLost = 0.3;
 constexpr std::uint32_t kGovernorCycles = 3;  // of the shape's ten ticks: it looks anew in so many of them
 
 struct GovernorState {
@@ -35,6 +39,7 @@ struct GovernorState {
   std::uint32_t cycle = 0;                          // 0: it looks
   double linear_share = 1.0, angular_share = 1.0;   // of the table's limits of the tip's acceleration
   double speed_share = 1.0, turn_share = 1.0;       // of its limits of the tip's speeds
+  SlowDirections slow_ways{}, slow_turns{};         // in which the tip takes less of all these, in the base frame
 };
 
 // Room for the cables of every segment under a plan at rest.

@@ -25,7 +25,8 @@ constexpr double kBrakeRoom = 0.8;
 // acceleration; with all that its cables have, at once, it would swing.
 constexpr double kCatchUp = 0.3;
 constexpr double kBehind =
-    1e-4;  // m and rad: from here the target does not wait, or a blocked arm could not be led away
+    1e-4;                      // m and rad: from here the target does not wait, or a blocked arm could not be led away
+constexpr double kWay = 1e-3;  // m and rad: a shorter one is none
 constexpr double kHeldNear_rad = 2e-6;    // from here a held variable that has slowed down
 constexpr double kHeldSlow_rad_s = 2e-5;  // to this rate
 constexpr double kHeldArrival_rad_s =
@@ -259,6 +260,12 @@ void take_over(const RobotParams& table, MotionState& state) noexcept {
   state.ik = IkResult{};
 }
 
+// Of a way [m or rad] worth the name, what slow directions leave of it.
+double share_left(const SlowDirections& slow, const Vec3& way) noexcept {
+  if (is_even(slow) || dot(way, way) < kWay * kWay) return 1.0;
+  return norm(slowed(slow, way)) / norm(way);
+}
+
 void take_kinematics(const RobotParams& table, MotionState& state) noexcept {
   update_trig(table, state.limiter.theta_rad, state.trig);
   update_kinematics(table, state.trig, state.arm);
@@ -278,7 +285,15 @@ TipFilterConfig tip_filter_config(const RobotParams& table, double tip_speed_m_s
                              angular_share * larger(0.3, angular_share) * limits.tip_angular_jerk_rad_s3};
   const bool lowered = tip_speed_m_s > 0.0 && tip_speed_m_s < linear.speed;
   return {with_lag(linear, limits.tip_lag_s, lowered ? tip_speed_m_s : linear.speed),
-          with_lag(angular, limits.tip_lag_s, angular.speed), table.tick_s};
+          with_lag(angular, limits.tip_lag_s, angular.speed), table.tick_s, governor.slow_ways, governor.slow_turns};
+}
+
+double lost_share(const MotionState& state) noexcept {
+  if (!is_tip(state.to)) return 1.0;
+  const Vec3 way_m = subtract(state.to.tip_in_base.position_m, state.filter.pose.position_m);
+  const Vec3 turn_rad =
+      rotation_vector(multiply(state.to.tip_in_base.quaternion, conjugate(state.filter.pose.quaternion)));
+  return smaller(share_left(state.governor.slow_ways, way_m), share_left(state.governor.slow_turns, turn_rad));
 }
 
 Twist tip_twist(const RobotParams& table, const MotionState& state) noexcept {

@@ -61,6 +61,10 @@ struct Twist {
 };
 Twist tip_twist(const RobotParams& table, const MotionState& state) noexcept;
 
+// Of the way from the filter to the tip's target, what directions leave that the arm has all but lost (governor.hpp): 1
+// where none is, and for joint motion.
+double lost_share(const MotionState& state) noexcept;
+
 // True when nothing moves any more.
 bool at_rest(const RobotParams& table, const MotionState& state) noexcept;
 

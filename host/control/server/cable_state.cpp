@@ -50,15 +50,21 @@ Json rate_json(const device::SampleRate& rate) {
   return {{"hz", now_hz ? Json(*now_hz) : Json()}, {"least_s", rate.least_s()}, {"most_s", rate.most_s()}};
 }
 
-// A hand is slowed by whichever leaves it less: what is in the way, or the tensions that the pose has room for.
-bool tensions_slow(const virtual_fixtures::Ease& ease, const cable::Outputs& outputs, bool engaged) {
-  return engaged && outputs.speed_share < ease.share;
+// A hand is slowed by whatever leaves it least: what is near, or what the pose has room for.
+virtual_fixtures::Ease slowdown_of(const virtual_fixtures::Ease& ease, const cable::Outputs& outputs, bool engaged) {
+  virtual_fixtures::Ease out = ease;
+  if (!engaged) return out;
+  if (outputs.speed_share < out.share) out = {outputs.speed_share, virtual_fixtures::SlowdownCause::kTension};
+  if (outputs.lost_share < out.share) out = {outputs.lost_share, virtual_fixtures::SlowdownCause::kSingular};
+  return out;
 }
 
 std::string ease_name(const virtual_fixtures::Ease& ease) {
   switch (ease.cause) {
     case virtual_fixtures::SlowdownCause::kNone:
       return "";
+    case virtual_fixtures::SlowdownCause::kTension:
+      return "tension";
     case virtual_fixtures::SlowdownCause::kSingular:
       return "near singular";
     case virtual_fixtures::SlowdownCause::kRefused:
@@ -100,13 +106,13 @@ Json CableArmServer::clearance_json() const {
 // What fixtures make of the hand, and the two figures that they are felt by.
 Json CableArmServer::guidance_json() const {
   const virtual_fixtures::Guidance& guidance = arbiter_.guidance();
-  const bool by_tension = tensions_slow(arbiter_.ease(), outputs(), arbiter_.device().engaged());
+  const virtual_fixtures::Ease slowdown = slowdown_of(arbiter_.ease(), outputs(), arbiter_.device().engaged());
   Json out{{"fixtures", Json::array()},
            {"plane", guidance.plane_name()},
            {"taken_away_m", guidance.taken_away_m()},
            {"yaw_limited", guidance.is_yaw_limited()},
-           {"speed_share", by_tension ? outputs().speed_share : arbiter_.ease().share},
-           {"slowed_by", by_tension ? "tension" : ease_name(arbiter_.ease())},
+           {"speed_share", slowdown.share},
+           {"slowed_by", ease_name(slowdown)},
            {"pitch_allowed_deg", nullptr},
            {"pitch_used_deg", nullptr}};
   for (const config::SceneFixture& one : guidance.fixtures()) {
@@ -139,7 +145,7 @@ void CableArmServer::add_state(Json& state) const {
                       {"feedback", feedback_}};
   state["guidance"] = guidance_json();
   if (arbiter_.ease().cause == virtual_fixtures::SlowdownCause::kJointLimit) state["limits"].push_back("near_theta");
-  if (arbiter_.ease().cause == virtual_fixtures::SlowdownCause::kSingular) state["limits"].push_back("near_singular");
+  if (o.lost_share < 1.0) state["limits"].push_back("near_singular");
   state["shape"] = {{"missing_m", shape_progress_.missing_m()},
                     {"settled", shape_progress_.is_settled() && !arbiter_.is_searching()},
                     {"searching", arbiter_.is_searching()}};

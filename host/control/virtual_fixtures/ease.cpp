@@ -1,7 +1,6 @@
 #include "host/control/virtual_fixtures/ease.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -15,8 +14,7 @@ using Row6 = Eigen::Matrix<double, 6, 1>;
 using Rows6 = Eigen::Matrix<double, 6, kMaxTheta>;
 
 constexpr double kStill = 1e-4;           // m and rad: a goal nearer than this is reached
-constexpr double kLookAhead_rad = 0.003;  // how far the motion is followed to see where it leads
-constexpr double kLess = 1e-6;            // a change of a singular value that is one
+constexpr double kLookAhead_rad = 0.003;  // of the angle that turns most: one that turns far less is not on its way
 constexpr double kDamped = 1e-4;          // m2/rad2: directions that are all but lost ask for no wild angles
 
 Rows6 free_jacobian(const RobotParams& table, const ArmKinematics& arm, std::uint32_t held_mask) {
@@ -28,12 +26,6 @@ Rows6 free_jacobian(const RobotParams& table, const ArmKinematics& arm, std::uin
     if ((held_mask >> k & 1u) != 0) J.col(k).setZero();
   }
   return J;
-}
-
-double min_of(const Rows6& J) {
-  const Eigen::Matrix<double, 6, 6> square = J * J.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(square, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, solver.eigenvalues()[0]));
 }
 
 Row6 way_to(const Pose& goal, const Pose& tip) {
@@ -51,10 +43,6 @@ double share_of(double left, double to, double from) {
 
 }  // namespace
 
-double least_singular_value(const RobotParams& table, const ThetaVector& theta_rad, std::uint32_t held_mask) {
-  return min_of(free_jacobian(table, forward_kinematics(table, theta_rad), held_mask));
-}
-
 Ease ease(const RobotParams& table, const ThetaVector& theta_rad, std::uint32_t held_mask, const Pose& goal_in_base) {
   const ArmKinematics arm = forward_kinematics(table, theta_rad);
   const Row6 way = way_to(goal_in_base, arm.tip_in_base);
@@ -67,19 +55,13 @@ Ease ease(const RobotParams& table, const ThetaVector& theta_rad, std::uint32_t 
   step *= kLookAhead_rad / largest;
 
   Ease out;
-  ThetaVector ahead_rad = theta_rad;
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
     const double move_rad = step[static_cast<Eigen::Index>(k)];
-    ahead_rad[k] += move_rad;
     if (std::fabs(move_rad) < 0.05 * kLookAhead_rad || move_rad * theta_rad[k] <= 0.0) continue;  // not towards it
     const double left_rad = table.segment[k / 2].theta_limit_rad - std::fabs(theta_rad[k]);
     const double share = share_of(left_rad, 0.0, kEaseFrom_rad);
     if (share < out.share) out = {share, SlowdownCause::kJointLimit, static_cast<std::int32_t>(k) + 1};
   }
-  const double now = min_of(J);
-  const double share = share_of(now, kEaseToSingular, kEaseFromSingular);
-  if (share < out.share && least_singular_value(table, ahead_rad, held_mask) < now - kLess)
-    out = {share, SlowdownCause::kSingular, 0};
   return out;
 }
 

@@ -203,6 +203,7 @@ void visit_listed(A& a, T& o) {
   visit_first(a, "node_command_m", o.node_command_m, counts_of_visitor(a).segments);
   a("speed_share", o.speed_share);
   a("turn_share", o.turn_share);
+  a("lost_share", o.lost_share);
   visit_first(a, "load_Nm", o.load_Nm, counts_of_visitor(a).thetas);
   visit_first(a, "tension_plan_N", o.tension_plan_N, counts_of_visitor(a).drives);
   visit_first(a, "tension_measured_N", o.tension_measured_N, counts_of_visitor(a).drives);

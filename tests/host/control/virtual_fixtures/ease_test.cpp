@@ -62,26 +62,6 @@ TEST(Ease, LeavesTheWayBackFromALimitAsFastAsEver) {
   }
 }
 
-TEST(Ease, SlowsTheWayToTheStraightArmAndNotTheWayBack) {
-  const auto bent = [](double share) {
-    ThetaVector theta = zhu2022::radians(zhu2022::kPressRod_deg);
-    for (double& one : theta) one *= share;
-    return theta;
-  };
-  EXPECT_GT(least_singular_value(kRobot, bent(1.0), kPlanar), 1.5);
-  EXPECT_LT(least_singular_value(kRobot, bent(0.0), kPlanar), 1e-9);
-  double before = 1.0;
-  for (const double share : {1.0, 0.1, 0.05, 0.02}) {
-    const Ease to = ease(kRobot, bent(share), kPlanar, forward_kinematics(kRobot, bent(0.7 * share)).tip_in_base);
-    EXPECT_LE(to.share, before) << share;
-    EXPECT_EQ(to.cause, to.share < 1.0 ? SlowdownCause::kSingular : SlowdownCause::kNone);
-    before = to.share;
-    const Ease out = ease(kRobot, bent(share), kPlanar, forward_kinematics(kRobot, bent(1.3 * share)).tip_in_base);
-    EXPECT_EQ(out.share, 1.0) << share;
-  }
-  EXPECT_LT(before, 0.3);
-}
-
 TEST(Ease, OfAGoalThatIsReachedIsNone) {
   ThetaVector theta{};
   theta[0] = 20.0 * kDegree;
