@@ -96,6 +96,12 @@ double share_of(const LimitRows& rows, Index count, const SlowDirections& slow, 
   return taken > kGovernorTip ? kGovernorTip / taken : 1.0;
 }
 
+// An arm that has lost a direction stands straight or folded: it sways more about each change of acceleration.
+double accel_share_of(const LimitRows& rows, Index count, const SlowDirections& slow, double most) noexcept {
+  const double share = share_of(rows, count, slow, most);
+  return is_even(slow) ? share : smaller(share, kGovernorNearLost);
+}
+
 // Which directions are lost, and what is left of them.
 SlowDirections lost_directions(const LimitRows& rows, Index count, double most) noexcept {
   SlowDirections out;
@@ -161,8 +167,8 @@ void update_accel_shares(const RobotParams& table, const Jacobian& J, std::uint3
   Taken taken;
   const auto room_of = [&state](Index segment) noexcept { return state.room_N[segment]; };
   if (!look_at(table, J, held_mask, limits.theta_accel_rad_s2, state.pull_N_s2, room_of, taken)) return;
-  state.linear_share = share_of(taken.way, taken.count, state.slow_ways, limits.tip_accel_m_s2);
-  state.angular_share = share_of(taken.turn, taken.count, state.slow_turns, limits.tip_angular_accel_rad_s2);
+  state.linear_share = accel_share_of(taken.way, taken.count, state.slow_ways, limits.tip_accel_m_s2);
+  state.angular_share = accel_share_of(taken.turn, taken.count, state.slow_turns, limits.tip_angular_accel_rad_s2);
 }
 
 void update_speed_shares(const RobotParams& table, const CableGeometry& geometry, const Jacobian& J,

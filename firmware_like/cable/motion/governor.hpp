@@ -29,6 +29,7 @@ constexpr double kGovernorLoss = 6.0;
 // A direction that has less than such a share of the speed of the best one is lost: the tip goes there more slowly,
 // with the power 3.5 of what is missing, and in the others as if it were not lost.
 constexpr double kGovernorLost = 0.3;
+constexpr double kGovernorNearLost = 0.5;  // of the tip's acceleration limit, where a direction is lost
 constexpr std::uint32_t kGovernorCycles = 3;  // of the shape's ten ticks: it looks anew in so many of them
 
 struct GovernorState {
