@@ -54,7 +54,7 @@ void VerifiedArm::verify_next(const cable::Telecommand& in_force) {
       release_.candidate(*setpoint, 1, image.next_tick + interval, interval);
   verification::Twin<CableArm>::run(image, {&in_force, 1}, candidate, verification::max_stop_ticks(arm_.table().tick_s),
                                     prediction_);
-  end_.begin(image, candidate, prediction_);
+  end_.begin(image, candidate, prediction_, false);
   verification::ExecutionVerdict execution =
       verification::judge_execution<CableArm>(arm_.table(), candidate, prediction_, zone_);
   simulation_ = end_.verdict(verification::kWhenever);

@@ -241,7 +241,8 @@ template <class Arm, class Steering>
 LastVerdict TypedArmServer<Arm, Steering>::verified(const verification::Candidate<Arm>& candidate) {
   const verification::TwinSnapshot<Arm>& image = link_.image.value();
   verification::Twin<Arm>::run(image, released_, candidate, verification::max_stop_ticks(table_.tick_s), prediction_);
-  simulation_->begin(image, candidate, prediction_);
+  const bool leads_back = arbiter_.is_going_back();
+  simulation_->begin(image, candidate, prediction_, leads_back);
   verification::ExecutionVerdict execution = verification::judge_execution<Arm>(table_, candidate, prediction_, zone_);
   const verification::SimulationVerdict simulation = simulation_->verdict(patience_s(candidate.first_tick()));
   verification::judge_model(table_, image.last_outputs, execution);
@@ -249,7 +250,6 @@ LastVerdict TypedArmServer<Arm, Steering>::verified(const verification::Candidat
     link_.report.refresh();
     verification::judge_time(candidate.first_tick(), tick(), execution);
   }
-  const bool leads_back = arbiter_.is_going_back();
   const std::optional<Command> telecommand = release_.release(candidate, execution, simulation);
   const bool released = telecommand && link_.released.push(*telecommand);
   verification::Verdict worst = execution.passed() ? static_cast<const verification::Verdict&>(simulation) : execution;

@@ -22,11 +22,12 @@ First at_itself(const simulation::Nearest& nearest, const LinkName& link_name) {
 }
 
 // An arm that is too near already may go away; the way back out may need it to go along beside a body first.
-bool leads_away(const simulation::Distances& distances, double travel_m, const TooNearTo& too_near) {
+bool leads_away(const simulation::Distances& distances, double travel_m, const TooNearTo& too_near, bool retracts) {
   const double start_m = distances.scene_at_start_m, least_m = distances.scene.distance_m;
-  const double end_m = distances.scene_at_end_m;
+  const double end_m = distances.scene_at_end_m, allowed_m = too_near.least_m(retracts);
   if (!too_near.stands()) return end_m >= start_m && least_m >= start_m - kGivenAway_m;
-  if (start_m >= too_near.least_m()) return end_m >= too_near.least_m() && least_m >= start_m - kGivenAway_m;
+  if (start_m >= allowed_m) return end_m >= allowed_m && least_m >= start_m - kGivenAway_m;
+  if (!retracts && !too_near.may_be_led(start_m)) return false;
   return end_m >= start_m + kAwayShare * travel_m && least_m >= start_m - kCreptDip_m;
 }
 
@@ -42,7 +43,7 @@ const simulation::BodyBeside* entered(const simulation::Distances& distances, do
 // when it was enabled may stay as well.
 bool leads_apart(const simulation::Distances& distances, const TooNearTo& itself) {
   const double start_m = distances.self_at_start_m;
-  const double least_m = itself.stands() ? itself.least_m() : start_m - kRounded_m;
+  const double least_m = itself.stands() ? itself.least_m(false) : start_m - kRounded_m;
   return distances.self_at_end_m >= least_m && distances.self.distance_m >= start_m - kGivenAway_m;
 }
 
@@ -52,7 +53,8 @@ void TooNearTo::stand(double distance_m) {
   const double kept_m = distance_m - kGivenAway_m;
   farthest_m_ = stands_ ? std::max(distance_m, farthest_m_) : distance_m;
   min_m_ = stands_ ? std::max(min_m_, kept_m) : kept_m;
-  if (was_refused_) min_m_ = std::max(std::min(min_m_, distance_m - kCreptDip_m), farthest_m_ - kMostCrept_m);
+  back_m_ = stands_ ? std::max(back_m_, kept_m) : kept_m;
+  if (was_refused_) back_m_ = std::max(std::min(back_m_, distance_m - kCreptDip_m), farthest_m_ - kMostCrept_m);
   stands_ = true;
   was_refused_ = false;
 }
@@ -82,7 +84,8 @@ void judge_distances(const config::SceneConfig& scene, const simulation::Distanc
       clearance::obstacle_count(scene) > 0 ? claimed_m - levels.refuse_m : margins_unknown().clearance_m;
   verdict.slowly = claimed_m < levels.slow_m;
   verdict.first = first;
-  const bool stands_too_near = start_m - levels.prediction_m < levels.refuse_m;
+  const double left_m = too_near.scene.stands() ? kLeft_m : 0.0;
+  const bool stands_too_near = start_m - levels.prediction_m < levels.refuse_m + left_m;
   stands_too_near ? too_near.scene.stand(start_m) : too_near.scene.forget();
   const double off_itself_m = distances.self_at_start_m;
   off_itself_m > 0.0 ? too_near.itself.forget() : too_near.itself.stand(off_itself_m);
@@ -94,7 +97,8 @@ void judge_distances(const config::SceneConfig& scene, const simulation::Distanc
                " for certain; it stands " + in_millimetres(stands_m) + " off",
            where);
   };
-  if (!std::isfinite(least_m) || (claimed_m < levels.refuse_m && !leads_away(distances, travel_m, too_near.scene))) {
+  if (!std::isfinite(least_m) ||
+      (claimed_m < levels.refuse_m && !leads_away(distances, travel_m, too_near.scene, too_near.retracts))) {
     refuse_contact(least_m, start_m, first);
   } else if (const simulation::BodyBeside* body = entered(distances, levels.prediction_m)) {
     refuse_contact(body->nearest.distance_m, body->at_start_m, at_scene(scene, body->nearest, link_name));

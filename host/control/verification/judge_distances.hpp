@@ -19,13 +19,18 @@ constexpr double kAwayShare = 0.1;
 // in the simulation and stays in truth: 0.3 mm at the end of a motion look like away.
 constexpr double kCreptDip_m = 1e-4;
 
-// By how much less than the farthest it has stood off an arm may go along after all refusals.
+// By how much less than the farthest it has stood off an arm may be led at all, and go along in a retract after any
+// number of refusals.
 constexpr double kMostCrept_m = 3e-3;
+
+// How much farther off than it has to be an arm is where what it came nearer by is forgotten.
+constexpr double kLeft_m = 3e-3;
 
 // How near to something an arm may be led that is nearer to it than commands may leave it: 1 mm less than the farthest
 // it has stood off since. Motions may lead it away, and along beside a body no nearer than that. What is no nearer as
 // simulated may be nearer by the simulation's error, again and again: an arm that has come nearer than that only goes
-// away, until a motion is refused. From where it then stands it may go along once more, so that a way back is there.
+// away, and one that has come nearer by kMostCrept_m only retracts. A retract may go along once more from where a
+// refusal has left it, so that a way back is there.
 class TooNearTo {
  public:
   // The next motion begins so far off.
@@ -35,15 +40,18 @@ class TooNearTo {
   void refused() { was_refused_ = true; }
   bool stands() const { return stands_; }
   // No motion may end nearer than that.
-  double least_m() const { return min_m_; }
+  double least_m(bool retracts) const { return retracts ? back_m_ : min_m_; }
+  // It may go away from where it stands.
+  bool may_be_led(double distance_m) const { return distance_m >= farthest_m_ - kMostCrept_m; }
 
  private:
-  double farthest_m_ = 0.0, min_m_ = 0.0;
+  double farthest_m_ = 0.0, min_m_ = 0.0, back_m_ = 0.0;
   bool stands_ = false, was_refused_ = false;
 };
 
 struct TooNear {
   TooNearTo scene, itself;
+  bool retracts = false;  // the motion that is judged next
   void forget() { *this = {}; }
 };
 

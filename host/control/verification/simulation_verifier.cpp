@@ -97,10 +97,11 @@ void SimulationVerifier<CableArm>::believe(const cable::ThetaVector& theta_off_r
 }
 
 void SimulationVerifier<CableArm>::begin(const TwinSnapshot<CableArm>& image, const Candidate<CableArm>& candidate,
-                                         const Prediction<CableArm>& prediction) {
+                                         const Prediction<CableArm>& prediction, bool retracts) {
   number_ = candidate.sequence();
   trial_ = candidate.trial();
   comes_to_rest_ = prediction.comes_to_rest;
+  too_near_.retracts = retracts;
   begun_ = simulates(image, candidate.first_tick(), prediction);
 }
 
@@ -139,7 +140,8 @@ SimulationVerdict SimulationVerifier<CableArm>::verdict(double patience_s) {
 }
 
 void SimulationVerifier<serial::SerialArm>::begin(const TwinSnapshot<Arm>& image, const Candidate<Arm>& candidate,
-                                                  const Prediction<Arm>& prediction) {
+                                                  const Prediction<Arm>& prediction, bool retracts) {
+  too_near_.retracts = retracts;
   verdict_ = judge_motion<Arm>(table_, candidate, prediction);
   verdict_.margins = margins_unknown();
   if (!verdict_.passed()) return;

@@ -45,8 +45,10 @@ class SimulationVerifier<cable::CableArm> {
   // From now on: what is known of arm and scene beside the measured angles and the drawing. `prediction_m` takes the
   // place of the scene's own; angles and placement are those of a StartState.
   void believe(const cable::ThetaVector& theta_off_rad, const Pose& drawing_in_base, double prediction_m);
-  // Begins with what the candidate makes the controller tell its drives, from where the arm is measured to be.
-  void begin(const TwinSnapshot<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction);
+  // Begins with what the candidate makes the controller tell its drives, from where the arm is measured to be;
+  // `retracts`: on its way back.
+  void begin(const TwinSnapshot<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction,
+             bool retracts);
   // The verdict on what was begun; refused as kNoVerdict where it takes longer than `patience_s`.
   SimulationVerdict verdict(double patience_s);
   // Looks at `stop`, what becomes of the arm when a candidate of `first_tick` is refused, and judges by it until the
@@ -87,7 +89,8 @@ class SimulationVerifier<serial::SerialArm> {
     if (image.last_outputs.state != OperatingState::kEnabled) too_near_.forget();
   }
   // Judges what the candidate makes the controller tell its drives, from where the arm is measured to be.
-  void begin(const TwinSnapshot<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction);
+  void begin(const TwinSnapshot<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction,
+             bool retracts);
   SimulationVerdict verdict(double) { return verdict_; }
   // Links of rigid gears do not swing.
   StopSwings look_at_stop(const TwinSnapshot<Arm>&, std::uint64_t, const Prediction<Arm>&, double) {

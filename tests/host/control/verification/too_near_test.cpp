@@ -87,16 +87,19 @@ TEST_F(AnArmBesideABody, ThatHasCreptNearerAllTheSameOnlyGoesAway) {
   EXPECT_EQ(goes(0.0055, 0.0051, 0.0051), Refusal::kNone) << "as far off as it has been, but for 1 mm";
 }
 
-TEST_F(AnArmBesideABody, GoesAlongAgainFromWhereARefusalHasLeftIt) {
+TEST_F(AnArmBesideABody, RetractsAlongItAgainFromWhereARefusalHasLeftIt) {
   moves(0.010);
   EXPECT_EQ(goes(0.0060, 0.0055, 0.0055), Refusal::kNone);
   EXPECT_EQ(goes(0.0048, 0.0040, 0.0059), Refusal::kSceneContact);
+  EXPECT_EQ(goes(0.0045, 0.0044, 0.0044), Refusal::kSceneContact) << "a hand goes away only";
+  too_near_.retracts = true;
   EXPECT_EQ(goes(0.0045, 0.0044, 0.0044), Refusal::kNone) << "a way back along the body";
   EXPECT_EQ(goes(0.0044, 0.0042, 0.0042), Refusal::kSceneContact) << "and no nearer by it";
 }
 
-TEST_F(AnArmBesideABody, IsNotLedNearerByAnyNumberOfRefusals) {
+TEST_F(AnArmBesideABody, IsNotRetractedNearerByAnyNumberOfRefusals) {
   moves(0.010);
+  too_near_.retracts = true;
   double stands_m = 0.0060;
   for (int refused = 0; refused < 1000; ++refused) {
     EXPECT_EQ(goes(stands_m, 0.0, stands_m), Refusal::kSceneContact);
@@ -105,9 +108,25 @@ TEST_F(AnArmBesideABody, IsNotLedNearerByAnyNumberOfRefusals) {
   EXPECT_NEAR(stands_m, 0.0060 - kMostCrept_m, kCreptDip_m);
 }
 
+// What leads away as simulated may end nearer in truth, and a stop after a refusal come nearer than predicted.
+TEST_F(AnArmBesideABody, ThatHasLostThreeMillimetresOnlyRetracts) {
+  moves(0.010);
+  EXPECT_EQ(goes(0.0060, 0.0055, 0.0055), Refusal::kNone);
+  for (const bool was_refused : {false, true}) {
+    EXPECT_EQ(goes(0.00301, 0.00301, 0.0060), Refusal::kNone) << was_refused;
+    EXPECT_EQ(goes(0.00299, 0.00299, 0.0060), Refusal::kSceneContact) << was_refused;
+  }
+  too_near_.retracts = true;
+  EXPECT_EQ(goes(0.00299, 0.00299, 0.0060), Refusal::kNone);
+}
+
 TEST_F(AnArmBesideABody, ThatHasLeftItIsAsOneThatNeverWasThere) {
   EXPECT_EQ(goes(0.0050, 0.0050, 0.0080), Refusal::kNone);
   EXPECT_EQ(goes(0.0080, 0.0069, 0.0069), Refusal::kSceneContact);
+  moves(0.010);
+  EXPECT_EQ(goes(0.0069, 0.0068, 0.0068), Refusal::kSceneContact) << "it has been 1 mm farther off";
+  EXPECT_EQ(goes(0.0100, 0.0100, 0.0100), Refusal::kNone) << "3 mm farther off than it has to be";
+  EXPECT_EQ(goes(0.0069, 0.0068, 0.0068), Refusal::kNone);
 }
 
 TEST_F(AnArmBesideABody, ThatTouchesOneBodyIsLetOutOfItAndIntoNoOther) {

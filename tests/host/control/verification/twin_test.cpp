@@ -44,7 +44,7 @@ class TwinOfAnArm : public testing::Test {
   SimulationVerdict simulate(const Candidate<cable::CableArm>& candidate,
                              const Prediction<cable::CableArm>& prediction) {
     simulation_.watch(arm_->link.image.value());
-    simulation_.begin(arm_->link.image.value(), candidate, prediction);
+    simulation_.begin(arm_->link.image.value(), candidate, prediction, false);
     return simulation_.verdict(kWhenever);
   }
 
