@@ -117,7 +117,7 @@ TEST_F(TwinOfAnArm, TheSimulationHoldsTheArmAsItIsBelievedToBeAgainstTheSceneWhe
   const auto margins_m = [&](const cable::ThetaVector& theta_off_rad, const Vec3& shift_m, double prediction_m) {
     end.watch(arm_->link.image.value());
     end.believe(theta_off_rad, {shift_m, {1.0, 0.0, 0.0, 0.0}}, prediction_m);
-    end.begin(arm_->link.image.value(), stays, prediction);
+    end.begin(arm_->link.image.value(), stays, prediction, false);
     return end.verdict(kWhenever).margins.clearance_m;
   };
   const double drawn_m = margins_m({}, {}, 0.007);
@@ -134,7 +134,7 @@ TEST_F(TwinOfAnArm, TheSimulationHoldsTheArmAsItIsBelievedToBeAgainstTheSceneWhe
 TEST_F(TwinOfAnArm, AVerdictThatIsNotThereInTimeIsARefusalAndTheNextOneIsNotForIt) {
   const Candidate<cable::CableArm> wanted = candidate(shifted_tip(0.01));
   const Prediction<cable::CableArm> prediction = predict(wanted);
-  simulation_.begin(arm_->link.image.value(), wanted, prediction);
+  simulation_.begin(arm_->link.image.value(), wanted, prediction, false);
   const SimulationVerdict late = simulation_.verdict(0.0);
   if (!late.passed()) {  // a machine that is quick enough has it
     EXPECT_EQ(late.code, Refusal::kNoVerdict);
