@@ -1,6 +1,7 @@
 #include "firmware_like/math/slow_directions.hpp"
 
 #include <cmath>
+#include <cstdint>
 
 namespace liana {
 namespace {

@@ -87,7 +87,7 @@ TEST(Governor, NearTheStraightArmOnlyTheDirectionsThatItLosesAreSlowAndFarMoreTh
       EXPECT_GT(norm(slowed(state.slow_ways, lateral)), 0.99) << scale;
       EXPECT_GT(norm(slowed(state.slow_turns, lateral)), 0.99) << scale;
     }
-    EXPECT_EQ(state.speed_share, 1.0) << scale;
+    EXPECT_GT(state.speed_share, 0.8) << scale;
     way = norm(along);
     turn = norm(about);
   }
