@@ -40,12 +40,6 @@ Vec3 slowed(const SlowDirections& slow, const Vec3& motion) noexcept {
   return out;
 }
 
-Vec3 unslowed(const SlowDirections& slow, const Vec3& motion) noexcept {
-  Vec3 out{};
-  for (Index i = 0; i < 3; ++i) out = add(out, scale(slow.axis[i], dot(slow.axis[i], motion) / slow.share[i]));
-  return out;
-}
-
 std::array<Vec3, 3> eigenvectors(Symmetric3 matrix) noexcept {
   std::array<Vec3, 3> vectors = SlowDirections{}.axis;
   for (std::int32_t sweep = 0; sweep < kSweeps; ++sweep) {

@@ -23,9 +23,6 @@ inline bool is_even(const SlowDirections& slow) noexcept {
 // What is left of a motion when each direction has its share.
 Vec3 slowed(const SlowDirections& slow, const Vec3& motion) noexcept;
 
-// The motion of which `slowed` leaves this one.
-Vec3 unslowed(const SlowDirections& slow, const Vec3& motion) noexcept;
-
 // Unit eigenvectors of a symmetric matrix: Jacobi's rotations, five sweeps of three (Golub and Van Loan, Matrix
 // Computations, 8.5). Cost: 1,200 instructions.
 std::array<Vec3, 3> eigenvectors(Symmetric3 matrix) noexcept;

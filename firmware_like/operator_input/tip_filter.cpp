@@ -57,26 +57,34 @@ Vec3 taken_back(double free, double most, const Vec3& lead, ChannelState& channe
   return taken;
 }
 
-// A velocity of which every direction keeps its share, or comes nearer to it by as much as may be braked in a tick: how
-// slow a direction is changes with the pose.
-Vec3 with_shares(const FilterBounds& bounds, const SlowDirections& slow, double tick_s, const Vec3& velocity) noexcept {
-  Vec3 out = velocity;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double along = dot(slow.axis[i], velocity), speed = std::fabs(along);
-    const double allowed = larger(slow.share[i] * bounds.speed, speed - bounds.accel * tick_s);
-    if (speed > allowed) out = subtract(out, scale(slow.axis[i], along < 0.0 ? allowed - speed : speed - allowed));
-  }
-  return out;
+Vec3 along_axes(const SlowDirections& slow, const Vec3& v) noexcept {
+  return {dot(slow.axis[0], v), dot(slow.axis[1], v), dot(slow.axis[2], v)};
 }
 
-// One tick of a channel that moves as if no direction were slow, and of whose motion each direction has its share.
-ChannelLimits follow_slowed(const FilterBounds& bounds, const SlowDirections& slow, double tick_s, const Vec3& error,
-                            ChannelState& state) noexcept {
-  if (is_even(slow)) return follow_channel(bounds, tick_s, error, state);
-  const Vec3 velocity = with_shares(bounds, slow, tick_s, state.velocity);
-  ChannelState even{unslowed(slow, velocity), saturate(unslowed(slow, state.acceleration), bounds.accel).value};
-  const ChannelLimits limits = follow_channel(bounds, tick_s, error, even);
-  state = {slowed(slow, even.velocity), slowed(slow, even.acceleration)};
+Vec3 from_axes(const SlowDirections& slow, const Vec3& along) noexcept {
+  return add(add(scale(slow.axis[0], along[0]), scale(slow.axis[1], along[1])), scale(slow.axis[2], along[2]));
+}
+
+// One tick of a channel that moves, along the axes, as if no direction were slow, and of whose motion each direction
+// has its share. How slow a direction is changes with the pose: what is faster comes nearer to its share by as much as
+// may be braked in a tick.
+ChannelLimits follow_slowed(const FilterBounds& bounds, const SlowDirections* directions, double tick_s,
+                            const Vec3& error, ChannelState& state) noexcept {
+  if (directions == nullptr || is_even(*directions)) return follow_channel(bounds, tick_s, error, state);
+  const SlowDirections& slow = *directions;
+  ChannelState even{along_axes(slow, state.velocity), along_axes(slow, state.acceleration)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (slow.share[i] == 1.0) continue;
+    const double allowed = larger(slow.share[i] * bounds.speed, std::fabs(even.velocity[i]) - bounds.accel * tick_s);
+    even.velocity[i] = clamp(even.velocity[i], -allowed, allowed) / slow.share[i];
+    even.acceleration[i] = clamp(even.acceleration[i] / slow.share[i], -bounds.accel, bounds.accel);
+  }
+  const ChannelLimits limits = follow_channel(bounds, tick_s, along_axes(slow, error), even);
+  for (std::size_t i = 0; i < 3; ++i) {
+    even.velocity[i] *= slow.share[i];
+    even.acceleration[i] *= slow.share[i];
+  }
+  state = {from_axes(slow, even.velocity), from_axes(slow, even.acceleration)};
   return limits;
 }
 

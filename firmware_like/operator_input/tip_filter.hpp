@@ -48,7 +48,8 @@ struct TipFilterConfig {
   FilterBounds linear{};
   FilterBounds angular{};
   double tick_s = 0.0;
-  SlowDirections slow_ways{}, slow_turns{};  // of the base frame, in which the tip takes less of every bound
+  // Of the base frame, in which the tip takes less of every bound; null: none.
+  const SlowDirections *slow_ways = nullptr, *slow_turns = nullptr;
 };
 
 // What acted in one step of a channel.

@@ -123,7 +123,7 @@ TEST(SlowDirections, EigenvectorsOfASymmetricMatrixAreUnitVectorsAtRightAnglesTh
   }
 }
 
-TEST(SlowDirections, WhatTheyLeaveOfAMotionGivesTheMotionAgain) {
+TEST(SlowDirections, LeaveOfAMotionItsShareAlongEachAxis) {
   SlowDirections slow;
   EXPECT_TRUE(is_even(slow));
   slow.axis = eigenvectors({1.0, 0.5, 2.0, 0.1, -0.7, 3.0});
@@ -131,10 +131,9 @@ TEST(SlowDirections, WhatTheyLeaveOfAMotionGivesTheMotionAgain) {
   EXPECT_FALSE(is_even(slow));
   Random random(8);
   for (std::int32_t i = 0; i < 100; ++i) {
-    const Vec3 motion = random.vector(0.1), left = slowed(slow, motion), again = unslowed(slow, left);
+    const Vec3 motion = random.vector(0.1), left = slowed(slow, motion);
     for (std::size_t k = 0; k < 3; ++k) {
       EXPECT_NEAR(dot(slow.axis[k], left), slow.share[k] * dot(slow.axis[k], motion), 1e-15) << i;
-      EXPECT_NEAR(again[k], motion[k], 1e-9) << i;
     }
   }
 }

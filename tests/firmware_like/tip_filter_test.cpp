@@ -252,8 +252,11 @@ TEST(TipFilter, TurnsAboutTheAxisBetweenTheTwoAttitudesInTheBaseFrame) {
 
 TEST(TipFilter, ASlowDirectionHasItsShareOfEveryBoundAndTheOthersAllOfThem) {
   TipFilterConfig slow = config();
-  slow.slow_ways.share[0] = 0.01;
-  slow.slow_turns.share[2] = 0.05;
+  SlowDirections ways, turns;
+  ways.share[0] = 0.01;
+  turns.share[2] = 0.05;
+  slow.slow_ways = &ways;
+  slow.slow_turns = &turns;
   TipFilterState state, free;
   const Pose target{{0.3, 0.3, 0.0}, quaternion_of({0.3, 0.0, 0.3})};
   for (std::int32_t i = 0; i < 500; ++i) {
@@ -274,7 +277,9 @@ TEST(TipFilter, ASlowDirectionHasItsShareOfEveryBoundAndTheOthersAllOfThem) {
 // The pose comes near one that loses directions while the tip moves: what it does now goes on, more slowly.
 TEST(TipFilter, ADirectionThatBecomesSlowInMotionBrakesWithinTheBounds) {
   TipFilterConfig slow = config();
-  slow.slow_ways.share[0] = 0.001;
+  SlowDirections ways;
+  ways.share[0] = 0.001;
+  slow.slow_ways = &ways;
   TipFilterState state;
   const Pose target{{1.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
   for (std::int32_t i = 0; i < 500; ++i) filter_tip(config(), target, state);

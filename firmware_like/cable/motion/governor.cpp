@@ -73,7 +73,7 @@ using LimitRows = std::array<Vec3, kMaxTheta + kMaxCables + 6>;
 
 // What a unit of the tip's way, and of its turn, takes of every joint's or cable's limit, whichever way it goes.
 struct Taken {
-  LimitRows way{}, turn{};
+  LimitRows way, turn;  // the first `count` of each
   Index count = 0;
 
   void take(const Task& per_tip, double limit) noexcept {
@@ -171,18 +171,36 @@ void update_accel_shares(const RobotParams& table, const Jacobian& J, std::uint3
   state.angular_share = accel_share_of(taken.turn, taken.count, state.slow_turns, limits.tip_angular_accel_rad_s2);
 }
 
+// What the joints' rates and the cables' speeds are taken by.
+bool look_at_rates(const RobotParams& table, const CableGeometry& geometry, const Jacobian& J, std::uint32_t held_mask,
+                   Taken& out) noexcept {
+  const MotionLimits& limits = table.limits;
+  const auto speed_of_cable = [&limits](Index) noexcept { return limits.cable_speed_m_s; };
+  return look_at(table, J, held_mask, limits.theta_rate_rad_s, geometry.jacobian_m_rad, speed_of_cable, out);
+}
+
 void update_speed_shares(const RobotParams& table, const CableGeometry& geometry, const Jacobian& J,
                          std::uint32_t held_mask, GovernorState& state) noexcept {
-  const MotionLimits& limits = table.limits;
   Taken taken;
-  const auto speed_of_cable = [&limits](Index) noexcept { return limits.cable_speed_m_s; };
-  if (!look_at(table, J, held_mask, limits.theta_rate_rad_s, geometry.jacobian_m_rad, speed_of_cable, taken)) return;
-  state.slow_ways = lost_directions(taken.way, taken.count, limits.tip_speed_m_s);
-  state.slow_turns = lost_directions(taken.turn, taken.count, limits.tip_rate_rad_s);
-  state.speed_share =
-      speed_of(state.linear_share, share_of(taken.way, taken.count, state.slow_ways, limits.tip_speed_m_s));
-  state.turn_share =
-      speed_of(state.angular_share, share_of(taken.turn, taken.count, state.slow_turns, limits.tip_rate_rad_s));
+  if (!look_at_rates(table, geometry, J, held_mask, taken)) return;
+  const double way = share_of(taken.way, taken.count, state.slow_ways, table.limits.tip_speed_m_s);
+  const double turn = share_of(taken.turn, taken.count, state.slow_turns, table.limits.tip_rate_rad_s);
+  state.speed_share = speed_of(state.linear_share, way);
+  state.turn_share = speed_of(state.angular_share, turn);
+}
+
+void update_slow_ways(const RobotParams& table, const CableGeometry& geometry, const Jacobian& J,
+                      std::uint32_t held_mask, GovernorState& state) noexcept {
+  Taken taken;
+  if (look_at_rates(table, geometry, J, held_mask, taken))
+    state.slow_ways = lost_directions(taken.way, taken.count, table.limits.tip_speed_m_s);
+}
+
+void update_slow_turns(const RobotParams& table, const CableGeometry& geometry, const Jacobian& J,
+                       std::uint32_t held_mask, GovernorState& state) noexcept {
+  Taken taken;
+  if (look_at_rates(table, geometry, J, held_mask, taken))
+    state.slow_turns = lost_directions(taken.turn, taken.count, table.limits.tip_rate_rad_s);
 }
 
 // What each theta may brake with by itself, with a part of the room.
@@ -228,6 +246,8 @@ void look_at_load(const RobotParams& table, const CableGeometry& geometry, const
   if (cycle == 0 && tick == 9) update_accel_shares(table, arm.tip_jacobian, held_mask, state);
   if (cycle == 1 && tick == 8) update_accels(table, state);
   if (cycle == 1 && tick == 9) update_speed_shares(table, geometry, arm.tip_jacobian, held_mask, state);
+  if (cycle == 2 && tick == 6) update_slow_turns(table, geometry, arm.tip_jacobian, held_mask, state);
+  if (cycle == 2 && tick == 9) update_slow_ways(table, geometry, arm.tip_jacobian, held_mask, state);
 }
 
 double room_taken(const RobotParams& table, const ThetaVector& accel_rad_s2, const GovernorState& state) noexcept {

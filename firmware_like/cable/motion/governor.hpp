@@ -29,7 +29,7 @@ constexpr double kGovernorLoss = 6.0;
 // A direction that has less than such a share of the speed of the best one is lost: the tip goes there more slowly,
 // with the power 3.5 of what is missing, and in the others as if it were not lost.
 constexpr double kGovernorLost = 0.3;
-constexpr double kGovernorNearLost = 0.5;  // of the tip's acceleration limit, where a direction is lost
+constexpr double kGovernorNearLost = 0.5;     // of the tip's acceleration limit, where a direction is lost
 constexpr std::uint32_t kGovernorCycles = 3;  // of the shape's ten ticks: it looks anew in so many of them
 
 struct GovernorState {
@@ -46,7 +46,7 @@ struct GovernorState {
 // Room for the cables of every segment under a plan at rest.
 void take_room(const RobotParams& table, const TensionPlan& plan, GovernorState& state) noexcept;
 
-// One tick of the look: dear work is spread over ticks 5, 6, 8 and 9 of two cycles, which have little else to do.
+// One tick of the look: dear work is spread over ticks 5, 6, 8 and 9 of three cycles, which have little else to do.
 // Before the arm may move it has looked for seconds. Cost: 9,000 instructions in one of these ticks.
 void look_at_load(const RobotParams& table, const CableGeometry& geometry, const TensionRatio& ratio,
                   const ArmKinematics& arm, std::uint32_t held_mask, std::uint32_t tick, GovernorState& state) noexcept;

@@ -285,15 +285,16 @@ TipFilterConfig tip_filter_config(const RobotParams& table, double tip_speed_m_s
                              angular_share * larger(0.3, angular_share) * limits.tip_angular_jerk_rad_s3};
   const bool lowered = tip_speed_m_s > 0.0 && tip_speed_m_s < linear.speed;
   return {with_lag(linear, limits.tip_lag_s, lowered ? tip_speed_m_s : linear.speed),
-          with_lag(angular, limits.tip_lag_s, angular.speed), table.tick_s, governor.slow_ways, governor.slow_turns};
+          with_lag(angular, limits.tip_lag_s, angular.speed), table.tick_s, &governor.slow_ways, &governor.slow_turns};
 }
 
 double lost_share(const MotionState& state) noexcept {
-  if (!is_tip(state.to)) return 1.0;
+  const GovernorState& governor = state.governor;
+  if (!is_tip(state.to) || (is_even(governor.slow_ways) && is_even(governor.slow_turns))) return 1.0;
   const Vec3 way_m = subtract(state.to.tip_in_base.position_m, state.filter.pose.position_m);
   const Vec3 turn_rad =
       rotation_vector(multiply(state.to.tip_in_base.quaternion, conjugate(state.filter.pose.quaternion)));
-  return smaller(share_left(state.governor.slow_ways, way_m), share_left(state.governor.slow_turns, turn_rad));
+  return smaller(share_left(governor.slow_ways, way_m), share_left(governor.slow_turns, turn_rad));
 }
 
 Twist tip_twist(const RobotParams& table, const MotionState& state) noexcept {

@@ -40,10 +40,13 @@ struct MotionState {
   std::uint32_t limits = 0;  // LimitBit of this tick
 };
 
+// What an arm leaves that no governor slows.
+inline constexpr GovernorState kUngoverned{};
+
 // Bounds of the tip filter from the robot table; `tip_speed_m_s` may lower the linear speed (0 = the robot's), the
-// governor the accelerations.
+// governor the rest; the config refers to its slow directions.
 TipFilterConfig tip_filter_config(const RobotParams& table, double tip_speed_m_s,
-                                  const GovernorState& governor = {}) noexcept;
+                                  const GovernorState& governor = kUngoverned) noexcept;
 
 // Stands still at theta.
 void reset_motion(const RobotParams& table, const ThetaVector& theta_rad, MotionState& state) noexcept;
