@@ -8,8 +8,6 @@ end. A failure does not keep later stages from running. Exit code 0: all passed;
 import collections
 import concurrent.futures
 import contextlib
-import contextvars
-import io
 import json
 import os
 import pathlib
@@ -60,12 +58,10 @@ NO_SHARED_MEMORY = (
     "/dev/shm is not there or cannot be written; as root: mkdir -p /dev/shm && mount -t tmpfs tmpfs /dev/shm"
 )
 LAST_LINES = 40  # of what a failed test printed, said once more beside the verdict
-# Where a stage prints: standard output, or what is kept until the stages beside it are over.
-OUT = contextvars.ContextVar("OUT", default=None)
 
 
 def tell(text):
-    print(text, file=OUT.get(), flush=True)
+    print(text, flush=True)
 
 
 def complain(text):
@@ -139,26 +135,6 @@ def stage(name):
     start = time.monotonic()
     yield
     tell(f"   {name}: {time.monotonic() - start:.0f} s")
-
-
-@contextlib.contextmanager
-def meanwhile(*stages):
-    """(Name, function) of stages that leave a processor idle: they run in turn beside those of the block, and what they
-    print comes at its end."""
-    printed = io.StringIO()
-
-    def run():
-        OUT.set(printed)
-        for name, work in stages:
-            with stage(name):
-                work()
-
-    with concurrent.futures.ThreadPoolExecutor(1) as pool:
-        over = pool.submit(run)
-        yield
-        concurrent.futures.wait([over])
-        print(printed.getvalue(), end="", flush=True)
-        over.result()
 
 
 def check(what, *command):
@@ -264,7 +240,7 @@ def other_tests():
     """What needs the programs as they are shipped. The unit tests are not built there, and ctest knows of each of their
     programs no more than that: sanitizers() runs them. That both compilers make the same of the core, bits.quick sees.
     """
-    run_ctest("tests", ".", "-LE", "unit", "-E", f"_NOT_BUILT$|{PROOF}", "-j", str(JOBS + 1))
+    run_ctest("tests", ".", "-LE", "unit", "-E", f"_NOT_BUILT$|{PROOF}")
 
 
 def sanitizers():
@@ -368,23 +344,26 @@ def deep():
             TALLY.count(name, is_clean())
     if not built(lambda: build_tests("all", *UNSANITIZED, env=keeping_objects())):
         return
-    sanitized, threaded = ("unit_tests", "fuzz_targets"), [f"tests/{folder}/all" for folder in THREADED]
-    with beside(("checked", *sanitized), ("tsan", *threaded)):
-        with stage("page"):
-            page()
-        with stage("tests"):
-            other_tests()
-    alone = (("vcan", vcan), ("bare root", lambda: bare_root(objects())), ("no-alloc", no_alloc))
-    with meanwhile(*alone):
-        with stage("unit tests"):
-            compiles = sanitizers()
-        with stage("threads"):
-            threads(THREADED)
-        with stage("clang-tidy"):
-            tidy()
-        with stage("fuzzing"):
-            if compiles:
-                fuzzing()
+    with stage("page"):
+        page()
+    with stage("tests"):
+        other_tests()
+    threaded = [f"tests/{folder}/all" for folder in THREADED]
+    with stage("vcan"), beside(("checked", "unit_tests", "fuzz_targets"), ("tsan", *threaded)):
+        vcan()
+    with stage("unit tests"):
+        compiles = sanitizers()
+    with stage("bare root"):
+        bare_root(objects())
+    with stage("threads"):
+        threads(THREADED)
+    with stage("clang-tidy"):
+        tidy()
+    with stage("fuzzing"):
+        if compiles:
+            fuzzing()
+    with stage("no-alloc"):
+        no_alloc()
 
 
 def only_page():
