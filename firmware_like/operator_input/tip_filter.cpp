@@ -73,13 +73,19 @@ ChannelLimits follow_slowed(const FilterBounds& bounds, const SlowDirections* di
   if (directions == nullptr || is_even(*directions)) return follow_channel(bounds, tick_s, error, state);
   const SlowDirections& slow = *directions;
   ChannelState even{along_axes(slow, state.velocity), along_axes(slow, state.acceleration)};
+  // What a slow direction lacks counts in full where its share of the speed makes up for it, and beside the others no
+  // more than what the speed is full with.
+  Vec3 lacking = along_axes(slow, error);
+  const double full = bounds.speed / pull_1_s(bounds);
   for (std::size_t i = 0; i < 3; ++i) {
     if (slow.share[i] == 1.0) continue;
+    const double most = larger(full, std::fabs(lacking[i]));
+    lacking[i] = clamp(lacking[i] / slow.share[i], -most, most);
     const double allowed = larger(slow.share[i] * bounds.speed, std::fabs(even.velocity[i]) - bounds.accel * tick_s);
     even.velocity[i] = clamp(even.velocity[i], -allowed, allowed) / slow.share[i];
     even.acceleration[i] = clamp(even.acceleration[i] / slow.share[i], -bounds.accel, bounds.accel);
   }
-  const ChannelLimits limits = follow_channel(bounds, tick_s, along_axes(slow, error), even);
+  const ChannelLimits limits = follow_channel(bounds, tick_s, lacking, even);
   for (std::size_t i = 0; i < 3; ++i) {
     even.velocity[i] *= slow.share[i];
     even.acceleration[i] *= slow.share[i];

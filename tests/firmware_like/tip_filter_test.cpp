@@ -274,6 +274,23 @@ TEST(TipFilter, ASlowDirectionHasItsShareOfEveryBoundAndTheOthersAllOfThem) {
   EXPECT_LT(state.pose.position_m[0], 0.02 * free.pose.position_m[0]);
 }
 
+// Its speed is a share of the others', its way of coming there is theirs.
+TEST(TipFilter, ASlowDirectionArrivesInTheTimeThatItsSpeedTakes) {
+  TipFilterConfig slow = config();
+  SlowDirections ways;
+  ways.share[0] = 0.2;
+  slow.slow_ways = &ways;
+  TipFilterState state;
+  const Pose target{{0.03, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
+  const double travel_s = target.position_m[0] / (0.2 * slow.linear.speed);
+  const auto ticks = static_cast<std::int32_t>((travel_s + 4.0) / slow.tick_s);
+  for (std::int32_t i = 0; i < ticks; ++i) {
+    filter_tip(slow, target, state);
+    ASSERT_LE(state.linear.velocity[0], 0.2 * slow.linear.speed * kWithRounding) << i;
+  }
+  EXPECT_NEAR(state.pose.position_m[0], target.position_m[0], 0.001);
+}
+
 // The pose comes near one that loses directions while the tip moves: what it does now goes on, more slowly.
 TEST(TipFilter, ADirectionThatBecomesSlowInMotionBrakesWithinTheBounds) {
   TipFilterConfig slow = config();
