@@ -33,7 +33,7 @@ class Examples(unittest.TestCase):
         self.assertRegex(said_by(EXAMPLES[0]), r"^\d{4,} ticks, ends \w+, moved [12]\.\d deg\n$")
 
     def test_what_the_readme_shows_moves_the_arm_and_says_where_it_is(self):
-        self.assertEqual(said_by(README[0]), "theta 9 is at 2.0 deg\n")
+        self.assertEqual(said_by(README[0]), "theta 9 is at 10.0 deg\n")
 
     def test_the_smallest_example_reads_the_state(self):
         said = said_by((FOLDER / "01_read_state" / "read_state.py").read_text())
