@@ -53,12 +53,14 @@ TEST(LatencyReport, ComparesTheWorstWithThePeriodAndNamesWhatTheMachineLacks) {
 TEST(LatencyReport, SaysLoudlyWhenDeadlinesWereMissedOrTheArmWasOff) {
   LatencyMeasurement measured = measurement(2);
   measured.enabled = false;
-  const Json silent{{"number", 3002}, {"name", "drive_silent"}, {"text", "A drive sent nothing."}};
-  measured.last_state["faults"] = {silent, silent};
+  const Json silent{{"number", 3002}, {"name", "drive_silent"}, {"where", "drive 3 (node 3, segment 1)"}};
+  Json other = silent;
+  other["where"] = "drive 4 (node 4, segment 2)";
+  measured.last_state["faults"] = {silent, other};
   const std::string text = latency_text(report_of(measured));
   EXPECT_TRUE(names(text, {"deadlines missed: 2"}));
   EXPECT_NE(text.find("NOT ENABLED"), std::string::npos) << text;
-  EXPECT_TRUE(names(text, {"fault 3002", "2 times", "drive_silent"}));
+  EXPECT_TRUE(names(text, {"fault 3002", "drive_silent", "drives 3", "4 (node 4, segment 2)"}));
 }
 
 TEST(LatencyReport, BinsDoubleAndTheLargestHasTheLongestBar) {
