@@ -129,12 +129,13 @@ TEST(TeleopSession, LinesSayStateOwnerClearanceForceAndWhatIsWrong) {
     EXPECT_NE(fine.find(word), std::string::npos) << word << " in\n" << fine;
   EXPECT_EQ(fine.find("REFUSED"), std::string::npos) << "nothing was asked yet";
   Json bad = state("pilot", "FAULT");
-  bad["faults"] = {{{"number", 3002}, {"name", "drive_silent"}, {"index", 3}, {"remedy", "Check the supply."}}};
+  bad["faults"] = {{{"number", 3002}, {"name", "drive_silent"}, {"remedy", "Check the supply."}}};
+  bad["faults"][0]["where"] = "drive 4 (node 4, segment 2)";
   bad["stop"] = {{"by", "anna"}, {"reason", "smoke\x1b[2J"}};
   bad["verdict"] = {{"released", false}, {"code", 104}, {"text", "angle limit"}, {"remedy", "go back"}};
   const std::string wrong = text_of(session_at(bad));
-  for (const char* word : {"motion belongs to pilot", "3002 drive_silent of 3", "Check the supply.", "by anna: smoke",
-                           "angle limit: go back"})
+  for (const char* word : {"motion belongs to pilot", "3002 drive_silent", "drive 4 (node 4, segment 2)",
+                           "Check the supply.", "by anna: smoke", "angle limit: go back"})
     EXPECT_NE(wrong.find(word), std::string::npos) << word << " in\n" << wrong;
   EXPECT_EQ(wrong.find('\x1b'), std::string::npos) << "texts of others move no cursor";
 }
