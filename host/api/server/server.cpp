@@ -115,9 +115,10 @@ bool ApiServer::read_one(Client& client) {
 void ApiServer::take_packet(Client& client, const std::string& packet) {
   Json request;
   try {
-    if (packet.size() > kMaxPacketBytes)
+    if (packet.size() > kMaxPacketBytes) {
       throw RequestError("bad_request",
                          "packet over " + std::to_string(kMaxPacketBytes) + " bytes: send a smaller one");
+    }
     request = Json::parse(packet);
     if (!request.is_object()) throw RequestError("bad_request", "a request is one JSON object");
     if (request.contains("id") && !request["id"].is_number_integer()) {
