@@ -106,7 +106,8 @@ def enabling_commands(traffic, first_slot, end_slot):
 def enabling_without_clear(traffic, first_slot, end_slot):
     """Between the stop and the operator's clear and enable, no drive is told to enable operation."""
     return [
-        f"{drive_text(node - 1)}, slot {found[0].slot}: told to enable operation while the fault is latched ({len(found)} times)"
+        f"{drive_text(node - 1)}, slot {found[0].slot}: told to enable operation while the fault is latched"
+        f" ({len(found)} times)"
         for node, found in enabling_commands(traffic, first_slot, end_slot)
     ]
 
@@ -120,7 +121,8 @@ def targets_that_move(traffic, first_slot, end_slot):
         targets = [command.target for command in found]
         if max(targets) != min(targets):
             complaints.append(
-                f"{drive_text(node - 1)}: the target moves by {max(targets) - min(targets)} counts while the fault is latched"
+                f"{drive_text(node - 1)}: the target moves by {max(targets) - min(targets)} counts"
+                " while the fault is latched"
             )
     return complaints
 
@@ -134,7 +136,8 @@ def drums_that_move(traffic, first_slot, end_slot, left_out=(), allowed_counts=1
         places = [report.position for report in reports if first_slot <= report.slot < end_slot]
         if node not in left_out and places and max(places) - min(places) > allowed_counts:
             complaints.append(
-                f"{drive_text(node - 1)}: the drum moves by {max(places) - min(places)} counts while the fault is latched"
+                f"{drive_text(node - 1)}: the drum moves by {max(places) - min(places)} counts"
+                " while the fault is latched"
             )
     return complaints
 

@@ -431,8 +431,8 @@ def stops_not_confirmed(ticks):
             unplaced += not shown and (3008, drive) not in names(now)
             if not shown and (3008, drive) not in names(now) and unplaced > now.dropped:
                 complaints.append(
-                    f"tick {now.tick}: {now.state} is reached, but {drive_text(drive)} is not shown to be without torque, nor"
-                    " is 3008 latched"
+                    f"tick {now.tick}: {now.state} is reached, but {drive_text(drive)} is not shown to be without torque,"
+                    " nor is 3008 latched"
                 )
     return complaints
 
@@ -481,8 +481,8 @@ def drums_moving_while_off(ticks, left_out):
             places = [row.position[drive] for row in rows if row.age[drive] == 0]
             if drive not in left_out and places and max(places) - min(places) > 1:
                 complaints.append(
-                    f"ticks {first} to {end}: the drum of {drive_text(drive)} moves by {max(places) - min(places)} counts"
-                    " while the arm is off"
+                    f"ticks {first} to {end}: the drum of {drive_text(drive)} moves by"
+                    f" {max(places) - min(places)} counts while the arm is off"
                 )
     return complaints
 

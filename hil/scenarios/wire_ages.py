@@ -50,8 +50,8 @@ def wrong_ages(ticks, arrivals, left_out=()):
             # What waited while the core stood still it takes for new when it goes on; 2001 is latched then.
             if not min(youngest - now.lost_ticks, MAX_AGE) <= now.age[drive] <= oldest + LATE:
                 complaints.append(
-                    f"tick {now.tick}: the core takes the report of {drive_text(drive)} to be {now.age[drive]} ticks old; the wire"
-                    f" shows {youngest} to {oldest}"
+                    f"tick {now.tick}: the core takes the report of {drive_text(drive)} to be {now.age[drive]} ticks old;"
+                    f" the wire shows {youngest} to {oldest}"
                 )
                 break
     return complaints

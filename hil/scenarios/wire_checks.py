@@ -90,7 +90,8 @@ def boot_order(frames, node):
     names = [step for step, _ in order]
     if names[:4] not in (["boot-up", "SDO", "start", "operational"], ["boot-up", "SDO", "start", "PDO"]):
         return [
-            f"{drive_text(node - 1)}: after the reset come {', '.join(names[:5])}; CiA 301 asks for boot-up, SDO, start, then PDO"
+            f"{drive_text(node - 1)}: after the reset come {', '.join(names[:5])};"
+            " CiA 301 asks for boot-up, SDO, start, then PDO"
             " and operational"
         ]
     objects = [frame.object for step, frame in steps if step == "SDO"]

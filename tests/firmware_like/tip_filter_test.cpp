@@ -274,12 +274,20 @@ TEST(TipFilter, ASlowDirectionHasItsShareOfEveryBoundAndTheOthersAllOfThem) {
   EXPECT_LT(state.pose.position_m[0], 0.02 * free.pose.position_m[0]);
 }
 
+// A filter with one slow direction of way, x.
+struct SlowAlongX {
+  explicit SlowAlongX(double share) {
+    ways.share[0] = share;
+    config.slow_ways = &ways;
+  }
+  SlowDirections ways;
+  TipFilterConfig config = cable::config();
+};
+
 // Its speed is a share of the others', its way of coming there is theirs.
 TEST(TipFilter, ASlowDirectionArrivesInTheTimeThatItsSpeedTakes) {
-  TipFilterConfig slow = config();
-  SlowDirections ways;
-  ways.share[0] = 0.2;
-  slow.slow_ways = &ways;
+  const SlowAlongX along_x(0.2);
+  const TipFilterConfig& slow = along_x.config;
   TipFilterState state;
   const Pose target{{0.03, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
   const double travel_s = target.position_m[0] / (0.2 * slow.linear.speed);
@@ -293,10 +301,8 @@ TEST(TipFilter, ASlowDirectionArrivesInTheTimeThatItsSpeedTakes) {
 
 // The pose comes near one that loses directions while the tip moves: what it does now goes on, more slowly.
 TEST(TipFilter, ADirectionThatBecomesSlowInMotionBrakesWithinTheBounds) {
-  TipFilterConfig slow = config();
-  SlowDirections ways;
-  ways.share[0] = 0.001;
-  slow.slow_ways = &ways;
+  const SlowAlongX along_x(0.001);
+  const TipFilterConfig& slow = along_x.config;
   TipFilterState state;
   const Pose target{{1.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
   for (std::int32_t i = 0; i < 500; ++i) filter_tip(config(), target, state);

@@ -13,8 +13,8 @@ using Index = std::size_t;
 using Task = std::array<double, 6>;
 
 constexpr double kDamped = 1e-3;  // m2/rad2: directions that are all but lost take no wild accelerations
-constexpr double kLostTakes =
-    0.01;  // sqrt(kDamped / 10): a lost direction takes as much of ten thetas as one that is not
+// sqrt(kDamped / 10): a direction that is lost altogether takes as much of ten thetas as one that is all but lost.
+constexpr double kLostTakes = 0.01;
 
 Index theta_total(const RobotParams& table) noexcept { return static_cast<Index>(table.theta_count()); }
 
@@ -84,6 +84,9 @@ struct Taken {
   }
 };
 
+// The share of a motion that takes no more than kGovernorTip of a limit.
+double share_within(double taken) noexcept { return taken > kGovernorTip ? kGovernorTip / taken : 1.0; }
+
 // The share of so much way or turn, the slow directions less of it, that takes no more than kGovernorTip of any limit.
 double share_of(const LimitRows& rows, Index count, const SlowDirections& slow, double most) noexcept {
   const bool even = is_even(slow);
@@ -92,8 +95,7 @@ double share_of(const LimitRows& rows, Index count, const SlowDirections& slow, 
     const Vec3 row = even ? rows[i] : slowed(slow, rows[i]);
     taken2 = larger(taken2, dot(row, row));
   }
-  const double taken = std::sqrt(taken2) * most;
-  return taken > kGovernorTip ? kGovernorTip / taken : 1.0;
+  return share_within(std::sqrt(taken2) * most);
 }
 
 // An arm that has lost a direction stands straight or folded: it sways more about each change of acceleration.
@@ -119,7 +121,7 @@ SlowDirections lost_directions(const LimitRows& rows, Index count, double most) 
   for (Index a = 0; a < 3; ++a) {
     double taken = 0.0;
     for (Index i = 0; i < count; ++i) taken = larger(taken, std::fabs(dot(rows[i], out.axis[a])));
-    share[a] = taken * most > kGovernorTip ? kGovernorTip / (taken * most) : 1.0;
+    share[a] = share_within(taken * most);
     best = larger(best, share[a]);
   }
   for (Index a = 0; a < 3; ++a) {
@@ -189,20 +191,6 @@ void update_speed_shares(const RobotParams& table, const CableGeometry& geometry
   state.turn_share = speed_of(state.angular_share, turn);
 }
 
-void update_slow_ways(const RobotParams& table, const CableGeometry& geometry, const Jacobian& J,
-                      std::uint32_t held_mask, GovernorState& state) noexcept {
-  Taken taken;
-  if (look_at_rates(table, geometry, J, held_mask, taken))
-    state.slow_ways = lost_directions(taken.way, taken.count, table.limits.tip_speed_m_s);
-}
-
-void update_slow_turns(const RobotParams& table, const CableGeometry& geometry, const Jacobian& J,
-                       std::uint32_t held_mask, GovernorState& state) noexcept {
-  Taken taken;
-  if (look_at_rates(table, geometry, J, held_mask, taken))
-    state.slow_turns = lost_directions(taken.turn, taken.count, table.limits.tip_rate_rad_s);
-}
-
 // What each theta may brake with by itself, with a part of the room.
 void update_accels(const RobotParams& table, GovernorState& state) noexcept {
   for (Index k = 0; k < theta_total(table); ++k) {
@@ -246,8 +234,13 @@ void look_at_load(const RobotParams& table, const CableGeometry& geometry, const
   if (cycle == 0 && tick == 9) update_accel_shares(table, arm.tip_jacobian, held_mask, state);
   if (cycle == 1 && tick == 8) update_accels(table, state);
   if (cycle == 1 && tick == 9) update_speed_shares(table, geometry, arm.tip_jacobian, held_mask, state);
-  if (cycle == 2 && tick == 6) update_slow_turns(table, geometry, arm.tip_jacobian, held_mask, state);
-  if (cycle == 2 && tick == 9) update_slow_ways(table, geometry, arm.tip_jacobian, held_mask, state);
+  const auto update_slow = [&](LimitRows Taken::*rows, double most, SlowDirections& slow) noexcept {
+    Taken taken;
+    if (look_at_rates(table, geometry, arm.tip_jacobian, held_mask, taken))
+      slow = lost_directions(taken.*rows, taken.count, most);
+  };
+  if (cycle == 2 && tick == 6) update_slow(&Taken::turn, table.limits.tip_rate_rad_s, state.slow_turns);
+  if (cycle == 2 && tick == 9) update_slow(&Taken::way, table.limits.tip_speed_m_s, state.slow_ways);
 }
 
 double room_taken(const RobotParams& table, const ThetaVector& accel_rad_s2, const GovernorState& state) noexcept {

@@ -23,8 +23,8 @@ constexpr double kGovernorLeast_N = 4.0;  // room where a pose leaves none: the 
 constexpr double kGovernorAlone = 0.4;    // of a theta's acceleration limit, where it slows down by itself
 constexpr double kGovernorTip = 0.55;     // of room and rates, for the tip's way alone and for its turn alone
 constexpr double kGovernorSpeed = 0.7;    // of the acceleration: where less of it is missing, none of the speed is
-// Near a pose where the tip all but loses a direction thetas turn with v / s and are accelerated by v^2 / s^3, s the
-// Jacobian's least singular value, with which the share of the rates goes: the speed falls with its power 2.5.
+// Where thetas turn with v / s and are accelerated by v^2 / s^3, s the Jacobian's least singular value, with which the
+// share of the rates goes, the speed falls with the power 2.5 of what the rates leave in every direction.
 constexpr double kGovernorLoss = 6.0;
 // A direction that has less than such a share of the speed of the best one is lost: the tip goes there more slowly,
 // with the power 3.5 of what is missing, and in the others as if it were not lost.

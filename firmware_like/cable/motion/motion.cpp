@@ -24,9 +24,9 @@ constexpr double kBrakeRoom = 0.8;
 // An arm that was held back makes up for it no faster than it can slow down again, with such a share of the tip's
 // acceleration; with all that its cables have, at once, it would swing.
 constexpr double kCatchUp = 0.3;
-constexpr double kBehind =
-    1e-4;                      // m and rad: from here the target does not wait, or a blocked arm could not be led away
 constexpr double kWay = 1e-3;  // m and rad: a shorter one is none
+// m and rad: from here the target does not wait, or a blocked arm could not be led away
+constexpr double kBehind = 1e-4;
 constexpr double kHeldNear_rad = 2e-6;    // from here a held variable that has slowed down
 constexpr double kHeldSlow_rad_s = 2e-5;  // to this rate
 constexpr double kHeldArrival_rad_s =
