@@ -89,7 +89,9 @@ void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, b
   app.add_option("--linkage-error", options.linkage_error,
                  "share by which the joints of a segment bend unevenly at most, from 0 to 0.5, drawn from the seed")
       ->check(within(0.0, 0.5));
-  app.add_flag("--fixture", options.fixture, "the arm starts exactly in its start pose");
+  app.add_flag("--jig", options.fixture, "the arm starts exactly in its start pose");
+  app.add_flag_callback("--fixture", [] { throw CLI::ValidationError("--fixture", "this option is called --jig now"); })
+      ->group("");
   app.add_option("--cross-wired", paths.cross_wired,
                  "two drives, counted from 1, e.g. 4,5, that have each other's cable");
   app.add_flag("--no-spread", no_spread, "the arm is exactly as the table says (for tests)");

@@ -95,7 +95,7 @@ class Scenario:
     def words(self):
         """What lianad and the bench are told of the start."""
         start = self.start
-        bench = (["--start-pose", start["pose"], "--fixture"] if "pose" in start else []) + (
+        bench = (["--start-pose", start["pose"], "--jig"] if "pose" in start else []) + (
             ["--cross-wired", ",".join(map(str, start["cross_wired"]))] if "cross_wired" in start else []
         )
         return {"lianad": ["--in-pose", start["in_pose"]] if "in_pose" in start else [], "bench": bench}

@@ -134,7 +134,7 @@ class SlitRun(LimitedRun):
 
     def act(self):
         one = self.scenario
-        words = ["--start-pose", one.moment.pose, "--fixture", "--physics", one.physics, "--rest-within", 10]
+        words = ["--start-pose", one.moment.pose, "--jig", "--physics", one.physics, "--rest-within", 10]
         words += ["--scene-offset", one.offset] if one.offset else []
         told = ["--physics", one.physics]
         with System(

@@ -76,7 +76,7 @@ class KillRun(LimitedRun):
             robot=str(ROBOT),
             bus_script=self.script(),
             seed=one.seed,
-            bench=["--start-pose", MOMENTS[one.moment].pose, "--fixture", "--rest-within", 10],
+            bench=["--start-pose", MOMENTS[one.moment].pose, "--jig", "--rest-within", 10],
         ) as system:
             with self.limited(system):
                 system.start_archive()

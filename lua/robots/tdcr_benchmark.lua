@@ -52,9 +52,9 @@ return {
     hook = { 3, -2, -4, 3 },
     left = { 2, 5, -1, 4 },
     right = { 1, -5, 2, -3 },
-    fixture_a = { -7, 5, -6, -4 },
-    fixture_b = { -8, -7, -7, -8 },
+    jig_a = { -7, 5, -6, -4 },
+    jig_b = { -8, -7, -7, -8 },
   },
   start_pose = "hook",
-  fixture_poses = { "zero", "fixture_a", "fixture_b" },
+  jig_poses = { "zero", "jig_a", "jig_b" },
 }

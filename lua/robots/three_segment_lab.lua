@@ -56,9 +56,9 @@ return {
     park = { 5, -4, 3, 6, -4, 2 },
     look = { -6, 3, 5, -5, 8, 4 },
     deep = { -3, 8, -8, 6, 2, -7 },
-    fixture_a = { 12, -10, 11, 9, -12, 13 },
-    fixture_b = { -9, 12, 13, -8, 11, -13 },
+    jig_a = { 12, -10, 11, 9, -12, 13 },
+    jig_b = { -9, 12, 13, -8, 11, -13 },
   },
   start_pose = "park",
-  fixture_poses = { "zero", "fixture_a", "fixture_b" },
+  jig_poses = { "zero", "jig_a", "jig_b" },
 }

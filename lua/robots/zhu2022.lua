@@ -79,7 +79,7 @@ return {
     prepare = { -8.50, 0, -12.00, 0, 8.00, -2.00, 13.00, 0, 12.00, -2.00 },
     panel_edge = { -6.14, -15.00, -3.29, -8.72, 7.20, 15.0, 5.55, 15.0, 1.00, -2.80 },
     segment5_in_slit = { -2.79, -6.63, -1.75, -6.31, 5.03, 11.60, 1.87, 9.68, 0.00, -4.64 },
-    fixture = { 12, -9, 7, -8, 12, -3, 12, -10, -12, -2 }, -- assumed: every two cables differ by 13 mm, for calibration and --in-pose
+    jig = { 12, -9, 7, -8, 12, -3, 12, -10, -12, -2 }, -- assumed: every two cables differ by 13 mm, for calibration and --in-pose
     press_rod = { -2.641, -2.064, -1.81, -4.64, 4.777, 5.87, 0.00, 4.764, 0.00, -0.543 },
   },
 }

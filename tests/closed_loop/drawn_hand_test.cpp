@@ -59,8 +59,8 @@ TEST(DrawnHand, LeadsTheArmWithoutSlackContactOrFault) {
   const struct {
     const char* pose;
     std::uint64_t seed;
-  } hands[] = {{"panel_edge", 6},  {"fixture", 8}, {"prepare", 10},         {"prepare", 15},
-               {"panel_edge", 16}, {"zero", 2},    {"segment5_in_slit", 4}, {"fixture", 18}};
+  } hands[] = {{"panel_edge", 6},  {"jig", 8},  {"prepare", 10},         {"prepare", 15},
+               {"panel_edge", 16}, {"zero", 2}, {"segment5_in_slit", 4}, {"jig", 18}};
   for (const auto& [pose, seed] : hands) {
     const std::string name = pose + std::string(", seed ") + std::to_string(seed);
     const LedByHand led = lead_by_hand(pose, seed);

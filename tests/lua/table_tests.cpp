@@ -269,13 +269,13 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
        {"given.lua", "teleoperate", "speed_m_s", "0.5", "1e-04", "0.1", "zhu2022"}},
       {"step 'a' { device = 'none', run = liana.move_to 'nowhere', exit = at_rest(), time_limit_s = 1, on_fail = "
        "'hold' }",
-       {"given.lua", "run", "nowhere", "fixture", "panel_edge", "prepare"}},
+       {"given.lua", "run", "nowhere", "jig", "panel_edge", "prepare"}},
       {"step 'a' { device = 'none', exit = liana.any { at_rest(), liana.all { liana.at_pose 'x' } }, time_limit_s = 1, "
        "on_fail = 'hold' }",
-       {"given.lua", "exit", "x", "fixture", "panel_edge", "prepare"}},
+       {"given.lua", "exit", "x", "jig", "panel_edge", "prepare"}},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }, finish = liana.move_to "
        "'home'",
-       {"given.lua", "finish", "home", "fixture", "panel_edge", "prepare"}},
+       {"given.lua", "finish", "home", "jig", "panel_edge", "prepare"}},
       {"step 'a' { device = 'none', run = liana.shape { { node = 3, position_m = { 1, 0, 0 } }, { node = 5, position_m "
        "= { 1, 0, 0 } } }, "
        "exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
@@ -375,7 +375,7 @@ TEST(Eval, RefusesWaysThatLeadNowhereOrForEverByStepAndLine) {
            {"", "next = { step = 'c', when = true }", "", {"given.lua", "next", "when", "true", "condition"}},
            {"", "next = { step = 'c', on = 'fault' }", "", {"given.lua", "next", "on", "fault", "success", "failure"}},
            {"", "next = { { step = 'c' }, { step = 'a', at_most = 1 } }", "", {"given.lua", "next[2]", "never"}},
-           {"", "next = { step = 'c', when = liana.at_pose 'x' }", "", {"given.lua", "next", "x", "fixture"}},
+           {"", "next = { step = 'c', when = liana.at_pose 'x' }", "", {"given.lua", "next", "x", "jig"}},
            {"hold = { [9] = 0 }, next = { step = 'c', when = liana.at_rest() }",
             "hold = {}",
             "",
@@ -589,8 +589,7 @@ TEST(Eval, AMissionIsCheckedAgainstTheRobotThatIsNamed) {
                    "return t\n");
   const Ended ended = run_program("eval mission slit_crossing --robot " + robot);
   EXPECT_EQ(ended.code, 2);
-  EXPECT_TRUE(
-      names(ended.error, {"panel_edge", "fixture", "prepare", "press_rod", "segment5_in_slit", "zero", "short"}));
+  EXPECT_TRUE(names(ended.error, {"panel_edge", "jig", "prepare", "press_rod", "segment5_in_slit", "zero", "short"}));
 }
 
 // req:B1

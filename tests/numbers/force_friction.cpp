@@ -22,7 +22,7 @@ using closed_loop::ArmUnderControl;
 constexpr std::size_t kThetas = 10, kCables = 15, kTip = 40;
 constexpr double kRise_s = 1.5, kTurn_deg = 1.5;
 constexpr double kDither = 0.3;
-constexpr const char* kPoses[] = {"prepare", "panel_edge", "fixture"};
+constexpr const char* kPoses[] = {"prepare", "panel_edge", "jig"};
 constexpr double kSizes_N[] = {1.0, 2.0, 5.0};
 
 // What the core keeps of the balance.

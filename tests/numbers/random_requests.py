@@ -134,7 +134,7 @@ class Sequence:
 
     def system(self):
         physics = ["--physics", self.physics]
-        bench = [*physics, "--start-pose", self.pose] + ["--fixture"] * (self.pose in IN_SLIT)
+        bench = [*physics, "--start-pose", self.pose] + ["--jig"] * (self.pose in IN_SLIT)
         bench += ["--scene-offset", BESIDE] if self.is_beside else []
         return System(seed=self.seed, robot=str(ROBOT), scene="panel_slit", lianad=physics, bench=bench)
 

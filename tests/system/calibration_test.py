@@ -51,7 +51,7 @@ class Calibration(Messages, unittest.TestCase):
         self.assertIn("outcome success", out)
 
     def test_an_arm_that_lies_in_the_fixture_it_is_said_to_lie_in_is_enabled(self):
-        process, out, error = self.mission(self.content, "out_of_fixture", "--in-pose", "fixture")
+        process, out, error = self.mission(self.content, "out_of_fixture", "--in-pose", "jig")
         self.assertEqual(process.returncode, 0, out + error)
         self.assertIn("outcome success", out)
 

@@ -265,19 +265,19 @@ class Files(Messages, unittest.TestCase):
     def test_a_start_is_told_to_lianad_and_bench(self):
         read = self.read(
             during="boot",
-            start={"pose": "fixture", "in_pose": "fixture", "cross_wired": [3, 4]},
+            start={"pose": "jig", "in_pose": "jig", "cross_wired": [3, 4]},
             expect={"fault": None, "state": "DISABLED", "refused": ["x"]},
         )
         self.assertEqual(
             read.words(),
             {
-                "lianad": ["--in-pose", "fixture"],
-                "bench": ["--start-pose", "fixture", "--fixture", "--cross-wired", "3,4"],
+                "lianad": ["--in-pose", "jig"],
+                "bench": ["--start-pose", "jig", "--jig", "--cross-wired", "3,4"],
             },
         )
         self.assertEqual(read.fault_count(), 1)
         self.assertEqual(self.read().words(), {"lianad": [], "bench": []})
-        self.refused("start", "place", start={"place": "fixture"})
+        self.refused("start", "place", start={"place": "jig"})
         self.refused("refused", "boot", expect={"fault": None, "state": "DISABLED", "refused": ["x"]})
 
     def test_the_robot_is_one_that_scenarios_know_and_a_stop_is_of_an_arm_that_is_enabled(self):

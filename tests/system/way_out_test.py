@@ -22,7 +22,7 @@ class AtAPose(System):
     """The arm lies exactly at these angles before it is enabled: where another lianad has left it."""
 
     def __init__(self, pose_deg, **words):
-        super().__init__(bench=("--start-pose", "prepare", "--fixture"), **words)
+        super().__init__(bench=("--start-pose", "prepare", "--jig"), **words)
         self.pose_deg = pose_deg
 
     def write_tables(self):

@@ -1,4 +1,4 @@
-"""`liana calibrate` on CAN interfaces: a person puts the arm into one fixture after the other and presses Enter (field
+"""`liana calibrate` on CAN interfaces: a person puts the arm into one jig after the other and presses Enter (field
 `calibrate`).
 """
 import contextlib
@@ -33,7 +33,7 @@ class CalibrateRun:
                 self.judge_file(json.loads(file.read_text()))
 
     def calibrate(self, system, file):
-        """Answers each prompt with the arm in its fixture and Enter, as many as there are poses; exit code and all
+        """Answers each prompt with the arm in its jig and Enter, as many as there are poses; exit code and all
         that was said.
         """
         words = ["--bus", system.directory / "buses.json", "--physics", "ideal", "--out", file]
@@ -47,7 +47,7 @@ class CalibrateRun:
         left, said = list(self.scenario.calibrate["poses"]), []
         for line in process.stdout:
             said.append(line)
-            if "put the arm into fixture" not in line:
+            if "put the arm into jig" not in line:
                 continue
             self.end_bench(system)
             if left:
@@ -61,13 +61,13 @@ class CalibrateRun:
         return code, "".join(said)
 
     def put_into(self, system, pose, prompt):
-        """The arm, anew, in a fixture."""
-        expect_that(f"fixture {pose}," in prompt, f"fixture {pose} was expected, but: {prompt}")
+        """The arm, anew, in a jig."""
+        expect_that(f"jig {pose}," in prompt, f"jig {pose} was expected, but: {prompt}")
         crossed = self.scenario.calibrate.get("cross_wired")
         system.bench_words = [
             "--start-pose",
             pose,
-            "--fixture",
+            "--jig",
             *(["--cross-wired", ",".join(map(str, crossed))] if crossed else []),
         ]
         system.start_bench()

@@ -19,7 +19,7 @@
 namespace liana::cli {
 namespace {
 
-constexpr const char* kFixtures = "zero,fixture,prepare";
+constexpr const char* kFixtures = "zero,jig,prepare";
 
 // The poses for which there are fixtures: those asked for, else those of the table.
 std::vector<std::string> poses_of(const CalibrateOptions& options, const config::RobotConfig& robot) {
@@ -188,7 +188,7 @@ int calibrate_command(const CalibrateOptions& options) {
     calibration::check_poses(robot, thetas_rad);
   } catch (const std::runtime_error& error) {
     throw launcher::BadInput("--poses: '" + list_of(poses) + "': " + error.what() +
-                             (options.poses.empty() ? "; or name poses in the table, fixture_poses" : ""));
+                             (options.poses.empty() ? "; or name poses in the table, jig_poses" : ""));
   }
   const calibration::CalibrationResult result =
       calibration::calibrate(robot, read_all(options, simulated, poses, thetas_rad), calibration::today_utc());

@@ -151,7 +151,7 @@ int view_command(const ViewOptions& options);
 struct CalibrateOptions {
   std::string robot = "zhu2022";
   std::string bus;    // empty: as for a run
-  std::string poses;  // named poses of the fixtures; empty: those of the table, else zero, fixture and prepare
+  std::string poses;  // named poses of the fixtures; empty: those of the table, else zero, jig and prepare
   std::string physics = "nominal";
   std::string cross_wired;  // empty, or two drives of the simulated arm whose cables are exchanged
   std::string out_file;     // empty: the calibration is only printed

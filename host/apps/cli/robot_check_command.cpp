@@ -108,7 +108,7 @@ void look_at_fixtures(const config::RobotConfig& robot, Json& problems) {
   try {
     calibration::check_poses(robot, thetas_rad);
   } catch (const std::runtime_error& error) {
-    problems.push_back(std::string("fixture_poses: ") + error.what());
+    problems.push_back(std::string("jig_poses: ") + error.what());
   }
 }
 

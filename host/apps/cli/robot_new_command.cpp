@@ -181,7 +181,7 @@ std::string body(const std::string& name, const Answers& a) {
          "    tip_angular_jerk_deg_s3 = 400,\n    cable_speed_m_s = 0.010,\n  },\n"
          "  named_poses_deg = { zero = zero, bent = bent, back = back, wave = wave },\n"
          "  start_pose = \"wave\",\n"
-         "  -- fixture_poses = { \"zero\", \"bent\", \"back\" }, -- where you have fixtures, for `liana "
+         "  -- jig_poses = { \"zero\", \"bent\", \"back\" }, -- where you have jigs, for `liana "
          "calibrate`\n}\n";
 }
 

@@ -15,7 +15,7 @@ constexpr double kTurn_deg = 1.5;              // of every angle at most, about 
 constexpr double kMinBend = 0.7, kBend = 0.9;  // of a named pose: there is room to turn
 constexpr double kBody_N = 3.0;
 constexpr double kStraight_deg = 4.0;  // of every angle at most, where that pose is straight
-constexpr const char* kPoses[] = {"prepare", "panel_edge", "fixture", "zero"};
+constexpr const char* kPoses[] = {"prepare", "panel_edge", "jig", "zero"};
 
 class Draw {
  public:

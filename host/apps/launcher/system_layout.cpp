@@ -151,7 +151,7 @@ ProgramCall bench_call(const SystemLayout& plan, const RunOptions& options, bool
   if (plan.keeps_traffic || plan.is_dry_run) append(call.argv, {"--truth", plan.file("truth.bin")});
   const std::string& fixture = options.in_pose.empty() ? options.fixture : options.in_pose;
   append(call.argv, {"--start-pose", fixture.empty() ? options.start_pose : fixture});
-  if (!fixture.empty()) append(call.argv, {"--fixture"});
+  if (!fixture.empty()) append(call.argv, {"--jig"});
   if (!options.cross_wired.empty()) append(call.argv, {"--cross-wired", options.cross_wired});
   if (!options.faults.empty()) append(call.argv, {"--faults", options.faults});
   if (!options.scene_offset.empty()) append(call.argv, {"--scene-offset", options.scene_offset});

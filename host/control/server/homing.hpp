@@ -22,7 +22,7 @@ cable::CableVector reported_tension_N(const cable::RobotParams& table, const cab
 
 class Homing {
  public:
-  // `in_pose`: the named pose in which the arm lies in its fixture at the start; empty: nobody knows. Throws
+  // `in_pose`: the named pose in which the arm lies in its jig at the start; empty: nobody knows. Throws
   // std::runtime_error when there is no such pose, or when it does not tell every two cables apart.
   Homing(const config::RobotConfig& robot, const std::string& in_pose);
 

@@ -213,7 +213,7 @@ int main(int argc, char** argv) {
   line.option("--calibration", options.calibration,
               "what liana calibrate measured of this arm's drives; the robot table's values without");
   line.option("--in-pose", options.in_pose,
-              "named pose in which the arm lies in its fixture: unless every cable says so, the arm is not enabled");
+              "named pose in which the arm lies in its jig: unless every cable says so, the arm is not enabled");
   line.option("--fixtures", options.fixtures,
               "off: no fixture of the scene guides a hand or is felt, whatever is asked")
       .one_of({"on", "off"});

@@ -97,8 +97,8 @@ std::string problem_of(const config::RobotConfig& robot, const Lengths& lengths,
         robot.name.c_str());
   }
   return text(
-      "%s: its position misses the fixtures' poses by %.1f mm: allowed %.1f mm: look whether the arm lies in every "
-      "fixture and the cable is on its drum",
+      "%s: its position misses the jigs' poses by %.1f mm: allowed %.1f mm: look whether the arm lies in every "
+      "jig and the cable is on its drum",
       who.c_str(), 1e3 * own.misfit_m, 1e3 * kMisfit_m);
 }
 
@@ -114,7 +114,7 @@ std::string serial_problem_of(const config::RobotConfig& robot, std::span<const 
            "another";
   for (const CalibrationReading& reading : readings) {
     if (reading.serial[drive] != serial)
-      return who + text(" in the first fixture, %u in another: leave the drives where they are, then calibrate again",
+      return who + text(" in the first jig, %u in another: leave the drives where they are, then calibrate again",
                         reading.serial[drive]);
   }
   for (Index other = 0; other < as_index(robot.table.cable_count()); ++other) {

@@ -95,7 +95,7 @@ std::string contradiction(const config::RobotConfig& robot, const std::string& n
   if (off.size() > kNamed) out += text(" and %zu more", off.size() - kNamed);
   out += text(", allowed %.0f mm", 1e3 * kFixtureTolerance_m);
   return out + exchanged(names, off, paid_out_m, expected_m) +
-         "; put the arm into its fixture, look whether each cable is taut and on its own drum, then run liana "
+         "; put the arm into its jig, look whether each cable is taut and on its own drum, then run liana "
          "calibrate";
 }
 

@@ -1,6 +1,7 @@
 #include "host/model/config/field.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -8,12 +9,18 @@
 
 #include "host/base/json/number_error.hpp"
 #include "host/base/options/nearest.hpp"
+#include "host/base/options/retired.hpp"
 #include "host/model/config/canonical.hpp"
 
 namespace liana::config {
 namespace {
 
 constexpr std::size_t kLongestValueShown = 60;
+
+// Fields of tables.
+constexpr std::array<options::RetiredName, 1> kRetired{{
+    {"fixture_poses", "jig_poses"},
+}};
 
 std::string shown(const Json& value) {
   const std::string text = canonical_json(value);
@@ -62,10 +69,12 @@ std::size_t Field::size(std::size_t low, std::size_t high, const std::string& wh
 void Field::only(const std::set<std::string>& known) const {
   if (!value_->is_object()) refuse("a table with named fields", "see docs/reference/formats.md");
   for (const auto& [key, item] : value_->items()) {
-    if (known.count(key) == 0)
-      Field(item, file_, path_.empty() ? key : path_ + "." + key)
-          .refuse("no such field" + options::did_you_mean(key, {known.begin(), known.end()}),
-                  "remove it or correct its spelling");
+    if (known.count(key) != 0) continue;
+    const Field field(item, file_, path_.empty() ? key : path_ + "." + key);
+    const std::string now{options::present_name(key, kRetired)};
+    if (!now.empty()) field.refuse("no such field", "it is called " + now + " now");
+    field.refuse("no such field" + options::did_you_mean(key, {known.begin(), known.end()}),
+                 "remove it or correct its spelling");
   }
 }
 

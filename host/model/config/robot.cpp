@@ -13,7 +13,7 @@ RobotConfig read_robot(const Json& json, const std::string& file, const std::str
   const Field table(json, file, "");
   check_kind(table, "robot", ", or serial for an arm of joints with their own drives");
   table.only({"format", "kind", "name", "segments", "module", "joint", "cables", "tension", "drives", "limits",
-              "named_poses_deg", "start_pose", "fixture_poses"});
+              "named_poses_deg", "start_pose", "jig_poses"});
   RobotConfig out;
   out.name = table.at("name").name(40);
   read_arm(table, out);
@@ -22,7 +22,7 @@ RobotConfig read_robot(const Json& json, const std::string& file, const std::str
   read_limits(table.at("limits"), out.table.limits);
   read_named_poses(table.at("named_poses_deg"), out);
   out.start_pose = read_start_pose(table, out.named_poses_deg);
-  out.jig_poses = read_fixture_poses(table, out.named_poses_deg);
+  out.jig_poses = read_jig_poses(table, out.named_poses_deg);
   out.canonical_json = canonical_json(json);
   return out;
 }

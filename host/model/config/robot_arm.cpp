@@ -128,12 +128,12 @@ std::string read_start_pose(const Field& table, const std::map<std::string, std:
   return table.json().contains("start_pose") ? table.at("start_pose").choice(names_of(named_poses_deg)) : "";
 }
 
-std::vector<std::string> read_fixture_poses(const Field& table,
-                                            const std::map<std::string, std::vector<double>>& named_poses_deg) {
+std::vector<std::string> read_jig_poses(const Field& table,
+                                        const std::map<std::string, std::vector<double>>& named_poses_deg) {
   std::vector<std::string> poses;
-  if (!table.json().contains("fixture_poses")) return poses;
-  const Field list = table.at("fixture_poses");
-  list.size(2, named_poses_deg.size(), "name two or more poses for which there are fixtures");
+  if (!table.json().contains("jig_poses")) return poses;
+  const Field list = table.at("jig_poses");
+  list.size(2, named_poses_deg.size(), "name two or more poses for which there are jigs");
   for (std::size_t i = 0; i < list.json().size(); ++i) {
     const std::string name = list.element(i).choice(names_of(named_poses_deg));
     if (std::find(poses.begin(), poses.end(), name) != poses.end())

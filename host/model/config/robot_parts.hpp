@@ -41,8 +41,8 @@ void read_limits(const Field& field, cable::MotionLimits& limits);
 std::string read_start_pose(const Field& table, const std::map<std::string, std::vector<double>>& named_poses_deg);
 
 // The optional jig_poses: two or more of the named poses, each once; empty where the table does not say.
-std::vector<std::string> read_fixture_poses(const Field& table,
-                                            const std::map<std::string, std::vector<double>>& named_poses_deg);
+std::vector<std::string> read_jig_poses(const Field& table,
+                                        const std::map<std::string, std::vector<double>>& named_poses_deg);
 
 // A cable robot's table by itself, with nominal friction and without what buses decide (tick, T_c).
 RobotConfig parse_robot_alone(const std::string& text, const std::string& file);

@@ -6,7 +6,7 @@ local kGoal_deg = -10.5
 
 local function small_move(arm)
   local goal_deg = {}
-  for i, angle_deg in ipairs(arm.named_pose "fixture") do goal_deg[i] = angle_deg end
+  for i, angle_deg in ipairs(arm.named_pose "jig") do goal_deg[i] = angle_deg end
   goal_deg[kTheta] = kGoal_deg
   arm.move_jp { goal_deg = goal_deg }
 end

@@ -25,8 +25,8 @@ void add_calibrate(CLI::App& app, Action& action) {
   add_robot(sub, calibrate.robot);
   sub.add_option("--bus", calibrate.bus, "bus table; where not given as for liana run");
   sub.add_option("--poses", calibrate.poses,
-                 "named poses of the robot for which there are fixtures, two or more; where not given the table's "
-                 "fixture_poses, else zero,fixture,prepare");
+                 "named poses of the robot for which there are jigs, two or more; where not given the table's "
+                 "jig_poses, else zero,jig,prepare");
   add_physics(sub, calibrate.physics);
   add_cross_wired(sub, calibrate.cross_wired);
   sub.add_option("--out", calibrate.out_file,

@@ -83,7 +83,7 @@ void add_run(CLI::App& app, Action& action) {
   sub.add_option("--time", run.time, "fast, paced or real; fast where nothing is said, real on SocketCAN")
       ->check(CLI::IsMember({"fast", "paced", "real"}));
   sub.add_option("--in-pose", run.in_pose,
-                 "named pose in which the arm lies in its fixture: unless every cable says so, it is not enabled");
+                 "named pose in which the arm lies in its jig: unless every cable says so, it is not enabled");
   add_cross_wired(sub, run.cross_wired);
   add_people(sub, run.people);
   sub.add_option("--record", run.record_dir, "keep recording, logs, bus traffic and report in this directory");

@@ -460,7 +460,7 @@ class Help(Messages, unittest.TestCase):
             (["verify", "--from-deg=prepared", "--to-deg=zero", "--duration=5"], "prepared", "prepare"),
             (["sweep", "--from-deg=prepar"], "prepar", "prepare"),
             (["run", "slit_crossing", "--start-pose=prepar"], "prepar", "prepare"),
-            (["run", "slit_crossing", "--in-pose=fixtur"], "fixtur", "fixture"),
+            (["run", "slit_crossing", "--in-pose=jigg"], "jigg", "jig"),
         ]:
             code, out, error = liana(*words)
             self.assertEqual((code, error.count("\n")), (2, 1), (words, error))

@@ -84,7 +84,7 @@ class EveryRobot(Messages, unittest.TestCase):
         table = json.loads(liana("robot", "export", "three_segment_lab")[1])
         table["cables"]["phase_deg"][1] = table["cables"]["phase_deg"][0]
         table["tension"]["ceiling_free_N"] = 31
-        table["fixture_poses"] = ["zero", "park"]
+        table["jig_poses"] = ["zero", "park"]
         file = self.folder / "robot.json"
         file.write_text(json.dumps(table))
         checked = liana_json("robot", "check", file, expected=(1,))
@@ -92,7 +92,7 @@ class EveryRobot(Messages, unittest.TestCase):
         for named in (
             ("cable 1 (segment 1) and cable 4 (segment 2)", "holes", "0.0 mm"),
             ("pose look", "tensions"),
-            ("fixture_poses",),
+            ("jig_poses",),
         ):
             self.assert_names(text, *named)
         code, out, _ = liana("robot", "check", file)

@@ -32,7 +32,7 @@ TEST(StartPose, IsANameOrAllAnglesWithinTheirRange) {
   EXPECT_EQ(start_pose_of(robot, "look").angles_deg, (std::vector<double>{-6, 3, 5, -5, 8, 4}));
   EXPECT_EQ(start_pose_of(robot, "1,-2.5,0,0,15,-15").angles_deg, (std::vector<double>{1, -2.5, 0, 0, 15, -15}));
   const auto refusal = [&](const char* given) { return refusal_of([&] { start_pose_of(robot, given); }); };
-  EXPECT_TRUE(names(refusal("nowhere"), {"--start-pose", "nowhere", "three_segment_lab", "deep", "fixture_a"}));
+  EXPECT_TRUE(names(refusal("nowhere"), {"--start-pose", "nowhere", "three_segment_lab", "deep", "jig_a"}));
   for (const char* given : {"1,2,3", "1,2,3,4,5,6,7", "1,2,3,4,5,", "1,2,3,4,5,x", "nan,0,0,0,0,0", "15.01,0,0,0,0,0"})
     EXPECT_TRUE(names(refusal(given), {"--start-pose", "three_segment_lab"})) << given;
   EXPECT_NE(refusal("0,0,16,0,0,0").find("angle 3 in"), std::string::npos);
@@ -61,8 +61,8 @@ TEST(StartPose, OfASerialArmInsideABodyOrItselfIsRefused) {
 }
 
 TEST(StartPose, ABentPoseIsFoundByItsAnglesAndNotByItsName) {
-  EXPECT_EQ(bent_pose(""), "fixture");
-  EXPECT_EQ(bent_pose("three_segment_lab"), "fixture_a");
+  EXPECT_EQ(bent_pose(""), "jig");
+  EXPECT_EQ(bent_pose("three_segment_lab"), "jig_a");
 }
 
 TEST(Buses, AreTheUsersElseTheRobotsOwnElseMadeForItsDrives) {

@@ -16,11 +16,11 @@ class HomingOfAnArm : public ::testing::Test {
  protected:
   HomingOfAnArm() {
     robot_.table = verification::SimArm().table();
-    robot_.named_poses_deg["fixture"] = {12, -9, 7, -8, 12, -3, 12, -10, -12, -2};
+    robot_.named_poses_deg["jig"] = {12, -9, 7, -8, 12, -3, 12, -10, -12, -2};
     cable::CableVector tension_N{};
     tension_N.fill(30.0);
     const cable::CableVector out_m =
-        calibration::beyond_zero_m(robot_.table, calibration::named_pose_rad(robot_, "fixture"), tension_N);
+        calibration::beyond_zero_m(robot_.table, calibration::named_pose_rad(robot_, "jig"), tension_N);
     for (std::size_t i = 0; i < 15; ++i) {
       const cable::DriveParams& drive = robot_.table.drive[i];
       DriveFeedback& report = report_.inputs.drive[i];
@@ -67,7 +67,7 @@ TEST_F(HomingOfAnArm, NamesTheCablesThatContradictEachOtherTheWorstFirst) {
 }
 
 TEST_F(HomingOfAnArm, IsRefusedUntilThePoseFitsOnceThenTheArmMayLeaveIt) {
-  Homing homing(robot_, "fixture");
+  Homing homing(robot_, "jig");
   turn(0.004);
   homing.look(report_, estimator_);
   EXPECT_TRUE(names(homing.why_not(), {"drive 5 (node 5, segment 2)", "4.0 mm"}));

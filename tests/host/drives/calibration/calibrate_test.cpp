@@ -44,8 +44,7 @@ struct Workshop {
     }
     factor.fill(1.0);
   }
-  std::vector<CalibrationReading> readings(const std::vector<std::string>& poses = {"zero", "fixture",
-                                                                                    "prepare"}) const {
+  std::vector<CalibrationReading> readings(const std::vector<std::string>& poses = {"zero", "jig", "prepare"}) const {
     std::vector<CalibrationReading> out;
     for (const std::string& name : poses) {
       CalibrationReading reading;
@@ -157,7 +156,7 @@ TEST(FixturePrompt, WaitsForEnterAtEachFixture) {
   wait_for_fixture(in, out, "zero", 1, 2);
   wait_for_fixture(in, out, "prepare", 2, 2);
   EXPECT_EQ(out.str(),
-            "pose 1 of 2: put the arm into fixture zero, then press Enter\npose 2 of 2: put the arm into fixture "
+            "pose 1 of 2: put the arm into jig zero, then press Enter\npose 2 of 2: put the arm into jig "
             "prepare, then press Enter\n");
 }
 
@@ -181,7 +180,7 @@ TEST(Calibrate, PosesThatDoNotTellEnoughAreRefused) {
     }
     return "";
   };
-  EXPECT_EQ(message({"zero", "fixture", "prepare"}), "");
+  EXPECT_EQ(message({"zero", "jig", "prepare"}), "");
   EXPECT_NE(message({"prepare"}).find("two or more"), std::string::npos);
   EXPECT_NE(message({"prepare", "prepare"}).find("cable 1 (segment 1)"), std::string::npos);
 }

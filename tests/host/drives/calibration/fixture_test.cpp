@@ -22,9 +22,9 @@ class Fixture : public ::testing::Test {
   Fixture() {
     robot_ = config::nominal_zhu2022();
     tension_N_.fill(30.0);
-    reported_m_ = beyond_zero_m(robot_.table, named_pose_rad(robot_, "fixture"), tension_N_);
+    reported_m_ = beyond_zero_m(robot_.table, named_pose_rad(robot_, "jig"), tension_N_);
   }
-  std::string said() const { return contradiction(robot_, "fixture", reported_m_, tension_N_); }
+  std::string said() const { return contradiction(robot_, "jig", reported_m_, tension_N_); }
   std::string refusal(const std::string& pose) const {
     try {
       check_tells_apart(robot_, pose);
@@ -53,7 +53,7 @@ TEST_F(Fixture, EveryPairOfExchangedCablesIsNamed) {
 
 // Fixtures are never exact: 0.05 degrees at every angle alarm nobody, and hide no exchange.
 TEST_F(Fixture, APoseThatIsALittleOffAlarmsNobodyAndHidesNoPair) {
-  ThetaVector theta_rad = named_pose_rad(robot_, "fixture");
+  ThetaVector theta_rad = named_pose_rad(robot_, "jig");
   for (std::size_t i = 0; i < 10; ++i) theta_rad[i] += (i % 3 == 0 ? -0.05 : 0.05) * kDegree;
   reported_m_ = beyond_zero_m(robot_.table, theta_rad, tension_N_);
   EXPECT_EQ(said(), "");
@@ -77,13 +77,13 @@ TEST_F(Fixture, ACableThatIsOffByMoreThanTheToleranceIsNamedAndAccusesNoOther) {
 TEST_F(Fixture, AnotherPoseIsRefusedWithTheFarthestThree) {
   reported_m_ = beyond_zero_m(robot_.table, named_pose_rad(robot_, "prepare"), tension_N_);
   const std::string text = said();
-  EXPECT_TRUE(names(text, {"pose fixture"}));
+  EXPECT_TRUE(names(text, {"pose jig"}));
   EXPECT_EQ(std::count(text.begin(), text.end(), '('), 3) << text;
   EXPECT_NE(text.find(" and 12 more"), std::string::npos) << text;
 }
 
 TEST_F(Fixture, APoseInWhichAnExchangeWouldGoUnnoticedIsRefused) {
-  EXPECT_EQ(refusal("fixture"), "");
+  EXPECT_EQ(refusal("jig"), "");
   EXPECT_TRUE(names(refusal("zero"), {"zero", "cable 1 (segment 1) and cable 2 (segment 1)", "0.0 mm"}))
       << refusal("zero");
   EXPECT_TRUE(names(refusal("prepare"), {"prepare", "cable 2 (segment 1) and cable 3 (segment 1)"}))

@@ -59,12 +59,12 @@ std::string refusal_of(const char* field, const Json& value) {
 TEST(NamedPoses, StartAndFixturesMayBeNamedAndMustExist) {
   EXPECT_EQ(lab_with("start_pose", "look").start_pose, "look");
   EXPECT_EQ(lab_with("start_pose", nullptr).start_pose, "");
-  EXPECT_EQ(lab_with("fixture_poses", nullptr).jig_poses, std::vector<std::string>{});
-  EXPECT_EQ(lab_with("fixture_poses", {"zero", "deep"}).jig_poses, (std::vector<std::string>{"zero", "deep"}));
-  EXPECT_TRUE(names(refusal_of("start_pose", "nowhere"), {"r", "start_pose", "nowhere", "fixture_a"}));
-  EXPECT_TRUE(names(refusal_of("fixture_poses", {"zero"}), {"r", "fixture_poses", "two"}));
-  EXPECT_TRUE(names(refusal_of("fixture_poses", {"zero", "zero"}), {"r", "fixture_poses[2]", "zero"}));
-  EXPECT_TRUE(names(refusal_of("fixture_poses", {"zero", "nowhere"}), {"r", "fixture_poses[2]", "fixture_a"}));
+  EXPECT_EQ(lab_with("jig_poses", nullptr).jig_poses, std::vector<std::string>{});
+  EXPECT_EQ(lab_with("jig_poses", {"zero", "deep"}).jig_poses, (std::vector<std::string>{"zero", "deep"}));
+  EXPECT_TRUE(names(refusal_of("start_pose", "nowhere"), {"r", "start_pose", "nowhere", "jig_a"}));
+  EXPECT_TRUE(names(refusal_of("jig_poses", {"zero"}), {"r", "jig_poses", "two"}));
+  EXPECT_TRUE(names(refusal_of("jig_poses", {"zero", "zero"}), {"r", "jig_poses[2]", "zero"}));
+  EXPECT_TRUE(names(refusal_of("jig_poses", {"zero", "nowhere"}), {"r", "jig_poses[2]", "jig_a"}));
 }
 
 TEST(NamedPoses, MayBeExactlyAtTheLimit) {

@@ -1,0 +1,20 @@
+// Public names that are no more: whoever uses one is told the name that took its place.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <string_view>
+
+namespace liana::options {
+
+struct RetiredName {
+  std::string_view old_name, new_name;
+};
+
+// The present name of what was called `given`; empty where that is no retired name.
+constexpr std::string_view present_name(std::string_view given, std::span<const RetiredName> retired) {
+  const auto found = std::ranges::find(retired, given, &RetiredName::old_name);
+  return found != retired.end() ? found->new_name : std::string_view{};
+}
+
+}  // namespace liana::options
