@@ -17,11 +17,11 @@ micro.drives.mode = "torque"
 -- assumed: joint rate for a joint that is off its target; more swings with 500 kg (docs/explanation/force-control.md)
 micro.drives.position_gain_per_s = 0.01
 micro.force_control = { -- assumed, as tuned in a prototype of this arm on its base
-  most_force_N = 60, -- on the tip; the source sets 30 N
-  most_joint_Nm = 100, -- source: joint torques stay below 150 N m
-  most_travel_m = 0.2, -- along the axis, from where a push begins
-  most_aside_m = 0.03, -- across it: the adapter's tolerance (source: 30 mm)
-  most_turn_deg = 3,
+  max_force_N = 60, -- on the tip; the source sets 30 N
+  max_joint_Nm = 100, -- source: joint torques stay below 150 N m
+  max_travel_m = 0.2, -- along the axis, from where a push begins
+  max_lateral_m = 0.03, -- across it: the adapter's tolerance (source: 30 mm)
+  max_turn_deg = 3,
   wrist_still_samples = 25, -- with the very same six numbers: a sensor that lives has noise; 0 for one that may rest on a number
   gains = { -- what a push has, the least and the most that one may ask for
     mass_kg = { 500, 50, 5000 }, -- M_d

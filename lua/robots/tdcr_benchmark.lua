@@ -22,7 +22,7 @@ return {
     EA_N = 4000, -- assumed: 0.3 mm nitinol wire
     lead_m = 0.2, -- assumed
     friction_mu = { nominal = 0.02, ideal = 0, worn = 0.04 }, -- assumed: wire in printed holes
-    watch = { jump_N = 1, contradiction_m = 0.0005 }, -- assumed: thin wire stretches
+    monitor = { jump_N = 1, contradiction_m = 0.0005 }, -- assumed: thin wire stretches
   },
   tension = { plan_N = 3, floor_motor_N = 1, floor_anywhere_N = 0.1, ceiling_free_N = 15, alarm_N = 25, hard_limit_N = 40 }, -- assumed
   drives = { -- assumed: small servo drives with a drum of 10 mm radius

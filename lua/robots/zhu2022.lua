@@ -38,7 +38,7 @@ return {
     EA_N = 240000, -- assumed: 2 mm steel rope
     lead_m = 0.5, -- assumed: free cable between drum and first disc
     friction_mu = { nominal = 0.05, ideal = 0, worn = 0.10 }, -- assumed: capstan coefficient per hole
-    watch = { -- twice what whole missions show (docs/explanation/fault-detection.md)
+    monitor = { -- twice what whole missions show (docs/explanation/fault-detection.md)
       jump_N = 7, -- change of tension within a tick that nothing explains
       contradiction_m = 0.0001, -- change of a segment's contradiction, without friction
     },

@@ -52,7 +52,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (device.is_known()) device.tell(device::make<liana_state>(LIANA_STATE), now_us);
   }
   for (const device::Sample& sample : device.take_samples()) {
-    if (!is_valid(sample.pose) || sample.hand >= LIANA_MOST_HANDS) std::abort();
+    if (!is_valid(sample.pose) || sample.hand >= LIANA_MAX_HANDS) std::abort();
   }
   return 0;
 }

@@ -58,7 +58,7 @@ liana_hello hello() {
   hand.actuated = LIANA_X | LIANA_Y | LIANA_Z;
   const double half_m[3] = {0.055, 0.080, 0.080};  // published: 110 mm deep, 160 mm across
   for (int i = 0; i < 3; ++i) hand.low_m[i] = -half_m[i], hand.high_m[i] = half_m[i];
-  hand.most_force_N = kMaxForce_N;
+  hand.max_force_N = kMaxForce_N;
   return out;
 }
 
@@ -96,7 +96,7 @@ void feel(const liana_state& state, const liana_sample& hand, double force_N[3])
   std::fill(force_N, force_N + 3, 0.0);
   const bool is_felt = (state.present & LIANA_HAS_FORCE) != 0 && (state.flags & LIANA_ENGAGED) != 0;
   for (int i = 0; i < 3 && is_felt; ++i) force_N[i] = state.servo_cf.force_N[i];
-  for (std::uint32_t k = 0; k < std::min<std::uint32_t>(state.planes, LIANA_MOST_PLANES); ++k) {
+  for (std::uint32_t k = 0; k < std::min<std::uint32_t>(state.planes, LIANA_MAX_PLANES); ++k) {
     const liana_plane& plane = state.plane[k];
     double depth_m = plane.offset_m, speed_m_s = 0.0;
     for (int i = 0; i < 3; ++i) {

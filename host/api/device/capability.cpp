@@ -60,8 +60,8 @@ void check(const std::string& field, const liana_hand& hand) {
     check_range(field + ".low_m", hand.low_m[i], -kRoom_m, kRoom_m);
     check_range(field + ".high_m", hand.high_m[i], hand.low_m[i], kRoom_m);
   }
-  check_range(field + ".most_force_N", hand.most_force_N, 0.0, kMaxForce);
-  check_range(field + ".most_torque_Nm", hand.most_torque_Nm, 0.0, kMaxForce);
+  check_range(field + ".max_force_N", hand.max_force_N, 0.0, kMaxForce);
+  check_range(field + ".max_torque_Nm", hand.max_torque_Nm, 0.0, kMaxForce);
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ void check(const Capability& capability) {
   if (is_word(capability.name)) refuse("name", capability.name, "any other: use_device means a kind of device by it");
   if (capability.kind == Kind::kNone || capability.kind > Kind::kPointer)
     refuse("kind", std::to_string(static_cast<int>(capability.kind)), "1 hand controller, 2 handles, 3 pointer");
-  if (capability.hands < 1 || capability.hands > LIANA_MOST_HANDS)
+  if (capability.hands < 1 || capability.hands > LIANA_MAX_HANDS)
     refuse("hands", std::to_string(capability.hands), "1 or 2");
   check_range("rate_hz", capability.rate_hz, 1.0, 4000.0);
   check_range("watchdog_s", capability.watchdog_s, 0.0, 1.0);

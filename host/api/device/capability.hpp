@@ -26,7 +26,7 @@ struct Capability {
   std::uint32_t hands = 1;
   double rate_hz = 1000.0;
   double watchdog_s = 0.1;
-  std::array<liana_hand, LIANA_MOST_HANDS> hand{};
+  std::array<liana_hand, LIANA_MAX_HANDS> hand{};
 };
 
 // Throws std::runtime_error that names the field, its value and the range.

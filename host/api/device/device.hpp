@@ -78,9 +78,9 @@ class Device {
   int refused_in_row_ = 0;  // samples
   std::uint64_t refused_samples_ = 0, lost_states_ = 0;
   std::vector<Sample> samples_;
-  std::array<std::optional<Sample>, LIANA_MOST_HANDS> newest_{};
-  std::array<std::int64_t, LIANA_MOST_HANDS> heard_us_{};
-  std::array<SampleRate, LIANA_MOST_HANDS> rate_{};
+  std::array<std::optional<Sample>, LIANA_MAX_HANDS> newest_{};
+  std::array<std::int64_t, LIANA_MAX_HANDS> heard_us_{};
+  std::array<SampleRate, LIANA_MAX_HANDS> rate_{};
   ClockRelation clock_;
   std::uint32_t sequence_ = 0, echoed_ = 0;
   std::array<std::int64_t, kRemembered> sent_us_{};

@@ -19,8 +19,8 @@
 #define LIANA_MAGIC 0x4e41494cu /* "LIAN" */
 #define LIANA_VERSION 1
 #define LIANA_NAME_BYTES 32
-#define LIANA_MOST_HANDS 2
-#define LIANA_MOST_PLANES 6
+#define LIANA_MAX_HANDS 2
+#define LIANA_MAX_PLANES 6
 
 /* header.packet */
 enum liana_packet {
@@ -84,7 +84,7 @@ struct liana_hand {
   uint32_t buttons;                    /* how many, besides deadman and trigger: 0 to 32 */
   uint32_t reserved;                   /* 0 */
   double low_m[3], high_m[3];          /* workspace, a box: low <= high, within 10 m */
-  double most_force_N, most_torque_Nm; /* 0: none; at most 1000 */
+  double max_force_N, max_torque_Nm; /* 0: none; at most 1000 */
 };
 
 struct liana_hello {
@@ -95,7 +95,7 @@ struct liana_hello {
   int64_t t_us;                /* now */
   double rate_hz;              /* of samples of each hand: 1 to 4000; below 50 an alarm tells */
   double watchdog_s;           /* so long after the newest state it still renders force: 0 to 1 */
-  struct liana_hand hand[LIANA_MOST_HANDS];
+  struct liana_hand hand[LIANA_MAX_HANDS];
 };
 
 enum liana_sample_flags {
@@ -174,7 +174,7 @@ struct liana_state {
   int64_t held_us;     /* how long that command has been in force */
   uint32_t flags;      /* enum liana_state_flags */
   uint32_t present;    /* enum liana_present */
-  uint32_t planes;     /* how many of plane[] there are: 0 to LIANA_MOST_PLANES */
+  uint32_t planes;     /* how many of plane[] there are: 0 to LIANA_MAX_PLANES */
   uint32_t reserved;
   char reason[LIANA_NAME_BYTES]; /* why the arm does not follow any more; empty after letting go */
   double scale;                  /* way of the tip for a way of the hand */
@@ -188,7 +188,7 @@ struct liana_state {
   struct liana_wrench servo_cf;        /* for the hand to feel, before the device's own limits */
   struct liana_pose reference_cp;      /* where a spring pulls the hand to */
   double stiffness_N_m, damping_N_s_m; /* of that spring */
-  struct liana_plane plane[LIANA_MOST_PLANES];
+  struct liana_plane plane[LIANA_MAX_PLANES];
 };
 
 /* A compiler that lays a struct out otherwise fails here. */

@@ -47,7 +47,7 @@ void print_row(const Json& device) {
   std::printf("%-24s %-8s %5zu  %10s  %9s  %9s  %7.1f N  %s\n", device.at("name").text().c_str(),
               device.at("kind").text().c_str(), device.at("hands").size(),
               shown(device.at("rate_hz"), 1.0, "Hz").c_str(), shown(device.at("delay_up_s"), 1e3, "ms").c_str(),
-              shown(device.at("delay_down_s"), 1e3, "ms").c_str(), hand.at("most_force_N").get<double>(),
+              shown(device.at("delay_down_s"), 1e3, "ms").c_str(), hand.at("max_force_N").get<double>(),
               device.at("in_use").get<bool>() ? "in use" : "");
 }
 

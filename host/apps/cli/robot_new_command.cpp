@@ -152,7 +152,7 @@ std::string body(const std::string& name, const Answers& a) {
          filled("    lead_m = %.3g, -- free cable between drum and first disc\n", lead_m) +
          "    friction_mu = { nominal = 0.05, ideal = 0, worn = 0.10 }, -- of a cable in its holes; `liana calibrate "
          "--friction`\n" +
-         filled("    watch = { jump_N = %.3g }, -- tension that comes or goes at once, and is a fault\n",
+         filled("    monitor = { jump_N = %.3g }, -- tension that comes or goes at once, and is a fault\n",
                 std::max(kUsualJump_N, kUsualJump_N * plan_N / kUsualPlan_N)) +
          "  },\n" +
          filled(

@@ -70,8 +70,8 @@ liana_state DeviceState::state_for(const arbiter::TeleopInput* steer) const {
   std::string_view(steer->reason()).copy(out.reason, sizeof out.reason - 1);
   out.scale = steer->in_use().mapping.scale;
   out.rotation_scale = steer->in_use().mapping.rotation_scale;
-  static_assert(virtual_fixtures::kMaxPlanes == LIANA_MOST_PLANES);
-  out.planes = LIANA_MOST_PLANES;
+  static_assert(virtual_fixtures::kMaxPlanes == LIANA_MAX_PLANES);
+  out.planes = LIANA_MAX_PLANES;
   std::transform(planes_.begin(), planes_.end(), out.plane, plane_of);
   return out;
 }

@@ -18,8 +18,14 @@ namespace {
 constexpr std::size_t kLongestValueShown = 60;
 
 // Fields of tables.
-constexpr std::array<options::RetiredName, 1> kRetired{{
+constexpr std::array<options::RetiredName, 7> kRetired{{
     {"fixture_poses", "jig_poses"},
+    {"watch", "monitor"},
+    {"most_force_N", "max_force_N"},
+    {"most_joint_Nm", "max_joint_Nm"},
+    {"most_travel_m", "max_travel_m"},
+    {"most_aside_m", "max_lateral_m"},
+    {"most_turn_deg", "max_turn_deg"},
 }};
 
 std::string shown(const Json& value) {

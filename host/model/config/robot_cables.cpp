@@ -32,12 +32,13 @@ void read_tension(const Field& field, cable::TensionLimits& tension) {
 }
 
 // Optional: a table without it gets the defaults.
-void read_watch(const Field& cables, cable::CableMonitorParams& watch) {
-  if (!cables.json().contains("watch")) return;
-  const Field field = cables.at("watch");
+void read_monitor(const Field& cables, cable::CableMonitorParams& monitor) {
+  if (!cables.json().contains("monitor")) return;
+  const Field field = cables.at("monitor");
   field.only({"jump_N", "contradiction_m"});
-  if (field.json().contains("jump_N")) watch.jump_N = field.at("jump_N").number({0.001, 1000});
-  if (field.json().contains("contradiction_m")) watch.contradiction_m = field.at("contradiction_m").number({1e-6, 0.1});
+  if (field.json().contains("jump_N")) monitor.jump_N = field.at("jump_N").number({0.001, 1000});
+  if (field.json().contains("contradiction_m"))
+    monitor.contradiction_m = field.at("contradiction_m").number({1e-6, 0.1});
 }
 
 void read_drive_lists(const Field& drives, RobotConfig& out) {
@@ -61,13 +62,13 @@ void read_drive_lists(const Field& drives, RobotConfig& out) {
 void read_cables(const Field& table, const std::string& physics, RobotConfig& out) {
   const Field cables = table.at("cables");
   cables.only(
-      {"hole_radius_m", "face_offset_m", "phase_deg", "EA_N", "lead_m", "friction_mu", "friction_band", "watch"});
+      {"hole_radius_m", "face_offset_m", "phase_deg", "EA_N", "lead_m", "friction_mu", "friction_band", "monitor"});
   out.table.cable_EA_N = cables.at("EA_N").number({1000, 1e8});
   out.table.lead_m = cables.at("lead_m").number({0.01, 10});
   out.table.friction_mu = read_friction(cables.at("friction_mu"), physics);
   if (cables.json().contains("friction_band")) out.friction_band = cables.at("friction_band").number({0, 1});
   read_tension(table.at("tension"), out.table.tension);
-  read_watch(cables, out.table.cable_monitor);
+  read_monitor(cables, out.table.cable_monitor);
 }
 
 void read_torque_zero(const Field& drives, cable::TorqueZeroTable& zero) {

@@ -27,14 +27,14 @@ void read_gains(const Field& gains, SerialRobotConfig& out) {
 }
 
 void read_force_control(const Field& field, SerialRobotConfig& out) {
-  field.only({"most_force_N", "most_joint_Nm", "most_travel_m", "most_aside_m", "most_turn_deg", "wrist_still_samples",
-              "gains"});
+  field.only(
+      {"max_force_N", "max_joint_Nm", "max_travel_m", "max_lateral_m", "max_turn_deg", "wrist_still_samples", "gains"});
   serial::TorqueParams& torque = out.table.torque;
-  torque.most_force_N = field.at("most_force_N").number({1, 1e5});
-  torque.most_joint_Nm = field.at("most_joint_Nm").number({1, out.rated_torque_Nm});
-  torque.most_travel_m = field.at("most_travel_m").number({0.001, 1});
-  torque.most_aside_m = field.at("most_aside_m").number({0.001, 1});
-  torque.most_turn_rad = field.at("most_turn_deg").number({0.1, 45}) * kDegree;
+  torque.most_force_N = field.at("max_force_N").number({1, 1e5});
+  torque.most_joint_Nm = field.at("max_joint_Nm").number({1, out.rated_torque_Nm});
+  torque.most_travel_m = field.at("max_travel_m").number({0.001, 1});
+  torque.most_aside_m = field.at("max_lateral_m").number({0.001, 1});
+  torque.most_turn_rad = field.at("max_turn_deg").number({0.1, 45}) * kDegree;
   torque.wrist_still_samples = static_cast<std::uint16_t>(field.at("wrist_still_samples").integer(0, 10000));
   read_gains(field.at("gains"), out);
 }

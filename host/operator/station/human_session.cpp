@@ -154,7 +154,7 @@ void HumanSession::feel(const liana_state& told) {
 
 // A wall that is not told any more has no stiffness.
 void HumanSession::feel_walls(const liana_state* told) {
-  static_assert(haptics::kMaxWalls == LIANA_MOST_PLANES);
+  static_assert(haptics::kMaxWalls == LIANA_MAX_PLANES);
   const std::uint32_t count = table_.walls && told != nullptr ? told->planes : 0;
   for (std::size_t slot = 0; slot < haptics::kMaxWalls; ++slot) {
     const liana_plane none{{1.0, 0.0, 0.0}, 0.0, 0.0, 0.0};

@@ -57,7 +57,7 @@ TEST_F(AtTheDoor, WhoSaysHelloIsWelcomedAndListedByItsName) {
   EXPECT_EQ(first.welcome()->interval_s, 0.02);
   ASSERT_EQ(door_.devices().size(), 2u);
   EXPECT_EQ(door_.devices()[0]->capability().name, "falcon");
-  EXPECT_EQ(door_.devices()[0]->capability().hand[0].most_force_N, 12.0);
+  EXPECT_EQ(door_.devices()[0]->capability().hand[0].max_force_N, 12.0);
   EXPECT_TRUE(names(news(), {"device omega", "device falcon"}));
 }
 

@@ -570,12 +570,12 @@ TEST_F(ServiceOverSocket, ADeviceIsChosenByKindOrNameAndWhatIsConnectedIsSaidOth
 TEST_F(ServiceOverSocket, WhatDevicesCanAndDoIsAskedForByAnybody) {
   api::ApiClient observer = join("observer");
   device::Capability capability{.name = "omega"};
-  capability.hand[0].most_force_N = 12.0;
+  capability.hand[0].max_force_N = 12.0;
   device::Driver hand = plug_in(capability);
   hand.send({.t_us = 7, .deadman = true, .pose = {{0.25, 0.0, 0.0}}});
   const Json told = full_answer(observer, {{"op", "devices"}})["devices"][0];
   EXPECT_EQ(told["kind"], "hand");
-  EXPECT_EQ(told["hands"][0]["most_force_N"], 12.0);
+  EXPECT_EQ(told["hands"][0]["max_force_N"], 12.0);
   EXPECT_EQ(told["hands"][0]["sample"]["measured_cp"][0], 0.25);
   EXPECT_EQ(told["rate_hz"], Json()) << "a second is not over";
 }

@@ -63,6 +63,7 @@ TEST(NamedPoses, StartAndFixturesMayBeNamedAndMustExist) {
   EXPECT_EQ(lab_with("jig_poses", {"zero", "deep"}).jig_poses, (std::vector<std::string>{"zero", "deep"}));
   EXPECT_TRUE(names(refusal_of("start_pose", "nowhere"), {"r", "start_pose", "nowhere", "jig_a"}));
   EXPECT_TRUE(names(refusal_of("jig_poses", {"zero"}), {"r", "jig_poses", "two"}));
+  EXPECT_TRUE(names(refusal_of("fixture_poses", {"zero", "deep"}), {"r", "fixture_poses", "jig_poses"}));
   EXPECT_TRUE(names(refusal_of("jig_poses", {"zero", "zero"}), {"r", "jig_poses[2]", "zero"}));
   EXPECT_TRUE(names(refusal_of("jig_poses", {"zero", "nowhere"}), {"r", "jig_poses[2]", "jig_a"}));
 }

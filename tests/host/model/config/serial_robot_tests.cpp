@@ -148,7 +148,7 @@ TEST(SerialRobot, TorqueDrivesAreRefusedByFieldWhereSomethingIsMissingOrOutOfRan
       {"/drives/mode", nullptr, "force_control", {"drives.mode"}},
       {"/drives/position_gain_per_s", nullptr, "drives.position_gain_per_s", {"missing"}},
       {"/force_control", nullptr, "force_control", {"missing"}},
-      {"/force_control/most_joint_Nm", 151, "force_control.most_joint_Nm", {"1", "150"}},
+      {"/force_control/max_joint_Nm", 151, "force_control.max_joint_Nm", {"1", "150"}},
       {"/force_control/gains/mass_kg", Json{500, 600, 5000}, "force_control.gains.mass_kg[1]", {"600", "5000"}},
       {"/force_control/gains/mass_kg", Json{500, 50}, "force_control.gains.mass_kg", {"least", "most"}},
       {"/force_control/gains/wobble", Json{1, 1, 1}, "force_control.gains.wobble", {"field"}}};
