@@ -49,15 +49,15 @@ function actions.servo_target(fields)
   return giving("servo_target", fields, position(1))
 end
 
--- Pushes along an axis of the tip by force control, from rest; fields of `push` (docs/reference/api.md): { force_N =
+-- Moves along an axis of the tip under force control, from rest; fields of `insert` (docs/reference/api.md): { force_N =
 -- 30, ... }. How it goes is `push` of the state. For serial arms only.
-function actions.push(fields)
-  check_argument("push", "fields", fields, "table")
-  return giving("push", fields, position(1))
+function actions.insert(fields)
+  check_argument("insert", "fields", fields, "table")
+  return giving("insert", fields, position(1))
 end
 
 -- From rest, the joints give way to what pushes them, until something else is asked for. For serial arms only.
-function actions.follow() return giving("follow", {}, position(1)) end
+function actions.comply() return giving("comply", {}, position(1)) end
 
 -- What the arm carries from now on; fields of `payload` (docs/reference/api.md): { mass_kg = 500, center_m = {x, y, z},
 -- inertia_kgm2 = {...} }. For serial arms only.

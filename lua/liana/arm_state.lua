@@ -1,5 +1,6 @@
 -- The arm as missions see it: the last state, the robot and scene, and every command of lua/liana/arm_stubs.lua.
 local geometry = require "liana.geometry"
+local retired = require "liana.retired_names"
 
 local arm_state = {}
 
@@ -57,6 +58,7 @@ function arm_state.new(commands, welcome)
   -- Time of the arm since tick `since` [s].
   function arm.elapsed_s(since) return (arm.state.tick - since) * arm.period_s end
 
+  retired.refuse_in(arm)
   return setmetatable(arm, { __index = commands })
 end
 

@@ -77,11 +77,11 @@ function arm.state_command(fields) end
 ---@field rate_deg_s? number
 ---period with which the arm's base swings: the move takes longer and leaves it still; 0: as quickly as the
 ---limits let it (else 0)
----@field swing_s? number
+---@field sway_s? number
 ---period of a second swing; 0: there is none (else 0)
----@field quicker_swing_s? number
----share by which `swing_s` may differ from the true period; over 0.1 takes longer (else 0.1)
----@field swing_off? number
+---@field quicker_sway_s? number
+---share by which `sway_s` may differ from the true period; over 0.1 takes longer (else 0.1)
+---@field sway_tolerance? number
 ---grows from setpoint to setpoint of one owner: repeated and overtaken ones are refused
 ---@field sequence? integer
 ---the client's clock when it made the setpoint; never goes back (in virtual time: arm time)
@@ -126,11 +126,11 @@ function arm.move_path(fields) end
 ---@field hold? arm.move_cp.hold[]
 ---period with which the arm's base swings: the move takes longer and leaves it still; 0: as quickly as the
 ---limits let it (else 0)
----@field swing_s? number
+---@field sway_s? number
 ---period of a second swing; 0: there is none (else 0)
----@field quicker_swing_s? number
----share by which `swing_s` may differ from the true period; over 0.1 takes longer (else 0.1)
----@field swing_off? number
+---@field quicker_sway_s? number
+---share by which `sway_s` may differ from the true period; over 0.1 takes longer (else 0.1)
+---@field sway_tolerance? number
 ---grows from setpoint to setpoint of one owner: repeated and overtaken ones are refused
 ---@field sequence? integer
 ---the client's clock when it made the setpoint; never goes back (in virtual time: arm time)
@@ -182,11 +182,11 @@ function arm.servo_cp(fields) end
 ---@field tau_s? number
 ---period, roughly, with which the arm's base swings: the servo tells the swing from the target's place, and
 ---calms it; 0: the base stands still (else 0)
----@field swing_s? number
+---@field sway_s? number
 ---period of a second swing; 0: there is none (else 0)
----@field quicker_swing_s? number
----share by which `swing_s` may differ from the true period; over 0.1 takes longer (else 0.1)
----@field swing_off? number
+---@field quicker_sway_s? number
+---share by which `sway_s` may differ from the true period; over 0.1 takes longer (else 0.1)
+---@field sway_tolerance? number
 ---way of the tip against the slow swing, as a share of the swing: less for an arm that is heavy beside its
 ---base, 0: the swing is left as it is (else 1)
 ---@field calming? number
@@ -292,7 +292,7 @@ function arm.dither(fields) end
 ---@return integer id
 function arm.use_device(fields) end
 
----@class arm.push.gains
+---@class arm.insert.gains
 ---M_d along the axes
 ---@field mass_kg? number
 ---M_d about the axes
@@ -314,7 +314,7 @@ function arm.use_device(fields) end
 ---K_D along the axis from capture on
 ---@field unload_damping_Ns_per_m? number
 
----@class arm.push
+---@class arm.insert
 ---way in, in the frame of the tip, of any length; left out: the tip's z
 ---@field axis? number[]
 ---set force along the axis; the other five are set to nothing (else 30)
@@ -332,18 +332,18 @@ function arm.use_device(fields) end
 ---what the wrist sensor says in the first 0.1 s is taken for nothing (else true)
 ---@field tare? boolean
 ---other gains than the robot's, within its ranges
----@field gains? arm.push.gains
+---@field gains? arm.insert.gains
 
 ---Pushes along an axis of the tip by force control, from rest, until something else is asked for; how it goes
 ---is `push` of the state. For serial arms only.
----@param fields? arm.push
+---@param fields? arm.insert
 ---@return integer id
-function arm.push(fields) end
+function arm.insert(fields) end
 
 ---From rest, joints give way to what pushes them with more than 20 N m, until something else is asked for.
 ---For serial arms only.
 ---@return integer id
-function arm.follow() end
+function arm.comply() end
 
 ---@class arm.payload
 ---0: nothing

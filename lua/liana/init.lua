@@ -12,11 +12,13 @@ local actions = require "liana.actions"
 local check = require "liana.check"
 local conditions = require "liana.conditions"
 local position = require "liana.position"
+local retired = require "liana.retired_names"
 
 local liana = {}
 
 for name, action in pairs(actions) do liana[name] = action end
 for name, condition in pairs(conditions) do liana[name] = condition end
+retired.refuse_in(liana)
 
 -- A step: a name, then its fields (lua/liana/check.lua lists them).
 function liana.step(name)

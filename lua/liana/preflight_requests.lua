@@ -7,7 +7,7 @@ local arm_state = require "liana.arm_state"
 local asked = {}
 
 local kGoalOf = { move_jp = "goal_deg", move_cp = "goal" } -- command -> its field
-local kBeside = { push = true, follow = true, payload = true, adapter = true } -- no goals, but looked at like them
+local kBeside = { insert = true, comply = true, payload = true, adapter = true } -- no goals, but looked at like them
 -- Without these a script does not know yet what it will ask for.
 local kKnownBy = { payload = "inertia_kgm2", adapter = "command" }
 

@@ -71,15 +71,15 @@ end
 
 local function swings_with(arm, mass_kg)
   local function period_s(alone_s, s2_per_kg) return math.sqrt((alone_s ^ 2 + s2_per_kg * mass_kg) * softness(arm)) end
-  return { swing_s = period_s(kAlone_s, kSlowest_s2_per_kg), quicker_swing_s = period_s(kAloneQuicker_s, kQuickest_s2_per_kg) }
+  return { sway_s = period_s(kAlone_s, kSlowest_s2_per_kg), quicker_sway_s = period_s(kAloneQuicker_s, kQuickest_s2_per_kg) }
 end
 
 local function alone(arm) return swings_with(arm, 0) end
 
 local function loaded(arm)
   local swings = swings_with(arm, arm.part_of_scene("payload").mass_kg)
-  swings.swing_s = swings.swing_s * kHeavier
-  swings.swing_off = 0.2 -- payloads are up to twice as heavy as drawn, or lighter
+  swings.sway_s = swings.sway_s * kHeavier
+  swings.sway_tolerance = 0.2 -- payloads are up to twice as heavy as drawn, or lighter
   return swings
 end
 
@@ -144,8 +144,8 @@ local function servo_to(target, before_m, how, swings, point)
   return function(arm)
     local place = { target = target, offset = { 0, 0, -before_m, 1, 0, 0, 0 }, point = point and point(arm) }
     local fields = with(swings(arm), with(how, place))
-    if fields.swing_s > 0 then fields.tolerance_m = fields.tolerance_m or kBeside_m + kBesideOnSoft_m * softness(arm) end
-    fields.swing_off = 0.1 -- it is quicker so, and calms what is left
+    if fields.sway_s > 0 then fields.tolerance_m = fields.tolerance_m or kBeside_m + kBesideOnSoft_m * softness(arm) end
+    fields.sway_tolerance = 0.1 -- it is quicker so, and calms what is left
     arm.servo_target(fields)
   end
 end
@@ -160,8 +160,8 @@ end
 -- No tare: on a base that swings, what the payload's mass gives on the sensor is far more than the sensor's bias.
 local function push_in(arm)
   is_gentle, has_pushed = may_meet_walls(arm), true
-  arm.push {
-    force_N = kForce_N, tare = false, travel_m = kMostTravel_m, aside_m = kMostAside_m, gains = is_gentle and kGently or nil,
+  arm.insert {
+    force_N = kForce_N, tare = false, travel_m = kMostTravel_m, lateral_m = kMostAside_m, gains = is_gentle and kGently or nil,
   }
 end
 
@@ -392,7 +392,7 @@ return liana.mission "payload_install" {
   step "3 lock" {
     device = "none",
     run = function(arm)
-      arm.follow()
+      arm.comply()
       arm.adapter { command = "lock" }
     end,
     exit = lock_is "closed",

@@ -647,26 +647,26 @@ TEST(Eval, WhatAPushNeedsOfRobotAndBusesIsRefusedBeforeTheStartByLineAndField) {
     return error_of_step(folder, options, "device = 'none', run = " + run);
   };
   for (const auto& [options, run, facts] : std::vector<std::tuple<std::string, std::string, Facts>>{
-           {position, "liana.push {}", {"push", "drives", "positions"}},
-           {position, "function(arm) arm.push {} end", {"push", "drives", "positions"}},
-           {position, "liana.follow()", {"follow", "drives", "positions"}},
+           {position, "liana.insert {}", {"insert", "drives", "positions"}},
+           {position, "function(arm) arm.insert {} end", {"insert", "drives", "positions"}},
+           {position, "liana.comply()", {"comply", "drives", "positions"}},
            {position, "liana.adapter 'lock'", {"adapter", "bus table"}},
-           {"", "liana.push {}", {"push", "robot zhu2022", "cable"}},
-           {deaf, "liana.push {}", {"push", "bus table", "wrist_sensor"}},
-           {alone, "function(arm) arm.follow() arm.adapter { command = 'lock' } end", {"adapter", "bus table"}},
+           {"", "liana.insert {}", {"insert", "robot zhu2022", "cable"}},
+           {deaf, "liana.insert {}", {"insert", "bus table", "wrist_sensor"}},
+           {alone, "function(arm) arm.comply() arm.adapter { command = 'lock' } end", {"adapter", "bus table"}},
            {torque,
-            "liana.push { force_N = 61 }",
-            {"push", "force_N", "61", "0", "60", "force_control", "macro_micro"}},
-           {torque, "function(arm) arm.push { force_N = 61 } end", {"push", "force_N", "61", "0", "60"}},
-           {torque, "liana.push { force_N = 2000 }", {"push", "force_N", "2000", "0", "1000"}},
-           {torque, "liana.push { forec_N = 20 }", {"push", "unknown", "forec_N", "20", "axis", "force_N"}},
-           {torque, "liana.push { travel_m = 0.3 }", {"push", "travel_m", "0.3", "0", "0.2"}},
-           {torque, "liana.push { turn_deg = 4 }", {"push", "turn_deg", "4", "0", "3"}},
-           {torque, "liana.push { axis = { 0, 0, 0 } }", {"push", "axis", "[0.0,0.0,0.0]", "length", "0.001"}},
-           {torque, "liana.push { gains = { mass_kg = 1 } }", {"push", "gains.mass_kg", "1", "50", "5000"}},
+            "liana.insert { force_N = 61 }",
+            {"insert", "force_N", "61", "0", "60", "force_control", "macro_micro"}},
+           {torque, "function(arm) arm.insert { force_N = 61 } end", {"insert", "force_N", "61", "0", "60"}},
+           {torque, "liana.insert { force_N = 2000 }", {"insert", "force_N", "2000", "0", "1000"}},
+           {torque, "liana.insert { forec_N = 20 }", {"insert", "unknown", "forec_N", "20", "axis", "force_N"}},
+           {torque, "liana.insert { travel_m = 0.3 }", {"insert", "travel_m", "0.3", "0", "0.2"}},
+           {torque, "liana.insert { turn_deg = 4 }", {"insert", "turn_deg", "4", "0", "3"}},
+           {torque, "liana.insert { axis = { 0, 0, 0 } }", {"insert", "axis", "[0.0,0.0,0.0]", "length", "0.001"}},
+           {torque, "liana.insert { gains = { mass_kg = 1 } }", {"insert", "gains.mass_kg", "1", "50", "5000"}},
            {torque,
-            "liana.push { law = 'impedance', depth_m = 0.1 }",
-            {"push", "depth_m", "0.1", "0", "0.06 m", "travel_m"}},
+            "liana.insert { law = 'impedance', depth_m = 0.1 }",
+            {"insert", "depth_m", "0.1", "0", "0.06 m", "travel_m"}},
            {torque, "liana.payload { mass_kg = 5 }", {"payload", "inertia_kgm2", "0", "six"}},
            {torque,
             "liana.payload { mass_kg = 5, inertia_kgm2 = { 1, 1, 9, 0, 0, 0 } }",
@@ -676,11 +676,12 @@ TEST(Eval, WhatAPushNeedsOfRobotAndBusesIsRefusedBeforeTheStartByLineAndField) {
     EXPECT_TRUE(names(eval(options, run), facts)) << run;
   }
   for (const std::string run :
-       {"liana.push { force_N = 60 }", "liana.follow()", "liana.payload { mass_kg = 0 }", "liana.adapter 'release'",
-        "function(arm) if arm.state.tick > 3 then arm.push { force_N = 99 } end end",
+       {"liana.insert { force_N = 60 }", "liana.comply()", "liana.payload { mass_kg = 0 }", "liana.adapter 'release'",
+        "function(arm) if arm.state.tick > 3 then arm.insert { force_N = 99 } end end",
         "function(arm) arm.payload { mass_kg = later, inertia_kgm2 = later } arm.adapter { command = later } end"})
     EXPECT_EQ(eval(torque, run), "") << "nothing to refuse, or not known yet";
-  EXPECT_EQ(eval("--robot macro_micro ", "liana.push {}"), "") << "buses that nobody names may have the sensor";
+  EXPECT_TRUE(names(eval(position, "liana.push {}"), {"given.lua:3", "push", "insert"}));
+  EXPECT_EQ(eval("--robot macro_micro ", "liana.insert {}"), "") << "buses that nobody names may have the sensor";
 }
 
 TEST(Eval, AMissionIsCheckedAgainstTheBusesThatItNamesWithItsRobot) {

@@ -231,7 +231,7 @@ class WhatASerialArmRefuses(SystemTest):
             client = self.enterContext(system.client())
             client.enable()
             with self.assertRaisesRegex(RequestRefused, "bus table.*wrist_sensor"):
-                client.call("push", force_N=20)
+                client.call("insert", force_N=20)
 
     def refused(self, *words, says):
         process = start_run(self, *words)
@@ -259,8 +259,8 @@ class WhatASerialArmRefuses(SystemTest):
         mission = folder / "pushes.lua"
         tables = ("--robot", "macro_micro", "--bus", "embedded_payload", "--scene")
         for action, words, says in (
-            ("push { force_N = 20 }", ("--robot", "micro"), ("push", "drives", "positions")),
-            ("push { force_N = 80 }", (*tables, "none"), ("force_N", "80", "0", "60")),
+            ("insert { force_N = 20 }", ("--robot", "micro"), ("insert", "drives", "positions")),
+            ("insert { force_N = 80 }", (*tables, "none"), ("force_N", "80", "0", "60")),
             ("adapter 'lock'", (*tables, "none"), ("scene none",)),
         ):
             mission.write_text(

@@ -69,8 +69,10 @@ class Check {
       const auto found =
           std::find_if(fields.begin(), fields.end(), [&](const RequestField& field) { return key == field.name; });
       if (found == fields.end()) {
+        const std::string_view present = present_field(key);
+        const std::string now = "it is called " + std::string(present) + " now";
         refuse("bad_request", "unknown field " + key.substr(0, 60) + " = " + brief(member.second),
-               names.empty() ? "none" : names, "correct its spelling or remove it");
+               names.empty() ? "none" : names, present.empty() ? "correct its spelling or remove it" : now.c_str());
       }
       if (bounds_ != nullptr && (found->arms & bounds_->arm) == 0) wrong_arm(key, found->arms, *bounds_);
     }
@@ -218,8 +220,11 @@ const RequestRow& row_of(const Json& request) {
   if (!op.is_string() || op.text().empty() || op.text().size() > 32)
     wrong_type("op", op, "a text of 1 to 32 bytes, such as \"hold\"");
   const RequestRow* row = find_request(op.text());
+  const std::string_view now = present_op(op.text());
   if (row == nullptr)
-    throw RequestError("bad_request", "unknown op " + brief(op) + ": docs/reference/api.md lists them all");
+    throw RequestError("bad_request", "unknown op " + brief(op) + ": " +
+                                          (now.empty() ? "docs/reference/api.md lists them all"
+                                                       : "it is called " + std::string(now) + " now"));
   return *row;
 }
 

@@ -73,8 +73,8 @@ constexpr RequestField kStreamTtl =
 
 constexpr std::array kAxes{"x", "y", "z"};
 
-constexpr RequestField kSwingOff =
-    number("swing_off", 0.0, 0.2, "share by which `swing_s` may differ from the true period; over 0.1 takes longer")
+constexpr RequestField kSwayTolerance =
+    number("sway_tolerance", 0.0, 0.2, "share by which `sway_s` may differ from the true period; over 0.1 takes longer")
         .otherwise(0.1);
 
 // Which of what the camera sees: names that both sides use.
@@ -91,15 +91,15 @@ constexpr std::array kServoTarget{
     number("timeout_s", 1.0, 600.0, "not there after this time it ends").otherwise(120.0),
     number("lost_s", 0.2, 10.0, "without a usable image for so long the target is lost").otherwise(1.0),
     number("tau_s", 0.05, 20.0, "time constant of the low-pass on what the camera sees").otherwise(4.0),
-    number("swing_s", 0.0, 120.0,
-           "period, roughly, with which the arm's base swings: the servo tells the swing from the target's place, and"
+    number("sway_s", 0.0, 120.0,
+           "period, roughly, with which the arm's base sways: the servo tells the sway from the target's place, and"
            " calms it; 0: the base stands still")
         .otherwise(0.0),
-    number("quicker_swing_s", 0.0, 60.0, "period of a second swing; 0: there is none").otherwise(0.0),
-    kSwingOff,
+    number("quicker_sway_s", 0.0, 60.0, "period of a second sway; 0: there is none").otherwise(0.0),
+    kSwayTolerance,
     number("calming", 0.0, 2.0,
-           "way of the tip against the slow swing, as a share of the swing: less for an arm that is heavy beside its"
-           " base, 0: the swing is left as it is")
+           "way of the tip against the slow sway, as a share of the sway: less for an arm that is heavy beside its"
+           " base, 0: the sway is left as it is")
         .otherwise(1.0),
     number("gain_1_s", 0.05, 1.0, "k: speed for a way to go").otherwise(0.45),
     number("speed_m_s", 1e-4, 1.0, "fastest along the way in; the robot's own limit holds besides").otherwise(0.028),
@@ -113,20 +113,20 @@ constexpr std::array kHeld{
     integer("theta", 1.0, Figure::kAngles, "number of the angle, 1 at the base"),
     RequestField{"target_deg", FieldType::kAngle, "angle at which it is held"},
 };
-constexpr RequestField kMoveSwing =
-    number("swing_s", 0.0, 120.0,
-           "period with which the arm's base swings: the move takes longer and leaves it still; 0: as quickly as the "
+constexpr RequestField kMoveSway =
+    number("sway_s", 0.0, 120.0,
+           "period with which the arm's base sways: the move takes longer and leaves it still; 0: as quickly as the "
            "limits let it")
         .otherwise(0.0);
-constexpr RequestField kMoveQuickerSwing =
-    number("quicker_swing_s", 0.0, 60.0, "period of a second swing; 0: there is none").otherwise(0.0);
+constexpr RequestField kMoveQuickerSway =
+    number("quicker_sway_s", 0.0, 60.0, "period of a second sway; 0: there is none").otherwise(0.0);
 
 constexpr std::array kMoveJp{
     RequestField{"goal_deg", FieldType::kAngles, "angle that each joint or theta goes to"},
     number("rate_deg_s", 0.01, Figure::kAngleRate, "the most that any angle may turn at").otherwise(Figure::kAngleRate),
-    kMoveSwing,
-    kMoveQuickerSwing,
-    kSwingOff,
+    kMoveSway,
+    kMoveQuickerSway,
+    kSwayTolerance,
     kSequence,
     kTime,
     kTtl,
@@ -146,9 +146,9 @@ constexpr std::array kMoveCp{
         .optional()
         .list(16)
         .only_for(kCableArm),
-    kMoveSwing,
-    kMoveQuickerSwing,
-    kSwingOff,
+    kMoveSway,
+    kMoveQuickerSway,
+    kSwayTolerance,
     kSequence,
     kTime,
     kTtl,
@@ -201,11 +201,11 @@ constexpr std::array kUseDevice{
         .list(16),
     word("feedback", kFeedbacks, "law by which the hand feels the arm; `aligned` when left out").optional(),
 };
-constexpr std::array kPushLaws{"force", "impedance"};
-constexpr std::array kPushGainFields{
+constexpr std::array kInsertLaws{"force", "impedance"};
+constexpr std::array kInsertGainFields{
     number("mass_kg", 1e-6, 1e6, "M_d along the axes").optional(),
     number("inertia_kgm2", 1e-6, 1e6, "M_d about the axes").optional(),
-    number("axial_damping_Ns_per_m", 1e-6, 1e6, "K_D along the axis of the push").optional(),
+    number("axial_damping_Ns_per_m", 1e-6, 1e6, "K_D along the axis of the insertion").optional(),
     number("lateral_damping_Ns_per_m", 1e-6, 1e6, "K_D across it").optional(),
     number("turn_damping_Nms_per_rad", 1e-6, 1e6, "K_D of turning").optional(),
     number("force_gain", 1e-6, 1e6, "K_P C_F: of what is missing of the set force").optional(),
@@ -214,16 +214,16 @@ constexpr std::array kPushGainFields{
     number("approach_m_s", 1e-6, 1e6, "impedance: of the point that it pulls to").optional(),
     number("unload_damping_Ns_per_m", 1e-6, 1e6, "K_D along the axis from capture on").optional(),
 };
-constexpr std::array kPush{
+constexpr std::array kInsert{
     point("axis", "way in, in the frame of the tip, of any length; left out: the tip's z").optional(),
     number("force_N", 0.0, 1000.0, "set force along the axis; the other five are set to nothing").otherwise(30.0),
     number("travel_m", 0.001, 1.0, "the most along the axis, from where it begins").otherwise(0.06),
-    number("aside_m", 0.001, 1.0, "the most across it").otherwise(0.02),
+    number("lateral_m", 0.001, 1.0, "the most across it").otherwise(0.02),
     number("turn_deg", 0.1, 45.0, "the most that the tip turns").otherwise(3.0),
-    word("law", kPushLaws, "`force` when left out").optional(),
+    word("law", kInsertLaws, "`force` when left out").optional(),
     number("depth_m", 0.0, 1.0, "`impedance`: where the stop is expected, along the axis").otherwise(0.0222),
     flag("tare", "what the wrist sensor says in the first 0.1 s is taken for nothing").otherwise(1.0),
-    object("gains", kPushGainFields, "other gains than the robot's, within its ranges").optional(),
+    object("gains", kInsertGainFields, "other gains than the robot's, within its ranges").optional(),
 };
 constexpr std::array kPayload{
     number("mass_kg", 0.0, 1e5, "0: nothing"),

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/api/server/request_fields.hpp"
+#include "host/base/options/retired.hpp"
 
 namespace liana::api {
 
@@ -89,15 +90,16 @@ constexpr std::array kTable{
                .arms = kCableArm,
                .in_missions = true,
                .motion = Motion::kReplaces},
-    RequestRow{.op = "push",
-               .doc = "Pushes along an axis of the tip by force control, from rest, until something else is asked for; "
-                      "how it goes is `push` of the state.",
-               .fields = kPush,
+    RequestRow{.op = "insert",
+               .doc =
+                   "Moves along an axis of the tip under force control, from rest, until something else is asked for; "
+                   "how it goes is `push` of the state.",
+               .fields = kInsert,
                .owner_only = true,
                .arms = kSerialArm,
                .in_missions = true,
                .motion = Motion::kReplaces},
-    RequestRow{.op = "follow",
+    RequestRow{.op = "comply",
                .doc = "From rest, joints give way to what pushes them with more than 20 N m, until something else is "
                       "asked for.",
                .owner_only = true,
@@ -168,9 +170,25 @@ constexpr std::array kTable{
     RequestRow{.op = "camera", .doc = "What the tip camera has seen.", .fields = kCamera, .roles = only(Role::kCamera)},
 };
 
+constexpr std::array<options::RetiredName, 2> kRetiredOps{{
+    {"push", "insert"},
+    {"follow", "comply"},
+}};
+
+constexpr std::array<options::RetiredName, 4> kRetiredFields{{
+    {"swing_s", "sway_s"},
+    {"quicker_swing_s", "quicker_sway_s"},
+    {"swing_off", "sway_tolerance"},
+    {"aside_m", "lateral_m"},
+}};
+
 }  // namespace
 
 std::span<const RequestRow> request_table() { return kTable; }
+
+std::string_view present_op(std::string_view op) { return options::present_name(op, kRetiredOps); }
+
+std::string_view present_field(std::string_view field) { return options::present_name(field, kRetiredFields); }
 
 const RequestRow* find_request(std::string_view op) {
   const auto found = std::find_if(kTable.begin(), kTable.end(), [op](const RequestRow& row) { return row.op == op; });

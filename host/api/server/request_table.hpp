@@ -106,4 +106,8 @@ std::span<const RequestRow> request_table();
 // The row of an operation, or nullptr.
 const RequestRow* find_request(std::string_view op);
 
+// The present name of an operation or field that had another one before; else empty.
+std::string_view present_op(std::string_view op);
+std::string_view present_field(std::string_view field);
+
 }  // namespace liana::api

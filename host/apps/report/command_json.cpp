@@ -51,11 +51,11 @@ const char* command_kind_name(const CommandRecord& life) {
     case CommandKind::kJoint:
       return "joints";
     case CommandKind::kRetreat:
-      return "retreat";
+      return "retract";
     case CommandKind::kPush:
-      return "push";
+      return "insert";
     case CommandKind::kFollow:
-      return "follow";
+      return "comply";
     default:
       return "other";
   }

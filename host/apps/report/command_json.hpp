@@ -6,7 +6,7 @@
 
 namespace liana::report {
 
-// tip, joints, retreat, request (none came of it), other.
+// tip, joints, retract, request (none came of it), other.
 const char* command_kind_name(const CommandRecord& life);
 
 // Stages that have not come are null; margins where nothing was looked at, too.

@@ -69,13 +69,13 @@ serial::Push push_of(const config::SerialRobotConfig& robot, const api::Argument
   push.axis_in_tip = axis_of(fields);
   push.force_N = fields.number("force_N");
   push.travel_m = fields.number("travel_m");
-  push.aside_m = fields.number("aside_m");
+  push.aside_m = fields.number("lateral_m");
   push.depth_m = fields.number("depth_m");
   if (push.law == serial::InsertLaw::kForce) push.depth_m = 0.0;
   push.gains = gains_of(robot, fields);
   require("force_N", push.force_N, 0.0, most.most_force_N, kByTable);
   require("travel_m", push.travel_m, 0.0, most.most_travel_m, kByTable);
-  require("aside_m", push.aside_m, 0.0, most.most_aside_m, kByTable);
+  require("lateral_m", push.aside_m, 0.0, most.most_aside_m, kByTable);
   require("turn_deg", fields.number("turn_deg"), 0.0, most.most_turn_rad / kDegree, kByTable);
   require("depth_m", push.depth_m, 0.0, push.travel_m, ", which is travel_m");
   push.turn_rad = std::fmin(fields.number("turn_deg") * kDegree, most.most_turn_rad);
@@ -114,9 +114,9 @@ void require_adapter(const config::SerialRobotConfig& robot) {
 }
 
 void require_possible(const config::SerialRobotConfig& robot, std::string_view op, const api::Arguments& fields) {
-  if (op == "push") push_of(robot, fields);
+  if (op == "insert") push_of(robot, fields);
   if (op == "payload") payload_of(fields);
-  if (op == "follow") require_torque_drives(robot);
+  if (op == "comply") require_torque_drives(robot);
   if (op == "adapter") require_adapter(robot);
 }
 

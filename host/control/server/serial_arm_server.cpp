@@ -44,11 +44,11 @@ SerialArmServer::SerialArmServer(const config::SerialRobotConfig& robot, const c
                          simulation::serial_model(robot, scene), scene),
                      taken(time_mode)),
       robot_(robot) {
-  handlers_["push"] = [this](const MotionRequest& r) {
+  handlers_["insert"] = [this](const MotionRequest& r) {
     arbiter_.push(outputs(), force_control::push_of(robot_, r.fields));
   };
   handlers_["payload"] = [this](const MotionRequest& r) { arbiter_.carry(force_control::payload_of(r.fields)); };
-  handlers_["follow"] = [this](const MotionRequest&) {
+  handlers_["comply"] = [this](const MotionRequest&) {
     force_control::require_torque_drives(robot_);
     arbiter_.follow(outputs());
   };

@@ -30,7 +30,7 @@ visual_servo::ServoRequest servo_request(const api::Arguments& fields) {
 }
 
 motion::Swings swings_of(const api::Arguments& fields) {
-  return {fields.number("swing_s"), fields.number("quicker_swing_s"), fields.number("swing_off")};
+  return {fields.number("sway_s"), fields.number("quicker_sway_s"), fields.number("sway_tolerance")};
 }
 
 Json servo_json(const visual_servo::ServoStatus& report) {
