@@ -34,7 +34,7 @@ constexpr std::array<FaultInfo, count_enumerators<FaultNumber, 1000>()> kFaultTa
      "In a push the wrist's force sensor was not to be trusted; the detail is 1 silent, 2 saturated, 3 failed, 4 no "
      "number, 5 not at rest before the push, 6 stuck at the very same numbers.",
      "The arm gives way where it is pushed; check sensor and cable, then clear, and back off before another push."},
-    {kPushOverload, "push_overload", kHold, false, true,
+    {kPushOverload, "insert_overload", kHold, false, true,
      "A push met more force, or a joint more torque, than it may; the drive is the joint, where it was one, the detail "
      "is in N or N m.",
      "Look for what jams; clear, back off along the axis, and push again with less force or better aligned."},
@@ -60,7 +60,7 @@ constexpr std::array<FaultInfo, count_enumerators<FaultNumber, 1000>()> kFaultTa
      "itself, the others by clear."},
     {kDriveStopTimeout, "drive_stop_timeout", kStop, true, false, "A drive did not confirm that it is without power.",
      "Use the STO switch; do not approach the arm before the drive shows Switch on disabled, then clear."},
-    {kNodeTwice, "node_twice", kStop, true, false,
+    {kNodeTwice, "duplicate_node_id", kStop, true, false,
      "Somebody else speaks under the identifiers of a drive: two drives have one node id, or another master commands "
      "it.",
      "Look for a second drive with this node id, or another program that commands drives; give each drive an id of its "

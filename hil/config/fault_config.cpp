@@ -1,6 +1,7 @@
 #include "hil/config/fault_config.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <stdexcept>
 
@@ -52,6 +53,12 @@ void refuse_others(const JsonFile& file, const std::string& field, const std::ve
       file.fail(field + "/" + key, "is not known here; " + allowed_names(key, allowed));
 }
 
+// Kinds that had another name before, and the present one.
+constexpr std::array<std::pair<const char*, const char*>, 2> kRetiredKinds{{
+    {"push", "external_force"},
+    {"node_twice", "duplicate_node_id"},
+}};
+
 const KindOfFault& read_kind(const JsonFile& file, const std::string& field) {
   const std::string name = file.text(field);
   std::vector<std::string> names;
@@ -59,6 +66,8 @@ const KindOfFault& read_kind(const JsonFile& file, const std::string& field) {
     if (name == kind.name) return kind;
     names.emplace_back(kind.name);
   }
+  for (const auto& [before, now] : kRetiredKinds)
+    if (name == before) file.fail(field, "is \"" + name + "\", which is called \"" + now + "\" now");
   file.fail(field, "is \"" + name + "\"; " + allowed_names(name, names));
 }
 

@@ -29,7 +29,7 @@ std::vector<KindOfFault> of_drives() {
           {"wrong_identity_after_reboot", kWrongIdentityAfterReboot, kOf, false, {}},
           {"encoder_jump", kEncoderJump, kOf, false, {{"counts", &P::counts, -1e6, 1e6, true, true}}},
           {"no_reports", kNoReports, kOf, true, {}},
-          {"node_twice", kNodeTwice, kOf, true, {}},
+          {"duplicate_node_id", kNodeTwice, kOf, true, {}},
           {"slow_reset", kSlowReset, kOf, true, {{"seconds", &P::seconds, 0.001, 60, false, false}}},
           {"slow_power", kSlowPower, kOf, true, {{"seconds", &P::seconds, 0.001, 60, false, false}}},
           {"slow_sdo", kSlowSdo, kOf, true, {{"seconds", &P::seconds, 0.001, 60, false, false}}}};
@@ -62,7 +62,7 @@ std::vector<KindOfFault> of_the_tip() {
 
 KindOfFault of_the_body() {
   using enum FaultKind;
-  return {"push",
+  return {"external_force",
           kPush,
           FaultOf::kBody,
           true,

@@ -15,7 +15,7 @@ SELF_REPORTS = (
     "encoder_jump",
     "late",
     "stuck",
-    "node_twice",
+    "duplicate_node_id",
 )  # what these drives report is not where their drums are
 
 

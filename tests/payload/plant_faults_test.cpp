@@ -41,7 +41,7 @@ TEST(TorqueDriveFaults, EveryKindEndsInTheDrivesOwnSafeState) {
                                                        {"wrong_identity_after_reboot", ""},
                                                        {"encoder_jump", R"(,"counts":3000)"},
                                                        {"no_reports", ""},
-                                                       {"node_twice", ""},
+                                                       {"duplicate_node_id", ""},
                                                        {"slow_sdo", ""}};
   for (const auto& [kind, more] : kinds) {
     Stand stand(7, fault(kind, std::string(R"(,"drive":4)") + more), false);

@@ -97,7 +97,7 @@ std::string push_list(const ForcePlan& plan, double tick_s) {
   double begin_s = kFirstBlock_s;
   for (const PlannedPush& push : plan.pushes) {
     for (const PushTimes& times : {kAtRest, kOnTheMove})
-      list.push_back({{"kind", "push"},
+      list.push_back({{"kind", "external_force"},
                       {"link", push.link},
                       {"x_N", push.force_N[0]},
                       {"y_N", push.force_N[1]},

@@ -369,24 +369,24 @@ TEST_F(Arbitration, WhatAHandIsRefusedIsAskedForMoreSlowlyInTheSameIntervalAndAt
   const double from_m = now_.tip_command.position_m[0];
   double before_m = steered(0.05)->tip_in_base.position_m[0] - from_m, before_m_s = 1.0;
   for (const bool is_last : {false, false, true}) {
-    const auto slower = arbiter_.slower(now_, "swing_tension");
+    const auto slower = arbiter_.slower(now_, "sway_tension");
     ASSERT_TRUE(slower);
     const double way_m = slower->tip_in_base.position_m[0] - from_m;
     EXPECT_LT(way_m, before_m);
     EXPECT_EQ(way_m == 0.0, is_last);
     EXPECT_LT(slower->tip_speed_m_s, before_m_s);
     EXPECT_GT(slower->tip_speed_m_s, 0.0);
-    EXPECT_STREQ(arbiter_.ease().limit, "swing_tension");
+    EXPECT_STREQ(arbiter_.ease().limit, "sway_tension");
     before_m = way_m;
     before_m_s = slower->tip_speed_m_s;
   }
   EXPECT_EQ(arbiter_.ease().share, 0.0);
-  EXPECT_FALSE(arbiter_.slower(now_, "swing_tension"));
+  EXPECT_FALSE(arbiter_.slower(now_, "sway_tension"));
   const auto next = steered(0.05);
   EXPECT_GT(next->tip_in_base.position_m[0], from_m) << "in the next interval it goes on";
   EXPECT_LT(arbiter_.ease().share, 0.2);
   steered(0.05, false);
-  EXPECT_FALSE(arbiter_.slower(now_, "swing_tension")) << "nobody steers";
+  EXPECT_FALSE(arbiter_.slower(now_, "sway_tension")) << "nobody steers";
 }
 
 TEST_F(Arbitration, AHandThatPushesOnAgainstTheSameLimitHasARefusalThatStands) {

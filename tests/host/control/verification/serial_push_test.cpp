@@ -154,7 +154,7 @@ TEST(PushTwin, WithASensorThatHasFailedNothingIsReleased) {
 TEST(PushTwin, AForceOverTheTablesShowsAsTheFaultThatItWouldBe) {
   PushTwin arm;
   arm.press(push_with(30.0), 60, [](serial::Sensors& s) { s.wrist.on_arm.force_N = {0.0, 0.0, -70.0}; });
-  EXPECT_NE(arm.verdict(push_with(30.0)).find("push_overload"), std::string::npos);
+  EXPECT_NE(arm.verdict(push_with(30.0)).find("insert_overload"), std::string::npos);
 }
 
 }  // namespace
