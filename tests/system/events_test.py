@@ -100,7 +100,7 @@ class EventsOfARun(SystemTest):
         kinds = set(schema["properties"]["kind"]["enum"])
         happened = {event.kind for event in self.file + self.unbooted}
         # service_events_test, way_out_test, friction_watch_test, service_test
-        elsewhere = {"verdict", "way_back", "friction", "device"}
+        elsewhere = {"verdict", "retract", "friction", "device"}
         self.assertEqual(kinds - happened, elsewhere)
         for message in self.recorded.messages("event"):
             self.assertEqual(set(message.json()), set(schema["required"]))
@@ -132,7 +132,7 @@ class EventsOfARun(SystemTest):
         (clear,) = self.told("clear")
         self.assertEqual(clear.number, 0)
         self.assertGreater(clear.values["checked"], 0)
-        trouble = self.told("host_trouble")
+        trouble = self.told("host_warning")
         self.assertEqual([(event.number, event.subject) for event in trouble], [(4, "bus can0"), (5, "bus can0")])
         self.assertEqual(trouble[1].values, {"count": 1})
         (missing,) = [event for event in self.unbooted if event.kind == "boot_problem"]
@@ -234,7 +234,7 @@ class EventsOfRunsThatFail(SystemTest):
             client.start_moving()
             client.until(lambda state: not state["is_busy"])
             self.assert_holds(client.state)
-            (trouble,) = [event for event in client.events if event["kind"] == "host_trouble"]
+            (trouble,) = [event for event in client.events if event["kind"] == "host_warning"]
             self.assertEqual((trouble["number"], trouble["subject"]), (7, "/dev/full"))
 
 

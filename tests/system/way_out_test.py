@@ -71,7 +71,7 @@ class TheWayOut(SystemTest):
         return client.state, phases
 
     def way_events(self, system):
-        return [event.number for event in system.events() if event.kind == "way_back"]
+        return [event.number for event in system.events() if event.kind == "retract"]
 
     def test_a_stop_and_a_clear_leave_the_way_back_as_it_was(self):
         system = System()

@@ -25,9 +25,9 @@ void SampleMonitor::look(const Json& state) {
 
 // Of a use: each begins anew.
 void SampleMonitor::look_at_rate(const Json& rate, OfDevice& device) {
-  const double least_s = rate.value("least_s", 0.0);
+  const double least_s = rate.value("min_s", 0.0);
   if (least_s > 0.0) device.least_s = device.least_s > 0.0 ? std::min(device.least_s, least_s) : least_s;
-  device.most_s = std::max(device.most_s, rate.value("most_s", 0.0));
+  device.most_s = std::max(device.most_s, rate.value("max_s", 0.0));
   const Json& hz = rate.member_or_null("hz");
   if (hz.is_number()) slowest_hz_ = std::min(slowest_hz_.value_or(hz.get<double>()), hz.get<double>());
 }

@@ -23,7 +23,7 @@ enum class EventKind : std::uint8_t {
   kOwner,        // number: OwnerEvent; subject the client's name; `ttl_s` of one that stands still
   kStep,         // number of the step that begins, 0 when the last is over; subject its name
   kOperator,     // subject the operator's name; what he says
-  kDevice,       // number: DeviceEvent; subject the device's name; `rate_hz`, `least_s`, `most_s`, `samples`
+  kDevice,       // number: DeviceEvent; subject the device's name; `rate_hz`, `min_s`, `max_s`, `samples`
   kTool,         // subject the client's name; the command for the repair tool
   kRefusal,      // a request was answered with an error; number: RefusalEvent; subject the client's name
   kVerdict,      // verification refused a command: number M_e; subject which of the two ends; `command`, `share`

@@ -35,7 +35,7 @@ class LineFile {
   // The line that each further part repeats behind its heading: the cause of what goes on.
   void repeat(std::string line);
   // What has changed since the last call, for the log: the disk takes no more, or it takes events again. Both are of
-  // kind host_trouble. Events that were lost on the way are missing in the file; a line beginning with # says how many
+  // kind host_warning. Events that were lost on the way are missing in the file; a line beginning with # says how many
   // so far.
   std::optional<Event> change();
 

@@ -59,8 +59,8 @@ event::Event device_event(event::DeviceEvent what, const std::string& name, cons
           .number = event::number_of(what),
           .subject = name,
           .values = {{"rate_hz", rate_hz},
-                     {"least_s", rate.least_s()},
-                     {"most_s", rate.most_s()},
+                     {"min_s", rate.least_s()},
+                     {"max_s", rate.most_s()},
                      {"samples", static_cast<double>(rate.count())}},
           .text = text};
 }

@@ -47,7 +47,7 @@ Json contact_json(const cable::ContactStatus& contact) {
 Json rate_json(const device::SampleRate& rate) {
   if (rate.count() == 0) return nullptr;
   const std::optional<double> now_hz = rate.now_hz();
-  return {{"hz", now_hz ? Json(*now_hz) : Json()}, {"least_s", rate.least_s()}, {"most_s", rate.most_s()}};
+  return {{"hz", now_hz ? Json(*now_hz) : Json()}, {"min_s", rate.least_s()}, {"max_s", rate.most_s()}};
 }
 
 // A hand is slowed by whatever leaves it least: what is near, or what the pose has room for.

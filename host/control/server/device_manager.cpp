@@ -59,8 +59,8 @@ Json hand_json(const device::Device& device, std::size_t hand) {
            {"max_force_N", can.max_force_N},
            {"max_torque_Nm", can.max_torque_Nm},
            {"samples", rate.count()},
-           {"least_s", rate.least_s()},
-           {"most_s", rate.most_s()},
+           {"min_s", rate.least_s()},
+           {"max_s", rate.most_s()},
            {"sample", nullptr}};
   if (const std::optional<device::Sample>& newest = device.newest(hand)) {
     out["sample"] = {{"t_us", newest->t_us},       {"valid", newest->valid},

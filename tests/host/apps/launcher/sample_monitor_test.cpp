@@ -15,7 +15,7 @@ namespace {
 Json state(const char* device, std::uint64_t command, double newest_s, double oldest_s, double lead_s) {
   const auto taken_us = [](double before_s) { return std::llround(1e6 * (10.0 - before_s)); };
   return {{"device", device},
-          {"device_rate", {{"hz", nullptr}, {"least_s", 0.001}, {"most_s", 0.002}}},
+          {"device_rate", {{"hz", nullptr}, {"min_s", 0.001}, {"max_s", 0.002}}},
           {"verdict",
            {{"sequence", command},
             {"made_of",
@@ -59,7 +59,7 @@ TEST(SampleMonitor, KeepsTheShortestAndLongestIntervalAndTheSlowestSecondOfAllUs
   EXPECT_TRUE(watch.json().is_null());
   EXPECT_FALSE(watch.slowest_hz());
   for (const auto& [hz, least_s, most_s] : {std::tuple{90.0, 0.011, 0.0112}, {45.0, 0.02, 0.03}, {90.0, 0.011, 0.011}})
-    watch.look({{"device", "vr"}, {"device_rate", {{"hz", hz}, {"least_s", least_s}, {"most_s", most_s}}}});
+    watch.look({{"device", "vr"}, {"device_rate", {{"hz", hz}, {"min_s", least_s}, {"max_s", most_s}}}});
   watch.look({{"device", "none"}, {"device_rate", nullptr}});
   EXPECT_EQ(watch.slowest_hz(), 45.0);
   const Json interval = watch.json().at("vr").at("interval_s");

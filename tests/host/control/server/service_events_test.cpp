@@ -84,17 +84,17 @@ TEST(HostTroubles, EachChangeSaysWhichBusAndHowMuch) {
   report.bus[1].dropped = 2;
   report.overruns.lost_ticks = 3;
   const std::vector<event::Event> events = trouble.changes(buses, report);
-  EXPECT_EQ(summaries(events), (std::vector<std::string>{"host_trouble 1 bus can0", "host_trouble 2 bus can1",
-                                                         "host_trouble 3 bus can1", "host_trouble 6 control thread"}));
+  EXPECT_EQ(summaries(events), (std::vector<std::string>{"host_warning 1 bus can0", "host_warning 2 bus can1",
+                                                         "host_warning 3 bus can1", "host_warning 6 control thread"}));
   EXPECT_EQ(events[0].values, (std::vector<event::EventValue>{{"state", 1.0}}));
   EXPECT_EQ(events[1].values, (std::vector<event::EventValue>{{"count", 4.0}}));
   EXPECT_TRUE(names(events[1].text, {"can1", "4", "active"}));
   EXPECT_EQ(events[3].values, (std::vector<event::EventValue>{{"count", 3.0}}));
   EXPECT_TRUE(trouble.changes(buses, report).empty());
   report.bus[0].refused = 6;
-  EXPECT_EQ(summaries(trouble.changes(buses, report)), (std::vector<std::string>{"host_trouble 4 bus can0"}));
+  EXPECT_EQ(summaries(trouble.changes(buses, report)), (std::vector<std::string>{"host_warning 4 bus can0"}));
   const std::vector<event::Event> over = trouble.changes(buses, report);
-  EXPECT_EQ(summaries(over), (std::vector<std::string>{"host_trouble 5 bus can0"}));
+  EXPECT_EQ(summaries(over), (std::vector<std::string>{"host_warning 5 bus can0"}));
   EXPECT_EQ(over[0].values, (std::vector<event::EventValue>{{"count", 6.0}}));
 }
 

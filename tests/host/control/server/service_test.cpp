@@ -598,7 +598,7 @@ TEST_F(ServiceOverSocket, ADeviceUnderFiftyHertzIsAnAlarmUntilItIsFastAgainAndIt
   EXPECT_EQ(state(mission)["device_rate"], Json());
   const Json fast = sample_for(150, 10000)["device_rate"];
   EXPECT_NEAR(fast["hz"].get<double>(), 100.0, 0.1);
-  EXPECT_NEAR(fast["least_s"].get<double>(), 0.01, 1e-9);
+  EXPECT_NEAR(fast["min_s"].get<double>(), 0.01, 1e-9);
   sample_for(300, 25000);
   ASSERT_EQ(ask(mission, {{"op", "use_device"}, {"device", "none"}}), "ok");
   const std::string events = state(mission)["events"].dump();

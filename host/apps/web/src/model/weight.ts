@@ -5,7 +5,7 @@ import { TROUBLE } from '../data/derived_events';
 export type Weight = 'bad' | 'warning' | 'note';
 
 const BAD = new Set(['fault', 'stop', 'boot_problem']);
-const WARNING = new Set(['verdict', 'refusal', 'host_trouble', 'emergency', 'left_out']);
+const WARNING = new Set(['verdict', 'refusal', 'host_warning', 'emergency', 'left_out']);
 const DERIVED = new Set(['push', 'wrist', 'adapter', 'servo']);
 
 export function weightOf(event: LianaEvent): Weight {
