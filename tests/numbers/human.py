@@ -41,7 +41,7 @@ def run_once(binaries, words, seed, folder):
     """The report of one run, kept in `folder`; of that which is there already."""
     file = folder / f"{'_'.join(words).strip('-')}_{seed}.json"
     if not file.exists():
-        call = [str(binaries / "liana"), "run", "slit_crossing", "--operator", "human", "--seed", str(seed)]
+        call = [str(binaries / "liana"), "run", "slit_crossing", "--operator", "model", "--seed", str(seed)]
         subprocess.run([*call, *words, "--json", str(file)], capture_output=True, text=True, check=False)
     report = json.loads(file.read_text()) if file.exists() else {"outcome": "no report"}
     report["seed"] = seed

@@ -247,7 +247,7 @@ class WhatASerialArmRefuses(SystemTest):
                     self.refused(SHORT, "--robot", "micro", option, value, says=[option, "micro", "serial"])
 
     def test_options_that_would_change_nothing(self):
-        for option, value in (("--true-physics", "worn"), ("--operator", "human")):
+        for option, value in (("--true-physics", "worn"), ("--operator", "model")):
             with self.subTest(option):
                 self.refused(SHORT, "--robot", "micro", option, value, says=[option, "micro", "serial"])
 

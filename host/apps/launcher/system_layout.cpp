@@ -300,7 +300,7 @@ std::string check_options_of_serial_robot(const RunOptions& options, const std::
   const auto is_unknown = [](const std::string& physics) { return !physics.empty() && physics != "nominal"; };
   refuse("--physics", is_unknown(options.physics), "its bench knows nominal only; leave it out");
   refuse("--true-physics", is_unknown(options.true_physics), "its bench knows nominal only; leave it out");
-  refuse("--operator", options.people.who == "human", "no hand steers it yet; leave it out");
+  refuse("--operator", options.people.who == "model", "no hand steers it yet; leave it out");
   refuse("mission", is_plan(options), "plans are for cable arms; give a mission");
   check_payload_is_simulated(options, plan.scene, config::is_torque_controlled(robot));
   const StartPose start = start_pose_of(robot, options.start_pose);

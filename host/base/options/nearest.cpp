@@ -1,11 +1,17 @@
 #include "host/base/options/nearest.hpp"
 
 #include <algorithm>
+#include <array>
+
+#include "host/base/options/retired.hpp"
 
 namespace liana::options {
 namespace {
 
 constexpr std::size_t kMaxEdits = 2;
+
+// Words of command lines.
+constexpr std::array<RetiredName, 1> kRetired{{{"human", "model"}}};
 
 // Fewest edits that make one word of the other, no letter edited twice (optimal string alignment).
 std::size_t edits_between(std::string_view a, std::string_view b) {
@@ -42,6 +48,8 @@ std::string nearest(std::string_view given, const std::vector<std::string>& know
 }
 
 std::string did_you_mean(std::string_view given, const std::vector<std::string>& known) {
+  const std::string now{present_name(given, kRetired)};
+  if (std::find(known.begin(), known.end(), now) != known.end()) return "; it is called " + now + " now";
   const std::string name = nearest(given, known);
   return name.empty() ? "" : "; did you mean " + name + "?";
 }

@@ -12,7 +12,8 @@ namespace liana::options {
 // left out, replaced or exchanged with the next one, and at most half as many as `given` has without dashes before it.
 std::string nearest(std::string_view given, const std::vector<std::string>& known);
 
-// "; did you mean NAME?", for the end of a refusal; empty where no known name is near.
+// "; did you mean NAME?", for the end of a refusal; empty where no known name is near. What had `given` as its name
+// before gives "; it is called NAME now".
 std::string did_you_mean(std::string_view given, const std::vector<std::string>& known);
 
 // "a, b, c" with `more` behind it, and then did_you_mean(): what is allowed, for the end of a refusal.

@@ -88,7 +88,7 @@ std::unique_ptr<Steering> human(const OperatorOptions& options, const Json& welc
 }
 
 std::unique_ptr<Steering> steering_of(const OperatorOptions& options, const Json& welcome) {
-  if (options.who == "human") return human(options, welcome);
+  if (options.who == "model") return human(options, welcome);
   return std::make_unique<RecordedSteering>(
       simulated::OperatorSession(folders_in(options.recordings), drawing_of(scene_of(options, welcome)),
                                  simulated::HandGains{}, options.seed, simulated::temper_called(options.temper)));
@@ -169,16 +169,17 @@ int main(int argc, char** argv) {
       .required();
   line.option("--scene", options.scene, "scene JSON the person has as a drawing; default: the one lianad runs with");
   line.option("--operator", options.who,
-              "recorded: VR handles from a file, a simulated person at the hand controller; human: the person at both")
-      .one_of({"recorded", "human"});
+              "recorded: VR handles from a file, a simulated person at the hand controller; model: an operator model "
+              "at both")
+      .one_of({"recorded", "model"});
   line.option("--feedback", options.feedback,
-              "of the human: a law (docs/explanation/force-feedback.md), or off; as the mission's steps say where not "
+              "of the model: a law (docs/explanation/force-feedback.md), or off; as the mission's steps say where not "
               "given")
       .one_of({"aligned", "claim", "abstract", "off"});
-  line.option("--passivity", options.passivity, "of the human: energy tank and damping").one_of({"on", "off"});
-  line.option("--fixtures", options.fixtures, "of the human: the walls that lianad tells are felt")
+  line.option("--passivity", options.passivity, "of the model: energy tank and damping").one_of({"on", "off"});
+  line.option("--fixtures", options.fixtures, "of the model: the walls that lianad tells are felt")
       .one_of({"on", "off"});
-  line.option("--delay", options.delay, "of the human: FORWARD_S,RETURN_S of the link to the arm, each 0 to 2");
+  line.option("--delay", options.delay, "of the model: FORWARD_S,RETURN_S of the link to the arm, each 0 to 2");
   line.option("--temper", options.temper,
               "lively: bursts, reversals, drift, tremor, grips lost in motion, both devices")
       .one_of({"gentle", "lively"});

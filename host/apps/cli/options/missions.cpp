@@ -54,14 +54,14 @@ void add_mission_options(CLI::App& sub, launcher::RunOptions& run) {
 // Who steers, and over what.
 void add_people(CLI::App& sub, launcher::OperatorChoice& people) {
   sub.add_option("--operator", people.who,
-                 "recorded: VR handles from a file, a simulated person at the hand controller; human: a simulated "
-                 "person at simulated devices in every step (docs/explanation/operator-model.md); recorded where "
+                 "recorded: VR handles from a file, a simulated person at the hand controller; model: an operator "
+                 "model at simulated devices in every step (docs/explanation/operator-model.md); recorded where "
                  "nothing is said")
-      ->check(CLI::IsMember({"recorded", "human"}));
+      ->check(CLI::IsMember({"recorded", "model"}));
   sub.add_option("--delay", people.delay,
-                 "of the human: FORWARD_S,RETURN_S, e.g. 0.5,0.5; delays of the link between hand and arm, 0 to 2 s");
+                 "of the model: FORWARD_S,RETURN_S, e.g. 0.5,0.5; delays of the link between hand and arm, 0 to 2 s");
   sub.add_option("--feedback", people.feedback,
-                 "of the human: the law of the force on the hand, or off; as the mission's steps say where not given")
+                 "of the model: the law of the force on the hand, or off; as the mission's steps say where not given")
       ->check(CLI::IsMember({"aligned", "claim", "abstract", "off"}));
   sub.add_option("--fixtures", people.fixtures,
                  "off: no fixture of the scene guides the hand or is felt, whatever the mission says "
@@ -73,7 +73,7 @@ void add_people(CLI::App& sub, launcher::OperatorChoice& people) {
          "holds both devices, details by --seed (docs/explanation/operator-model.md); gentle where nothing is said")
       ->check(CLI::IsMember({"gentle", "lively"}));
   sub.add_option("--passivity", people.passivity,
-                 "of the human: energy tank and damping at the hand controller; on where nothing is said")
+                 "of the model: energy tank and damping at the hand controller; on where nothing is said")
       ->check(CLI::IsMember({"on", "off"}));
 }
 

@@ -454,7 +454,7 @@ class Help(Messages, unittest.TestCase):
             (["check", "slit_crossing", "--bus", "embeded"], "embeded", "embedded"),
             (["run", "slit_crossing", "--physics", "wron"], "wron", "worn"),
             (["run", "slit_crossing", "--time=fats"], "fats", "fast"),
-            (["run", "slit_crossing", "--operator", "hunan"], "hunan", "human"),
+            (["run", "slit_crossing", "--operator", "modle"], "modle", "model"),
             (["mission", "paus"], "paus", "pause"),
             (["completion", "bsh"], "bsh", "bash"),
             (["verify", "--from-deg=prepared", "--to-deg=zero", "--duration=5"], "prepared", "prepare"),
