@@ -39,14 +39,14 @@ class ForeignReaders(unittest.TestCase):
         liana = pathlib.Path(os.environ["LIANA_BIN"]) / "liana"
         done([liana, "run", MISSION, "--record", folder], env={**os.environ, "XDG_RUNTIME_DIR": home.name})
         reader = installed_reader(pathlib.Path(os.environ["LIANA_READER"]))
-        files = [folder / name for name in ("ticks.mcap", "images.mcap", "state.mcap")]
+        files = [folder / name for name in ("ticks.mcap", "snapshots.mcap", "state.mcap")]
         cls.found = json.loads(done(["node", reader / "list_channels.mjs", *files]))
         exported = pathlib.Path(home.name) / "export.mcap"
         done([liana, "log", "export", folder, "--mcap", exported])
         cls.shown = json.loads(done(["node", reader / "check_schemas.mjs", exported]))
 
     def test_every_file_of_a_recording_is_indexed(self):
-        self.assertEqual(set(self.found), {"ticks.mcap", "images.mcap", "state.mcap"})
+        self.assertEqual(set(self.found), {"ticks.mcap", "snapshots.mcap", "state.mcap"})
         for name, file in self.found.items():
             self.assertTrue(file["indexed"], name)
 

@@ -39,7 +39,7 @@ void replay(const Recorded<Arm>& good, std::size_t edits_of_image, std::string_v
   std::string image = good.packet.substr(1), inputs = good.inputs;
   for (; edits_of_image > 0 && rest.size() >= kEditBytes; --edits_of_image) edit(image, rest);
   while (rest.size() >= kEditBytes) edit(inputs, rest);
-  recording::ReplayCore<Arm> core(recording::parse_image<Arm>(image), "images.mcap");
+  recording::ReplayCore<Arm> core(recording::parse_image<Arm>(image), "snapshots.mcap");
   for (int i = 0; i < kTicks; ++i) core.tick(inputs);
 }
 

@@ -29,7 +29,7 @@ def measure(binaries):
             [str(binaries / "liana"), "replay", str(first), "--json"], capture_output=True, text=True, check=False
         )
         result = json.loads(done.stdout) if done.stdout else {"ticks": 0, "differing_ticks": -1}
-        files = ["ticks.mcap", "images.mcap", "truth.bin", "can0.log", "can1.log"]
+        files = ["ticks.mcap", "snapshots.mcap", "truth.bin", "can0.log", "can1.log"]
         same = {name: digest(first / name) == digest(second / name) != "missing" for name in files}
     text = f"Replay: {result['ticks']} ticks, {result['differing_ticks']} differ. Two fast runs with one seed:\n\n"
     return {"replay": result, "identical": same}, text + table(

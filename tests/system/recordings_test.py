@@ -93,7 +93,7 @@ class Recordings(SystemTest):
             for folder in (self.first, self.second)
         )
         self.assertEqual(names, others)
-        self.assertLessEqual({*FILES, "images.mcap", "state.mcap", "events.txt"}, set(names))
+        self.assertLessEqual({*FILES, "snapshots.mcap", "state.mcap", "events.txt"}, set(names))
         # Which states and events the recorder still gets at the end is the machine's, and the page shows them all.
         ends_alike = len({tuple(messages(folder)) for folder in (self.first, self.second)}) == 1
         for name in names:
@@ -109,7 +109,7 @@ class Recordings(SystemTest):
 
     def test_a_tick_costs_at_most_a_third_of_the_3178_bytes_it_cost_without_chunks(self):
         ticks = len(Recording(self.first / "ticks.mcap").ticks)
-        size = sum((self.first / name).stat().st_size for name in ("ticks.mcap", "images.mcap", "state.mcap"))
+        size = sum((self.first / name).stat().st_size for name in ("ticks.mcap", "snapshots.mcap", "state.mcap"))
         self.assertLess(size / ticks, 3178 / 3)
 
     # req:A25
@@ -167,24 +167,24 @@ class Recordings(SystemTest):
     def test_replay_says_what_it_compared_and_that_the_same_build_recorded(self):
         said = run("liana", "replay", self.first).stdout
         self.assertIn("compared: ticks.mcap", said)
-        self.assert_names(said, "checked", "images.mcap", "checksums")
+        self.assert_names(said, "checked", "snapshots.mcap", "checksums")
         self.assert_names(said, "recorded", "this build")
 
     def test_replay_notices_images_that_are_damaged_cut_short_or_missing(self):
         copy = self.second.parent / "images"
         shutil.copytree(self.first, copy)
-        whole = (copy / "images.mcap").read_bytes()
+        whole = (copy / "snapshots.mcap").read_bytes()
         at = len(whole) // 2
         for content, state in (
             (whole[:at] + bytes([whole[at] ^ 1]) + whole[at + 1 :], "damaged"),
             (whole[:at], "cut short"),
             (b"other", "damaged"),
         ):
-            (copy / "images.mcap").write_bytes(content)
+            (copy / "snapshots.mcap").write_bytes(content)
             done = run("liana", "replay", copy, "--json")
             self.assertEqual((done.returncode, json.loads(done.stdout)["images"]["state"]), (1, state))
-            self.assertIn(f"images.mcap: {state}", done.stderr)
-        (copy / "images.mcap").unlink()
+            self.assertIn(f"snapshots.mcap: {state}", done.stderr)
+        (copy / "snapshots.mcap").unlink()
         self.assertEqual(run("liana", "replay", copy).returncode, 0)
 
     def test_replay_of_nothing_is_bad_input(self):

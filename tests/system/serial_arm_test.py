@@ -11,7 +11,7 @@ from liana.recordings import Mcap, Recording, Truth
 from liana.system import System, run
 
 SHORT = MISSIONS / "short_micro.lua"
-FILES = ("ticks.mcap", "images.mcap", "state.mcap", "truth.bin", "can0.log", "can1.log")
+FILES = ("ticks.mcap", "snapshots.mcap", "state.mcap", "truth.bin", "can0.log", "can1.log")
 PATIENCE_S = 300
 
 

@@ -125,7 +125,7 @@ ProgramCall daemon_call(const SystemLayout& plan, const RunOptions& options, boo
                    {sibling_program("lianad"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"),
                     "--buses", plan.file("buses.json"), "--api", plan.api_socket(), "--time", plan.time_mode,
                     "--physics", options.physics, "--expect", expected_roles(plan, options), "--events",
-                    plan.events_file(), "--way-out", plan.file("way_out.bin")}};
+                    plan.events_file(), "--retract-path", plan.file("retract_path.bin")}};
   if (!options.mission.empty() || plan.has_recorder) append(call.argv, {"--commands", plan.commands_file()});
   if (plan.is_dry_run) append(call.argv, {"--verify-times", plan.verify_times_file()});
   if (!options.calibration.empty()) append(call.argv, {"--calibration", options.calibration});

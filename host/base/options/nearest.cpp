@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kMaxEdits = 2;
 
 // Words of command lines.
-constexpr std::array<RetiredName, 1> kRetired{{{"human", "model"}}};
+constexpr std::array<RetiredName, 2> kRetired{{{"human", "model"}, {"--way-out", "--retract-path"}}};
 
 // Fewest edits that make one word of the other, no letter edited twice (optimal string alignment).
 std::size_t edits_between(std::string_view a, std::string_view b) {

@@ -220,7 +220,7 @@ int main(int argc, char** argv) {
   line.option("--events", options.events, "file for what happened and why, a line for each event");
   line.option("--commands", options.commands, "file for what becomes of every command, a line for each stage");
   line.option(
-      "--way-out", options.way_out,
+      "--retract-path", options.way_out,
       "file that keeps the verified way back, so that it survives lianad: read at the start, used where the arm "
       "is enabled within 50 mm of it");
   line.option("--verify-times", options.verify_times,

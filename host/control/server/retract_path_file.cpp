@@ -78,12 +78,12 @@ std::size_t RetractPathFile::record_bytes() const { return 8 * (joints_ + 3); }
 void RetractPathFile::open() {
   fd_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_NONBLOCK | O_CLOEXEC | O_NOFOLLOW, 0600);
   if (fd_ < 0) {
-    throw std::runtime_error("--way-out: '" + path_ + "': cannot be written: " + std::strerror(errno) +
+    throw std::runtime_error("--retract-path: '" + path_ + "': cannot be written: " + std::strerror(errno) +
                              "; give a file in a folder that exists");
   }
   if (::flock(fd_, LOCK_EX | LOCK_NB) == 0) return;
   ::close(fd_);
-  throw std::runtime_error("--way-out: '" + path_ +
+  throw std::runtime_error("--retract-path: '" + path_ +
                            "': another lianad keeps its way back there; give a file of its own");
 }
 
@@ -95,7 +95,7 @@ void RetractPathFile::read(const std::string& robot) {
   const bool has_header = is_file && read_at(fd_, &header, sizeof header, 0) &&
                           std::equal(kMagic.begin(), kMagic.end(), header.magic.begin());
   if (!is_file || (status.st_size > 0 && !has_header)) {
-    throw std::runtime_error("--way-out: '" + path_ + "': holds no way back of " + robot +
+    throw std::runtime_error("--retract-path: '" + path_ + "': holds no way back of " + robot +
                              "; give another file, or one that does not exist yet");
   }
   const bool is_ours = has_header && header.robot_crc == robot_crc_ && header.joints == joints_ &&
@@ -112,7 +112,7 @@ void RetractPathFile::read(const std::string& robot) {
     }
   }
   if (!write_header(kept_.first, end_))
-    throw std::runtime_error("--way-out: '" + path_ + "': cannot be written: " + std::strerror(errno));
+    throw std::runtime_error("--retract-path: '" + path_ + "': cannot be written: " + std::strerror(errno));
 }
 
 std::optional<arbiter::WayPoint> RetractPathFile::read_point(std::uint64_t number) const {

@@ -167,7 +167,7 @@ int main(int argc, char** argv) {
   line.option("--api", api, "API socket of lianad").required();
   line.option("--archive", folder, "folder for archive.db, telemetry and ring; where not given, that of --record")
       .existing_folder();
-  line.option("--record", record, "folder for ticks.mcap, images.mcap and state.mcap").existing_folder();
+  line.option("--record", record, "folder for ticks.mcap, snapshots.mcap and state.mcap").existing_folder();
   if (const auto code = line.parse(argc, argv)) return *code;
   if (folder.empty()) folder = record;
   if (folder.empty()) {

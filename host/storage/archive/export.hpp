@@ -24,7 +24,7 @@ std::uint64_t write_mcap(const Reader& reader, Span span, const std::string& fil
 std::uint64_t write_candump(const Reader& reader, Span span, const std::string& file);
 
 // Control ticks out of the ring, as `liana run --record` writes them: `folder`, which is made, gets ticks.mcap and
-// images.mcap, which `liana replay` runs. Outputs that are no longer kept are made again from the Inputs, and taken
+// snapshots.mcap, which `liana replay` runs. Outputs that are no longer kept are made again from the Inputs, and taken
 // only where they match the checksum of those that were. Throws std::runtime_error when the ring holds nothing of the
 // span, is damaged, or of a build with other fields, and when the folder holds a recording.
 struct TicksWritten {

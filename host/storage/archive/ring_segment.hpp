@@ -15,7 +15,7 @@ namespace liana::archive {
 constexpr const char* kRingEncoding = "liana-ring-1";
 constexpr const char* kRingInputsTopic = "inputs";
 constexpr const char* kRingOutputsTopic = "outputs";
-constexpr const char* kRingImageTopic = "controller_image";  // packets of lianad's topic `tick`, as they came
+constexpr const char* kRingImageTopic = "controller_snapshot";  // packets of lianad's topic `tick`, as they came
 constexpr const char* kRingMetadata = "ring";
 
 using Texts = std::map<std::string, std::string>;

@@ -12,7 +12,7 @@ struct ImagesCheck {
   bool good() const { return state == "missing" || state == "whole"; }
 };
 
-// Reads all of `directory`/images.mcap; `is_serial`: the robot has a serial arm (ReplayResult).
+// Reads all of `directory`/snapshots.mcap; `is_serial`: the robot has a serial arm (ReplayResult).
 ImagesCheck check_images(const std::string& directory, bool is_serial);
 
 }  // namespace liana::recording

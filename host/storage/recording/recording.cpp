@@ -11,7 +11,7 @@ namespace liana::recording {
 namespace {
 
 constexpr const char* kEncoding = "liana-fields-2";
-constexpr const char* kImageEncoding = "liana-image-4";
+constexpr const char* kImageEncoding = "liana-snapshot-1";
 
 // Lists the fields of one recorded structure, a line each: path and width in bytes.
 class FieldLister {

@@ -1,6 +1,6 @@
 // The recording of a run. DIR/ticks.mcap (channels start, inputs, outputs) holds all that a replay needs, and is the
-// same byte for byte when a run is repeated. DIR/images.mcap (channel controller_image), which makes it seekable, is
-// so, too: a Controller is written field by field.
+// same byte for byte when a run is repeated. DIR/snapshots.mcap (channel controller_snapshot), which makes it seekable,
+// is so, too: a Controller is written field by field.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@
 namespace liana::recording {
 
 constexpr const char* kRecordingFile = "ticks.mcap";
-constexpr const char* kImagesFile = "images.mcap";
+constexpr const char* kImagesFile = "snapshots.mcap";
 constexpr const char* kStartTopic = "start";
 constexpr const char* kInputsTopic = "inputs";
 constexpr const char* kOutputsTopic = "outputs";
-constexpr const char* kImageTopic = "controller_image";
+constexpr const char* kImageTopic = "controller_snapshot";
 
 // What a recording says about its run.
 struct RecordingInfo {
@@ -57,7 +57,7 @@ class Recording {
 // Which kind of arm a recording is of, by the table of its robot.
 bool is_of_serial_arm(const std::string& robot_json);
 
-// Content of a start or controller_image message.
+// Content of a start or controller_snapshot message.
 template <class Arm>
 struct ControllerSnapshot {
   std::uint64_t next_tick = 0;

@@ -16,7 +16,7 @@ namespace liana::recording {
 
 namespace {
 
-using Images = std::map<std::uint64_t, std::string>;  // controller_image messages by next tick
+using Images = std::map<std::uint64_t, std::string>;  // controller_snapshot messages by next tick
 
 // Throws std::runtime_error when a byte of the file is not as it was written; true when the file is whole, false when
 // it was cut short.

@@ -19,7 +19,7 @@ struct ReplayResult {
 };
 
 // Replays `directory`/ticks.mcap; a recording that starts in mid-run, or has a gap, goes on from an image in
-// images.mcap. Throws std::runtime_error when there is no recording, some byte of it is not as it was written, or it
+// snapshots.mcap. Throws std::runtime_error when there is no recording, some byte of it is not as it was written, or it
 // starts in mid-run without an image that this build can use. Nothing of a damaged file reaches the core.
 ReplayResult replay(const std::string& directory);
 

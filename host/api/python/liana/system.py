@@ -78,17 +78,17 @@ class System:
         robot: str = "zhu2022",
         scene: str = "panel_slit",
         events: Optional[clients.Path] = None,
-        way_out: Optional[clients.Path] = None,
+        retract_path: Optional[clients.Path] = None,
     ) -> None:
         """`expect`: roles whom virtual time waits for; `faults`, `bus_script`: docs/how-to/run-hil.md; `lianad`,
         `bench`: further words for these programs; `events`: the file of events, events.txt in `directory` unless given;
-        `way_out`: the file that keeps the verified way back, way_out.bin there unless given.
+        `retract_path`: the file that keeps the verified path, retract_path.bin there unless given.
         """
         self.directory = pathlib.Path(tempfile.mkdtemp(prefix="liana-sys-"))
         self.api, self.bus_socket = self.directory / "api", self.directory / "bus"
         self.events_file = pathlib.Path(events or self.directory / "events.txt")
         self.commands = self.directory / "commands.txt"
-        self.way_out = pathlib.Path(way_out or self.directory / "way_out.bin")
+        self.retract_path = pathlib.Path(retract_path or self.directory / "retract_path.bin")
         self.children: dict[str, subprocess.Popen[bytes]] = {}
         self.clients: list[Client] = []
         self.expect, self.faults, self.script, self.seed = expect, faults, bus_script, seed
@@ -144,7 +144,7 @@ class System:
 
     def start_lianad(self) -> None:
         words = ["--api", self.api, "--bus-socket", self.bus_socket, "--time", "fast", "--expect", self.expect]
-        words += ["--events", self.events_file, "--commands", self.commands, "--way-out", self.way_out]
+        words += ["--events", self.events_file, "--commands", self.commands, "--retract-path", self.retract_path]
         self.start("lianad", *self.tables(), *words, *self.lianad_words)
         wait_until(self.api.exists, "lianad to listen", self.check_running)
 

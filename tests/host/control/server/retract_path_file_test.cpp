@@ -101,10 +101,10 @@ TEST_F(FileOfTheWay, WithADamagedHeadingOrOfAnotherRobotKeepsNothing) {
 
 TEST_F(FileOfTheWay, ThatIsNoneOrCannotBeMadeOrIsInUseIsRefusedAndLeftAlone) {
   std::ofstream(path_) << "a file of somebody else, longer than a heading of this one could be";
-  EXPECT_TRUE(names(why_not(path_), {"--way-out", path_, "way back"}));
+  EXPECT_TRUE(names(why_not(path_), {"--retract-path", path_, "way back"}));
   EXPECT_GT(std::filesystem::file_size(path_), 60u);
   std::filesystem::remove(path_);
-  EXPECT_TRUE(names(why_not("/nonexistent/way"), {"--way-out", "/nonexistent/way"}));
+  EXPECT_TRUE(names(why_not("/nonexistent/way"), {"--retract-path", "/nonexistent/way"}));
   const RetractPathFile file(path_, "an arm", 3);
   EXPECT_NE(why_not(path_).find("another lianad"), std::string::npos);
 }

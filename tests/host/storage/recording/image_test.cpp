@@ -69,7 +69,7 @@ TEST(Image, TwoControllersInDifferentMemoryGiveTheSameBytes) {
 // What is said about an image with one byte changed; empty when it is taken.
 std::string refusal_of(const std::string& state, const cable::RobotParams& table) {
   try {
-    controller_from<cable::CableArm>(state, table, "images.mcap");
+    controller_from<cable::CableArm>(state, table, "snapshots.mcap");
   } catch (const std::runtime_error& refused) {
     return refused.what();
   }
@@ -82,7 +82,8 @@ TEST(Image, OneThatIsCutShortOrTooLongIsRefusedWithTheField) {
   EXPECT_EQ(refusal_of(good, rig.robot), "");
   for (std::size_t length = 0; length < good.size(); length += 97)
     ASSERT_NE(refusal_of(good.substr(0, length), rig.robot), "") << length;
-  EXPECT_TRUE(names(refusal_of(good.substr(0, 4), rig.robot), {"images.mcap", "controller.arm.payout_measured_m[0]"}));
+  EXPECT_TRUE(
+      names(refusal_of(good.substr(0, 4), rig.robot), {"snapshots.mcap", "controller.arm.payout_measured_m[0]"}));
   EXPECT_TRUE(names(refusal_of(good + "x", rig.robot), {"1 more"}));
 }
 
@@ -123,7 +124,7 @@ TEST(Image, ATableThatWouldLeadTheCoreOutOfItsArraysIsRefused) {
     append_serialised(bytes, table);
     std::size_t used = 0;
     try {
-      checked_table<cable::RobotParams>(bytes, "images.mcap", used);
+      checked_table<cable::RobotParams>(bytes, "snapshots.mcap", used);
     } catch (const std::runtime_error& refused) {
       return refused.what();
     }
@@ -152,7 +153,7 @@ TEST(Image, AnImageWithFlippedBytesIsRefusedOrHarmless) {
     if (!refusal_of(bad, rig.robot).empty()) continue;
     ++taken;
     cable::Rig other = rig;
-    other.controller = controller_from<cable::CableArm>(bad, rig.robot, "images.mcap");
+    other.controller = controller_from<cable::CableArm>(bad, rig.robot, "snapshots.mcap");
     other.run(4);
   }
   EXPECT_GT(taken, rounds(20));

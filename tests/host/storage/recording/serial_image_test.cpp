@@ -38,7 +38,7 @@ serial::micro::Rig moving_serial_rig(std::int32_t ticks) {
 // What is said about an image; empty when it is taken.
 std::string refusal_of(const std::string& state, const serial::RobotParams& table) {
   try {
-    controller_from<SerialArm>(state, table, "images.mcap");
+    controller_from<SerialArm>(state, table, "snapshots.mcap");
   } catch (const std::runtime_error& refused) {
     return refused.what();
   }
@@ -81,8 +81,8 @@ TEST(SerialImage, OneThatIsCutShortOrTooLongIsRefusedWithTheField) {
   EXPECT_EQ(refusal_of(good, rig.robot), "");
   for (std::size_t length = 0; length < good.size(); ++length)
     ASSERT_NE(refusal_of(good.substr(0, length), rig.robot), "") << length;
-  EXPECT_TRUE(
-      names(refusal_of(good.substr(0, 4), rig.robot), {"images.mcap", "controller.arm.joints.reading[0].joint_rad"}));
+  EXPECT_TRUE(names(refusal_of(good.substr(0, 4), rig.robot),
+                    {"snapshots.mcap", "controller.arm.joints.reading[0].joint_rad"}));
   EXPECT_TRUE(names(refusal_of(good + "x", rig.robot), {"1 more"}));
 }
 
@@ -118,7 +118,7 @@ TEST(SerialImage, ATableThatWouldLeadTheCoreOutOfItsArraysIsRefused) {
     append_serialised(bytes, table);
     std::size_t used = 0;
     try {
-      checked_table<serial::RobotParams>(bytes, "images.mcap", used);
+      checked_table<serial::RobotParams>(bytes, "snapshots.mcap", used);
     } catch (const std::runtime_error& refused) {
       return refused.what();
     }
@@ -152,7 +152,7 @@ TEST(SerialImage, AnImageWithFlippedBytesIsRefusedOrHarmless) {
     if (!refusal_of(bad, rig.robot).empty()) continue;
     ++taken;
     serial::micro::Rig other = rig;
-    other.controller = controller_from<SerialArm>(bad, rig.robot, "images.mcap");
+    other.controller = controller_from<SerialArm>(bad, rig.robot, "snapshots.mcap");
     other.run(4);
   }
   EXPECT_GT(taken, rounds(20));
