@@ -82,7 +82,7 @@ void declare(CLI::App& app, Words& words) {
   make->add_option("expected", words.second)->required();
   make->add_option("recordings", words.recordings)->required();
   CLI::App* const cases = app.add_subcommand(
-      "cases", "write a tape of costly cases (tests/bench/worst_cases.hpp) and the Outputs expected of it");
+      "cases", "write a tape of costly cases (tests/benchmarks/worst_cases.hpp) and the Outputs expected of it");
   cases->add_option("tape", words.first)->required();
   cases->add_option("expected", words.second)->required();
   cases->add_option("cases", words.cases)->required()->check(CLI::ExistingFile);

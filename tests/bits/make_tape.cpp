@@ -10,7 +10,7 @@
 #include "host/storage/recording/recording.hpp"
 #include "host/storage/recording/serialise.hpp"
 #include "host/storage/recording/visit.hpp"
-#include "tests/bench/worst_cases.hpp"
+#include "tests/benchmarks/worst_cases.hpp"
 #include "tests/bits/tape.hpp"
 #include "tests/bits/what_ifs.hpp"
 

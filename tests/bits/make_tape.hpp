@@ -33,8 +33,8 @@ template <class Arm>
 void append_recording(const std::string& directory, const TapeOptions& options, std::ostream& tape,
                       std::ostream& expected, TapeSummary& summary);
 
-// Appends cases (tests/bench/worst_cases.hpp), one a line, each from power-up. Returns how many ticks they have; throws
-// std::runtime_error on a line that is no case.
+// Appends cases (tests/benchmarks/worst_cases.hpp), one a line, each from power-up. Returns how many ticks they have;
+// throws std::runtime_error on a line that is no case.
 std::uint64_t append_cases(std::istream& lines, std::ostream& tape, std::ostream& expected);
 
 }  // namespace liana::bits

@@ -49,7 +49,7 @@ REFUSED = {
 }
 ARMS = ("cable", "serial")
 APART = {"cable": 5000, "serial": 500}  # ticks between branches: a serial arm's missions are short
-WORST_CASES = ROOT / "tests/bench/worst_cases.txt"
+WORST_CASES = ROOT / "tests/benchmarks/worst_cases.txt"
 # Times the median of missions, in most ticks of which the shape and the tension plan have nothing to do; on the
 # Cortex-M7 that is
 WORST_TICK = 1.7

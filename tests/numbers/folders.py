@@ -3,7 +3,8 @@ import pathlib
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-BENCH = ROOT / "tests" / "bench"
+BENCH = ROOT / "tests" / "benchmarks"
 sys.path[:0] = [
-    str(ROOT / folder) for folder in ("host/api/python", "hil/scenarios", "tests/bench", "tests/mutation", "tests/fuzz")
+    str(ROOT / folder)
+    for folder in ("host/api/python", "hil/scenarios", "tests/benchmarks", "tests/mutation", "tests/fuzz")
 ]

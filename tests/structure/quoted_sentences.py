@@ -16,7 +16,7 @@ SOURCES = (".cpp", ".hpp", ".lua", ".py")
 MIN_LENGTH, MIN_BLANKS, WORDS_IN_A_ROW = 25, 4, 3
 # What prints texts of its own, or plants them: no message is tested here.
 ASIDE = (
-    "tests/bench",
+    "tests/benchmarks",
     "tests/bits",
     "tests/fuzz",
     "tests/golden",

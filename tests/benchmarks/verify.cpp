@@ -12,7 +12,7 @@
 #include "host/control/verification/judge_simulated.hpp"
 #include "host/control/verification/simulation_verifier.hpp"
 #include "host/model/simulation/simulation.hpp"
-#include "tests/bench/meter.hpp"
+#include "tests/benchmarks/meter.hpp"
 #include "tests/firmware_like/ideal_drives.hpp"
 #include "tests/firmware_like/panel_slit.hpp"
 

@@ -18,7 +18,7 @@ LIMITS = {
     "self_clearance": 36_000,
     "tick": 41_000,  # median; 36 000 before tensions were planned with the arm's mass
     "tick_worst": 70_000,  # 68 000 before the governor knew which directions of the tip are lost
-    "verify": 6_400_000,  # median over the motions of tests/bench/verify.cpp that move the tip or a joint
+    "verify": 6_400_000,  # median over the motions of tests/benchmarks/verify.cpp that move the tip or a joint
     "verify_worst": 9_800_000,  # a tip at full speed takes 0.85 s to brake
     "simulate": 2_000_000,  # the simulation end on the same commands, median
 }

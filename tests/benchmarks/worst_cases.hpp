@@ -3,7 +3,7 @@
 //
 // A case is a start pose, two commands of any kind (motion of tip or joints, shape, held variables, hold, stop; once,
 // or every few ticks), two faults of tests/bits/what_ifs.hpp, noise on what the drives report, and a request. Bytes
-// make cases small to store, and easy to change a little: tests/bench/worst.cpp hunts with them.
+// make cases small to store, and easy to change a little: tests/benchmarks/worst.cpp hunts with them.
 #pragma once
 
 #include <array>

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "host/planning/planner/plan.hpp"
-#include "tests/bench/meter.hpp"
+#include "tests/benchmarks/meter.hpp"
 #include "tests/host/planning/planner/requests.hpp"
 
 namespace liana::bench {

@@ -1,4 +1,4 @@
-#include "tests/bench/worst_cases.hpp"
+#include "tests/benchmarks/worst_cases.hpp"
 
 #include <algorithm>
 #include <cmath>

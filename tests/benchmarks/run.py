@@ -38,7 +38,7 @@ Written by `./dev benchmark`; do not edit by hand. {date}, commit {commit}, {com
 took {seconds:.0f} s.
 
 Instructions are counted by callgrind (valgrind) in each call on its own; a row shows the median over all calls. They
-repeat to within a few instructions and are what the tests hold (`tests/bench/gate.py`). Times are those of one run, on
+repeat to within a few instructions and are what the tests hold (`tests/benchmarks/gate.py`). Times are those of one run, on
 a machine that does other things as well: an order of magnitude. Before anything is counted, the same program checks
 that ours and the peer agree: poses, Jacobians and cable lengths to 1e-9, solved goals to 1e-5 or better, FCL's
 distances to 2 mm.

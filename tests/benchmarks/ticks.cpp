@@ -1,4 +1,4 @@
-#include "tests/bench/ticks.hpp"
+#include "tests/benchmarks/ticks.hpp"
 
 #include <stdexcept>
 #include <string>

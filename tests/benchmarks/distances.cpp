@@ -5,8 +5,8 @@
 
 #include "host/model/clearance/arm_clearance.hpp"
 #include "host/model/clearance/self_clearance.hpp"
-#include "tests/bench/meter.hpp"
-#include "tests/bench/problems.hpp"
+#include "tests/benchmarks/meter.hpp"
+#include "tests/benchmarks/problems.hpp"
 #include "tests/firmware_like/panel_slit.hpp"
 
 namespace liana::bench {

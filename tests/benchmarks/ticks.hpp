@@ -1,7 +1,7 @@
 // Whole ticks of the controller with ideal drives, in every phase of its life.
 #pragma once
 
-#include "tests/bench/meter.hpp"
+#include "tests/benchmarks/meter.hpp"
 
 namespace liana::bench {
 

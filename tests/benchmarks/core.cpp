@@ -3,10 +3,10 @@
 #include <exception>
 
 #include "host/model/inverse_kinematics/goal_ik.hpp"
-#include "tests/bench/own_80.hpp"
-#include "tests/bench/problems.hpp"
-#include "tests/bench/textbook_cables.hpp"
-#include "tests/bench/ticks.hpp"
+#include "tests/benchmarks/own_80.hpp"
+#include "tests/benchmarks/problems.hpp"
+#include "tests/benchmarks/textbook_cables.hpp"
+#include "tests/benchmarks/ticks.hpp"
 
 namespace liana::bench {
 

@@ -11,8 +11,8 @@
 #include <kdl/chainiksolvervel_wdls.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 
-#include "tests/bench/meter.hpp"
-#include "tests/bench/problems.hpp"
+#include "tests/benchmarks/meter.hpp"
+#include "tests/benchmarks/problems.hpp"
 
 namespace liana::bench {
 namespace {

@@ -9,8 +9,8 @@
 #include <exception>
 
 #include "host/model/clearance/clearance.hpp"
-#include "tests/bench/meter.hpp"
-#include "tests/bench/problems.hpp"
+#include "tests/benchmarks/meter.hpp"
+#include "tests/benchmarks/problems.hpp"
 
 namespace liana::bench {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/bench/own_80.hpp"
+#include "tests/benchmarks/own_80.hpp"
 
 #include <cmath>
 #include <stdexcept>

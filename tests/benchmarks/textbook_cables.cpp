@@ -1,4 +1,4 @@
-#include "tests/bench/textbook_cables.hpp"
+#include "tests/benchmarks/textbook_cables.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-"""Runs a program of tests/bench: instructions under callgrind, times without. See meter.hpp for the labels."""
+"""Runs a program of tests/benchmarks: instructions under callgrind, times without. See meter.hpp for the labels."""
 import collections
 import json
 import os

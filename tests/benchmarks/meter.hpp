@@ -2,7 +2,7 @@
 //
 // Under callgrind (--collect-atstart=no) collection is on during a counted call only, and each call is dumped on its
 // own with the label "operation version". Otherwise `print` writes one line of JSON for each label.
-// tests/bench/callgrind.py puts both together.
+// tests/benchmarks/callgrind.py puts both together.
 #pragma once
 
 #include <valgrind/callgrind.h>

@@ -6,8 +6,8 @@
 //   bench_worst random CASES SEED    counts every tick of random cases
 //   bench_worst stored FILE          counts every tick of the cases in a file
 //
-// Time is only a guide: what a case costs is what callgrind counts of it (tests/bench/callgrind.py), each case under
-// the operation "tick".
+// Time is only a guide: what a case costs is what callgrind counts of it (tests/benchmarks/callgrind.py), each case
+// under the operation "tick".
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -20,8 +20,8 @@
 #include <immintrin.h>
 #endif
 
-#include "tests/bench/meter.hpp"
-#include "tests/bench/worst_cases.hpp"
+#include "tests/benchmarks/meter.hpp"
+#include "tests/benchmarks/worst_cases.hpp"
 
 namespace liana::worst {
 
