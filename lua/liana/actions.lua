@@ -50,7 +50,7 @@ function actions.servo_target(fields)
 end
 
 -- Moves along an axis of the tip under force control, from rest; fields of `insert` (docs/reference/api.md): { force_N =
--- 30, ... }. How it goes is `push` of the state. For serial arms only.
+-- 30, ... }. How it goes is `insert` of the state. For serial arms only.
 function actions.insert(fields)
   check_argument("insert", "fields", fields, "table")
   return giving("insert", fields, position(1))

@@ -75,10 +75,10 @@ function arm.state_command(fields) end
 ---@field goal_deg number[]
 ---the most that any angle may turn at (else the robot's fastest angle rate)
 ---@field rate_deg_s? number
----period with which the arm's base swings: the move takes longer and leaves it still; 0: as quickly as the
+---period with which the arm's base sways: the move takes longer and leaves it still; 0: as quickly as the
 ---limits let it (else 0)
 ---@field sway_s? number
----period of a second swing; 0: there is none (else 0)
+---period of a second sway; 0: there is none (else 0)
 ---@field quicker_sway_s? number
 ---share by which `sway_s` may differ from the true period; over 0.1 takes longer (else 0.1)
 ---@field sway_tolerance? number
@@ -124,10 +124,10 @@ function arm.move_path(fields) end
 ---@field goal number[]
 ---as `held` of `hold_theta`, from the start of the line
 ---@field hold? arm.move_cp.hold[]
----period with which the arm's base swings: the move takes longer and leaves it still; 0: as quickly as the
+---period with which the arm's base sways: the move takes longer and leaves it still; 0: as quickly as the
 ---limits let it (else 0)
 ---@field sway_s? number
----period of a second swing; 0: there is none (else 0)
+---period of a second sway; 0: there is none (else 0)
 ---@field quicker_sway_s? number
 ---share by which `sway_s` may differ from the true period; over 0.1 takes longer (else 0.1)
 ---@field sway_tolerance? number
@@ -180,15 +180,15 @@ function arm.servo_cp(fields) end
 ---@field lost_s? number
 ---time constant of the low-pass on what the camera sees (else 4)
 ---@field tau_s? number
----period, roughly, with which the arm's base swings: the servo tells the swing from the target's place, and
+---period, roughly, with which the arm's base sways: the servo tells the sway from the target's place, and
 ---calms it; 0: the base stands still (else 0)
 ---@field sway_s? number
----period of a second swing; 0: there is none (else 0)
+---period of a second sway; 0: there is none (else 0)
 ---@field quicker_sway_s? number
 ---share by which `sway_s` may differ from the true period; over 0.1 takes longer (else 0.1)
 ---@field sway_tolerance? number
----way of the tip against the slow swing, as a share of the swing: less for an arm that is heavy beside its
----base, 0: the swing is left as it is (else 1)
+---way of the tip against the slow sway, as a share of the sway: less for an arm that is heavy beside its
+---base, 0: the sway is left as it is (else 1)
 ---@field calming? number
 ---k: speed for a way to go (else 0.45)
 ---@field gain_1_s? number
@@ -297,7 +297,7 @@ function arm.use_device(fields) end
 ---@field mass_kg? number
 ---M_d about the axes
 ---@field inertia_kgm2? number
----K_D along the axis of the push
+---K_D along the axis of the insertion
 ---@field axial_damping_Ns_per_m? number
 ---K_D across it
 ---@field lateral_damping_Ns_per_m? number
@@ -322,7 +322,7 @@ function arm.use_device(fields) end
 ---the most along the axis, from where it begins (else 0.06)
 ---@field travel_m? number
 ---the most across it (else 0.02)
----@field aside_m? number
+---@field lateral_m? number
 ---the most that the tip turns (else 3)
 ---@field turn_deg? number
 ---`force` when left out
@@ -334,8 +334,8 @@ function arm.use_device(fields) end
 ---other gains than the robot's, within its ranges
 ---@field gains? arm.insert.gains
 
----Pushes along an axis of the tip by force control, from rest, until something else is asked for; how it goes
----is `push` of the state. For serial arms only.
+---Moves along an axis of the tip under force control, from rest, until something else is asked for; how it
+---goes is `insert` of the state. For serial arms only.
 ---@param fields? arm.insert
 ---@return integer id
 function arm.insert(fields) end

@@ -6,6 +6,7 @@ local check = require "liana.check"
 local fault_text = require "liana.fault_text"
 local operator_control = require "liana.operator_control"
 local arm_state = require "liana.arm_state"
+local retired = require "liana.retired_names"
 local transitions = require "liana.transitions"
 
 local engine = {}
@@ -433,7 +434,7 @@ local kPhases = {
 -- One state message. Returns true when the mission is over.
 function Runner:on_state(state)
   self.tick_before = self.arm.state and self.arm.state.tick or state.tick
-  self.arm.state = state
+  self.arm.state = retired.refuse_of_state(state)
   if not self.phase_tick then self.phase_tick = state.tick end
   if self.phase ~= "over" and not stopped(self) then
     if lost(self) then

@@ -182,14 +182,14 @@ local tool_failed = { text = "the tool has failed", met = function(arm)
 end }
 
 local function push_ended(how)
-  return condition("push ended: " .. how, function(arm) return arm.state.push["end"] == how end)
+  return condition("push ended: " .. how, function(arm) return arm.state.insert["end"] == how end)
 end
 
 local captured = all { push_ended "captured", condition("adapter says captured", function(arm) return arm.state.adapter.captured end) }
 
 local kFailures = { travel = true, aside = true, early_capture = true, adapter_silent = true, stopped = true }
 local push_failed = { text = "push ended without a capture", met = function(arm)
-  local ending = arm.state.push["end"]
+  local ending = arm.state.insert["end"]
   if kFailures[ending] then return true, "push ended: " .. ending end
   return false
 end }
@@ -204,7 +204,7 @@ local is_jammed = { text = "jammed", met = function(arm)
 end }
 
 local light = condition(("less than %g N on the adapter"):format(kLight_N), function(arm)
-  return geometry.length(arm.state.push.given.force_N) < kLight_N
+  return geometry.length(arm.state.insert.applied_force.force_N) < kLight_N
 end)
 
 local function latch_is(state)

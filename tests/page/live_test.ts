@@ -96,7 +96,7 @@ test('what has come back has to be seen anew', () => {
 test('fifteen silent drives are one alarm with the remedy of the fault table, before what matters less', () => {
   const faults = Array.from({ length: 15 }, (_, i) => ({ number: 3002, name: 'drive_silent', where: driveText(i, ARM) }));
   const book = new AlarmBook();
-  const clearance = { body: 'wall', sure: 'camera', camera: 'none', level: 'slow' };
+  const clearance = { body: 'wall', confidence: 'camera', camera: 'none', level: 'slow' };
   for (const now_s of [0, 1]) book.update(conditionsOf({ faults, clearance }), now_s);
   const [first, second] = book.list();
   assert.equal(book.list().length, 2);

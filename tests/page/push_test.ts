@@ -17,15 +17,15 @@ const open = { captured: false, latch: 'open', lock: 'open' };
 const servoing = { phase: 'approaching', target: 'adapter', reason: '' };
 // What a record holds of a push in its adapter.
 const NUMBERS = {
-  'push.felt.force_N': [0.3, -0.4, -20], 'push.felt.torque_Nm': [0, 3, 4], 'push.given.force_N': [-0.3, 0.4, 20],
-  'push.set_N': [30], 'push.travel_m': [0.012], 'push.aside_m': [0.0004], 'adapter.depth_m': [0.0015, 0.001, 0.0021],
-  'servo.error_m': [0.003, 0, 0.004], 'servo.error_deg': [0, 0.1, 0], 'servo.swing_m': [0.014],
+  'insert.measured_wrench.force_N': [0.3, -0.4, -20], 'insert.measured_wrench.torque_Nm': [0, 3, 4], 'insert.applied_force.force_N': [-0.3, 0.4, 20],
+  'insert.force_setpoint_N': [30], 'insert.travel_m': [0.012], 'insert.lateral_m': [0.0004], 'adapter.depth_m': [0.0015, 0.001, 0.0021],
+  'servo.error_m': [0.003, 0, 0.004], 'servo.error_deg': [0, 0.1, 0], 'servo.sway_m': [0.014],
 };
 const place: ScenePose = { position_m: [0, 0, 0], quaternion_wxyz: [1, 0, 0, 0] };
 const scene: Scene = { name: 's', payload: { ...place, start: 'mechanism', length_m: 1, radius_m: 0.3 }, adapter: place };
 // As states of arms that have nothing to push with say it.
 const bare: Facts = {
-  push: noPush, adapter: open, payload: { mass_kg: 0 }, servo: { ...servoing, phase: 'standby', target: '' },
+  insert: noPush, adapter: open, payload: { mass_kg: 0 }, servo: { ...servoing, phase: 'standby', target: '' },
 };
 
 function lines(facts: Facts, numbers: Record<string, number[]> = NUMBERS): Record<string, string> {
@@ -43,22 +43,22 @@ test('an arm without wrist sensor, adapter and servo has no words of them', () =
 test('strips of force and push are there for fields that are', () => {
   const names = (fields: string[]) => groupsOf(MICRO, (field) => fields.includes(field)).map((group) => group.name);
   assert.deepEqual(names(['measured_js_deg']), ['angles']);
-  const fields = ['push.felt.force_N', 'push.set_N', 'adapter.depth_m', 'servo.error_m'];
+  const fields = ['insert.measured_wrench.force_N', 'insert.force_setpoint_N', 'adapter.depth_m', 'servo.error_m'];
   assert.deepEqual(names(fields), ['wrist force', 'push', 'insertion', 'servo']);
 });
 
 test('a push is told by its phase, set force, way and whether it touches; the adapter by what it says', () => {
-  const { push, adapter, wrist, servo } = lines({ push: pressing, adapter: open, servo: servoing });
+  const { push, adapter, wrist, servo } = lines({ insert: pressing, adapter: open, servo: servoing });
   assert.equal(push, '1 pressing, set 30.0 N, gives 20.0 N, 12.0 mm on, 0.4 mm aside, touches');
   assert.equal(adapter, 'not captured, latch open, lock open, pins 1.5, 1.0, 2.1 mm in');
   assert.equal(wrist, '20.0 N (0.3, -0.4, -20.0), 5.0 N m (0.0, 3.0, 4.0), good');
   assert.equal(servo, 'to the adapter: approaching, 5.0 mm and 0.10 deg to go, the target swings by 14.0 mm');
-  const ended = lines({ push: { ...pressing, end: 'early_capture', phase: 'yielding' } });
+  const ended = lines({ insert: { ...pressing, end: 'early_capture', phase: 'yielding' } });
   assert.match(ended.push, /^1 ended: early capture, yielding, set/);
 });
 
 test('numbers that a run of an older version lacks are left out of the words, whether null or missing', () => {
-  const facts = { push: pressing, adapter: open, servo: servoing };
+  const facts = { insert: pressing, adapter: open, servo: servoing };
   const named = (name: string) => Object.fromEntries(Object.entries(NUMBERS).filter(([each]) => each !== name));
   const nulls = Object.fromEntries(Object.entries(NUMBERS).map(([name, numbers]) => [name, numbers.map(() => NaN)]));
   for (const numbers of [{}, nulls]) {
@@ -69,7 +69,7 @@ test('numbers that a run of an older version lacks are left out of the words, wh
     for (const numbers of [named(name), { ...NUMBERS, [name]: nulls[name] }])
       assert.ok(!/NaN|undefined|\?/.test(Object.values(lines(facts, numbers)).join('\n')), name);
   }
-  assert.equal(lines(facts, named('push.set_N')).push, '1 pressing, gives 20.0 N, 12.0 mm on, 0.4 mm aside, touches');
+  assert.equal(lines(facts, named('insert.force_setpoint_N')).push, '1 pressing, gives 20.0 N, 12.0 mm on, 0.4 mm aside, touches');
   assert.match(lines(facts, { ...NUMBERS, 'adapter.depth_m': [0.0015, NaN, 0.0021] }).adapter, /pins 1.5, \u2013, 2.1 mm in/);
 });
 
@@ -101,29 +101,29 @@ function told(before: Facts, now: Facts): string[] {
 
 test('what changes of servo, push and adapter are events, and those that went wrong are warnings', () => {
   const captured: Push = { ...pressing, phase: 'unloading', end: 'captured' };
-  assert.deepEqual(told({ push: { ...pressing, touched: false } }, { push: pressing }), ['push: push 1: touches']);
-  assert.deepEqual(told({ push: pressing }, { push: { ...pressing } }), []);
+  assert.deepEqual(told({ insert: { ...pressing, touched: false } }, { insert: pressing }), ['push: push 1: touches']);
+  assert.deepEqual(told({ insert: pressing }, { insert: { ...pressing } }), []);
   const hasIt = { ...open, captured: true, latch: 'closing' };
-  assert.deepEqual(told({ push: pressing, adapter: open }, { push: captured, adapter: hasIt }),
+  assert.deepEqual(told({ insert: pressing, adapter: open }, { insert: captured, adapter: hasIt }),
     ['push: push 1 ended: captured', 'push: push 1: unloading', 'adapter: captured', 'adapter: latch closing']);
   const failed: Push = { ...pressing, phase: 'yielding', end: 'aside', wrist: 'failed' };
-  assert.deepEqual(told({ push: pressing }, { push: failed }),
+  assert.deepEqual(told({ insert: pressing }, { insert: failed }),
     ['push: push 1 ended: aside!', 'push: push 1: yielding', 'wrist: wrist sensor: failed!']);
   const second = { ...pressing, number: 2, touched: false };
-  assert.deepEqual(told({ push: captured }, { push: second }), ['push: push 2: pressing']);
+  assert.deepEqual(told({ insert: captured }, { insert: second }), ['push: push 2: pressing']);
   const late = { ...servoing, phase: 'timed_out', reason: 'too long' };
   assert.deepEqual(told({ servo: servoing }, { servo: late }), ['servo: servo to adapter: timed out: too long!']);
   assert.deepEqual(told({ payload: { mass_kg: 0 } }, { payload: { mass_kg: 500 } }), ['payload: carries 500 kg']);
 });
 
 test('nothing has changed where the state before is not known', () => {
-  assert.deepEqual(told({}, { push: pressing, adapter: open, servo: servoing, payload: { mass_kg: 500 } }), []);
+  assert.deepEqual(told({}, { insert: pressing, adapter: open, servo: servoing, payload: { mass_kg: 500 } }), []);
 });
 
 test('events made of facts stand between the others by their ticks', () => {
   const event = { sequence: 1, tick: 20, kind: 'step', number: 1, subject: '', values: {}, text: 'step 1' };
   const pushes = [noPush, pressing, { ...pressing, phase: 'unloading' }];
-  const facts = pushes.map((push, i) => ({ tick: 10 + 15 * i, state: { push } }));
+  const facts = pushes.map((push, i) => ({ tick: 10 + 15 * i, state: { insert: push } }));
   const all = withDerivedEvents([event], facts).map((e) => [e.tick, e.kind]);
   assert.deepEqual(all, [[20, 'step'], [25, 'push'], [25, 'push'], [25, 'wrist'], [40, 'push']]);
 });
@@ -138,13 +138,13 @@ function record(tick: number, set_N: number): ArrayBuffer {
 
 test('live, a number is known from its first value on, and changes of facts are events', () => {
   const live = new Live();
-  const fields = [{ name: 'push.set_N', unit: 'N', offset: 24, count: 1 }];
+  const fields = [{ name: 'insert.force_setpoint_N', unit: 'N', offset: 24, count: 1 }];
   live.takeWelcome({ robot: ARM, scene, layout: { version: 1, bytes: 28, fields } } as unknown as Welcome);
   live.take({ op: 'facts', facts: 1, state: bare });
   live.takeRecord(record(5, NaN), 0.02);
   assert.equal(live.history!.known.size, 0);
-  live.take({ op: 'facts', facts: 2, state: { ...bare, push: pressing } });
+  live.take({ op: 'facts', facts: 2, state: { ...bare, insert: pressing } });
   live.takeRecord(record(10, 30), 0.04);
-  assert.ok(live.history!.known.has('push.set_N'));
+  assert.ok(live.history!.known.has('insert.force_setpoint_N'));
   assert.deepEqual(live.events.map((e) => [e.kind, e.tick]), [['push', 5], ['push', 5], ['wrist', 5]]);
 });

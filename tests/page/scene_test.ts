@@ -14,7 +14,7 @@ const scene = { name: 'x', rod: { position_m: [3, 0, 0] as [number, number, numb
 test('one sentence says step, clearance and way to the goal', () => {
   const sample = sampleOf(
     { measured_cp: [2.14, 0, 0, 1, 0, 0, 0], 'clearance.distance_m': [0.041] },
-    { state: 'ENABLED', step: { index: 4, name: 'segment 5 into the slit', device: 'hand' }, clearance: { body: 'panel', sure: 'camera', camera: 'none', level: 'free' } },
+    { state: 'ENABLED', step: { index: 4, name: 'segment 5 into the slit', device: 'hand' }, clearance: { body: 'panel', confidence: 'camera', camera: 'none', level: 'free' } },
   );
   assert.equal(sentenceOf(sample, ARM, scene, 6), 'step 4 of 6: segment 5 into the slit, 41 mm from the panel, 0.86 m to the rod');
 });

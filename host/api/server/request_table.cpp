@@ -93,7 +93,7 @@ constexpr std::array kTable{
     RequestRow{.op = "insert",
                .doc =
                    "Moves along an axis of the tip under force control, from rest, until something else is asked for; "
-                   "how it goes is `push` of the state.",
+                   "how it goes is `insert` of the state.",
                .fields = kInsert,
                .owner_only = true,
                .arms = kSerialArm,

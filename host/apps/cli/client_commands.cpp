@@ -87,8 +87,8 @@ void print_state(const std::string& api, const Json& state) {
   if (clearance.is_object()) {
     std::printf("clearance at least %.1f mm (%s, link %d; %s, bound %.1f mm; %s)\n",
                 1e3 * clearance.value("distance_m", 0.0), clearance.value("body", "").c_str(),
-                clearance.value("link", 0), clearance.value("sure", "").c_str(), 1e3 * clearance.value("bound_m", 0.0),
-                clearance.value("level", "").c_str());
+                clearance.value("link", 0), clearance.value("confidence", "").c_str(),
+                1e3 * clearance.value("bound_m", 0.0), clearance.value("level", "").c_str());
   }
   std::printf("theta (deg):");
   for (const Json& angle : state.value("measured_js_deg", Json::array())) std::printf(" %.3f", angle.get<double>());

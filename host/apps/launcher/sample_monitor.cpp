@@ -33,7 +33,7 @@ void SampleMonitor::look_at_rate(const Json& rate, OfDevice& device) {
 }
 
 void SampleMonitor::look_at_command(const Json& verdict, OfDevice& device) {
-  const Json& source_stamp = verdict.member_or_null("made_of");
+  const Json& source_stamp = verdict.member_or_null("source_stamp");
   if (!source_stamp.is_object()) return;
   const auto command = verdict.value("sequence", std::uint64_t{0});
   if (command == command_) return;

@@ -41,7 +41,7 @@ std::vector<Span> spans_of(const std::vector<Stage>& stages, const IsOn& is_on, 
 void keep_stage(std::vector<Stage>& stages, const Json& state) {
   Stage stage;
   stage.tick = state.value("tick", std::uint64_t{0});
-  const Json &servo = state.member_or_null("servo"), &push = state.member_or_null("push"),
+  const Json &servo = state.member_or_null("servo"), &push = state.member_or_null("insert"),
              &adapter = state.member_or_null("adapter");
   if (servo.is_object()) {
     stage.servo = servo.value("phase", stage.servo);
@@ -51,7 +51,7 @@ void keep_stage(std::vector<Stage>& stages, const Json& state) {
   if (push.is_object()) {
     stage.push = push.value("phase", stage.push);
     stage.push_end = push.value("end", stage.push_end);
-    const Json& set_N = push.member_or_null("set_N");  // null: no push yet
+    const Json& set_N = push.member_or_null("force_setpoint_N");  // null: no push yet
     stage.set_N = set_N.is_number() ? set_N.get<double>() : 0.0;
   }
   if (adapter.is_object()) stage.says_captured = adapter.value("captured", false);

@@ -32,12 +32,22 @@ constexpr std::array<TruthColumn, 7> kTruth{{{"theta_deg_", "truth.theta_deg", "
                                              {"tip_speed_m_s", "truth.tip_speed_m_s", "m/s"},
                                              {"slit_depth_m", "truth.slit_depth_m", "m"}}};
 // What can be computed from the angles, or is of no use on a page, is left out.
-constexpr std::array<std::string_view, 16> kLeftOut{"measured_cp",       "setpoint_cp",        "node_m",
-                                                    "drives.position_m", "buses.frames",       "ik.residual_rad",
-                                                    "friction.sd",       "clearance.turn_deg", "push.given.torque_Nm",
-                                                    "push.wrist_age_s",  "adapter.age_s",      "adapter.sequence",
-                                                    "servo.duration_s",  "servo.images_used",  "servo.images_rejected",
-                                                    "torque_told_Nm"};
+constexpr std::array<std::string_view, 16> kLeftOut{"measured_cp",
+                                                    "setpoint_cp",
+                                                    "node_m",
+                                                    "drives.position_m",
+                                                    "buses.frames",
+                                                    "ik.residual_rad",
+                                                    "friction.sd",
+                                                    "clearance.turn_deg",
+                                                    "insert.applied_force.torque_Nm",
+                                                    "insert.wrist_age_s",
+                                                    "adapter.age_s",
+                                                    "adapter.sequence",
+                                                    "servo.duration_s",
+                                                    "servo.observations_used",
+                                                    "servo.observations_rejected",
+                                                    "torque_commanded_Nm"};
 
 bool is_left_out(std::string_view name) {
   for (const std::string_view each : kLeftOut) {

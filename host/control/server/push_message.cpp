@@ -45,12 +45,12 @@ Json push_json(const serial::InsertStatus& push, double tick_s) {
           {"phase", name_of(kPhases, push.phase)},
           {"end", name_of(kEnds, push.end)},
           {"law", push.law == serial::InsertLaw::kImpedance ? "impedance" : "force"},
-          {"set_N", of_push(push.set_N)},
-          {"given", of_push(wrench_json(push.given))},
-          {"felt", is_heard ? wrench_json(push.felt) : Json()},
+          {"force_setpoint_N", of_push(push.set_N)},
+          {"applied_force", of_push(wrench_json(push.given))},
+          {"measured_wrench", is_heard ? wrench_json(push.felt) : Json()},
           {"touched", push.touched != 0},
           {"travel_m", of_push(push.travel_m)},
-          {"aside_m", of_push(push.aside_m)},
+          {"lateral_m", of_push(push.aside_m)},
           {"wrist", name_of(kHealth, push.wrist)},
           {"wrist_age_s", age_json(push.wrist_age_ticks, tick_s)}};
 }

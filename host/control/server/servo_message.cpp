@@ -39,9 +39,9 @@ Json servo_json(const visual_servo::ServoStatus& report) {
            {"place", report.place ? pose_json(*report.place) : Json()},
            {"error_m", nullptr},
            {"error_deg", nullptr},
-           {"swing_m", report.swing_m},
-           {"images_used", report.images_used},
-           {"images_rejected", report.images_rejected},
+           {"sway_m", report.swing_m},
+           {"observations_used", report.images_used},
+           {"observations_rejected", report.images_rejected},
            {"duration_s", report.duration_s},
            {"reason", report.reason}};
   if (!report.error) return out;

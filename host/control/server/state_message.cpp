@@ -122,7 +122,7 @@ Json verdict_json(const Notes& notes, double tick_s) {
           {"twin_js_deg", v.twin_js_deg},
           {"stop_js_deg", v.stop_js_deg},
           {"margins", {m.clearance_m, m.joint_deg, m.rate_deg_s, m.tension_N, m.time_us}},
-          {"made_of", made_of_json(notes, tick_s)}};
+          {"source_stamp", made_of_json(notes, tick_s)}};
 }
 
 Json events_json(const std::deque<event::Event>& events) {

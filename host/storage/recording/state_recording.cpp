@@ -19,7 +19,7 @@ constexpr const char* kStateSchema = R"({"title":"state","description":"docs/ref
 "node_m":{"type":"array","items":{"type":"array","items":{"type":"number"}}},
 "clearance":{"type":["object","null"],"description":"clearance bound; docs/explanation/verification.md","properties":{
 "distance_m":{"type":"number"},"bound_m":{"type":"number"},"body":{"type":"string"},"link":{"type":"integer"},
-"where_m":{"type":"array","items":{"type":"number"}},"sure":{"type":"string"},"picture_age_s":{"type":["number","null"]},
+"where_m":{"type":"array","items":{"type":"number"}},"confidence":{"type":"string"},"observation_age_s":{"type":["number","null"]},
 "camera":{"type":"string"},"level":{"type":"string"},"shift_m":{"type":"array","items":{"type":"number"}},
 "turn_deg":{"type":"array","items":{"type":"number"}}}},
 "limits":{"type":"array","items":{"type":"string"}},

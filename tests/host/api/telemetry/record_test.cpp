@@ -96,28 +96,28 @@ TEST(Record, KeepsItsSizeWhenAStateHasMoreOrFewerValuesThanTheLayout) {
 
 // As a serial arm with a wrist sensor says it, before its first push.
 Json pushing_state() {
-  return Json::parse(R"({"op":"state","tick":5,"time_s":0.02,"measured_js_deg":[1],"torque_told_Nm":[2.5],
-    "push":{"number":0,"phase":"none","set_N":null,"given":null,
-            "felt":{"force_N":[0.5,0,-20],"torque_Nm":[0,3,4]},"wrist":"good","wrist_age_s":0}})");
+  return Json::parse(R"({"op":"state","tick":5,"time_s":0.02,"measured_js_deg":[1],"torque_commanded_Nm":[2.5],
+    "insert":{"number":0,"phase":"none","force_setpoint_N":null,"applied_force":null,
+            "measured_wrench":{"force_N":[0.5,0,-20],"torque_Nm":[0,3,4]},"wrist":"good","wrist_age_s":0}})");
 }
 
 TEST(Record, HoldsNumbersOfAMemberOfAMember) {
   const Layout layout = layout_of(pushing_state());
   const std::string record = encode(layout, pushing_state(), 1, 1);
-  EXPECT_EQ(value_of(record, place(layout, "push.felt.force_N"), 2), -20.0f);
-  EXPECT_EQ(value_of(record, place(layout, "torque_told_Nm"), 0), 2.5f);
-  EXPECT_TRUE(std::isnan(value_of(record, place(layout, "push.given.force_N"), 0)));
-  EXPECT_TRUE(std::isnan(value_of(record, place(layout, "push.set_N"), 0)));
-  EXPECT_THROW(place(layout_of(cable_state()), "push.set_N"), JsonError);
+  EXPECT_EQ(value_of(record, place(layout, "insert.measured_wrench.force_N"), 2), -20.0f);
+  EXPECT_EQ(value_of(record, place(layout, "torque_commanded_Nm"), 0), 2.5f);
+  EXPECT_TRUE(std::isnan(value_of(record, place(layout, "insert.applied_force.force_N"), 0)));
+  EXPECT_TRUE(std::isnan(value_of(record, place(layout, "insert.force_setpoint_N"), 0)));
+  EXPECT_THROW(place(layout_of(cable_state()), "insert.force_setpoint_N"), JsonError);
 }
 
 TEST(Facts, HoldNoNumbersOfAMemberOfAMember) {
   Json later = pushing_state();
-  later["push"]["felt"]["force_N"] = {1, 2, 3};
-  later["push"]["wrist_age_s"] = 0.004;
+  later["insert"]["measured_wrench"]["force_N"] = {1, 2, 3};
+  later["insert"]["wrist_age_s"] = 0.004;
   EXPECT_EQ(facts_of(later), facts_of(pushing_state()));
-  EXPECT_EQ(facts_of(later)["push"],
-            Json::parse(R"({"number":0,"phase":"none","given":null,"felt":{},"wrist":"good"})"));
+  EXPECT_EQ(facts_of(later)["insert"],
+            Json::parse(R"({"number":0,"phase":"none","applied_force":null,"measured_wrench":{},"wrist":"good"})"));
 }
 
 TEST(Facts, AreTheSameWhileOnlyNumbersChange) {

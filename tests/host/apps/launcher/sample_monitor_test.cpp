@@ -18,7 +18,7 @@ Json state(const char* device, std::uint64_t command, double newest_s, double ol
           {"device_rate", {{"hz", nullptr}, {"min_s", 0.001}, {"max_s", 0.002}}},
           {"verdict",
            {{"sequence", command},
-            {"made_of",
+            {"source_stamp",
              {{"newest_us", taken_us(newest_s)},
               {"oldest_us", taken_us(oldest_s)},
               {"released_s", 10.0},
@@ -47,7 +47,7 @@ TEST(SampleMonitor, ACommandCountsOnceAndOneThatNoDeviceMadeNotAtAll) {
   watch.look(state("hand", 1, 0.0, 0.02, 0.02));
   watch.look(state("hand", 1, 0.5, 0.5, 0.02));
   Json planned = state("puck", 2, 0.5, 0.5, 0.02);
-  planned["verdict"]["made_of"] = nullptr;
+  planned["verdict"]["source_stamp"] = nullptr;
   watch.look(planned);
   EXPECT_NEAR(watch.json().at("hand").at("to_release_s").at("worst").get<double>(), 0.02, 1e-9);
   EXPECT_TRUE(watch.json().at("puck").at("to_release_s").is_null());

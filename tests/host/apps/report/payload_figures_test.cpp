@@ -230,7 +230,7 @@ TEST(Stages, AreKeptWhereTheyChange) {
   std::vector<Stage> stages;
   Json state = {{"tick", 5},
                 {"servo", {{"phase", "approaching"}, {"target", "adapter"}, {"place", {0, 0, -1, 1, 0, 0, 0}}}},
-                {"push", {{"phase", "none"}, {"end", "none"}, {"set_N", 0.0}}},
+                {"insert", {{"phase", "none"}, {"end", "none"}, {"force_setpoint_N", 0.0}}},
                 {"adapter", {{"captured", false}}}};
   keep_stage(stages, state);
   state["tick"] = 10;

@@ -478,7 +478,7 @@ TEST_F(ServiceOverSocket, TheOperatorSteersAndLettingGoIsAHold) {
   EXPECT_EQ(moving["devices"][0]["name"], "omega");
   EXPECT_TRUE(moving["devices"][0]["in_use"]);
   EXPECT_EQ(moving["mapping"]["scale"], 1.0);
-  const Json& source_stamp = moving["verdict"]["made_of"];
+  const Json& source_stamp = moving["verdict"]["source_stamp"];
   EXPECT_EQ(source_stamp["newest_us"].get<std::int64_t>() - source_stamp["oldest_us"].get<std::int64_t>(), 19000);
   EXPECT_NEAR(source_stamp["in_force_s"].get<double>() - source_stamp["released_s"].get<double>(), 0.02, 1e-9);
   EXPECT_GT(norm(subtract(arm_->now().tip_command.position_m, start)), 2e-3);

@@ -12,7 +12,7 @@ function change(kind: string, text: string, isTrouble = false): Change {
   return { kind, number: isTrouble ? TROUBLE : 0, text };
 }
 
-function ofPush({ push: before }: Facts, { push: now }: Facts): Change[] {
+function ofPush({ insert: before }: Facts, { insert: now }: Facts): Change[] {
   if (!before || !now) return [];
   const changes: Change[] = [];
   const isNew = before.number !== now.number;

@@ -20,7 +20,7 @@ export interface Facts {
   stop_category?: string;
   stopping?: boolean;
   mapping?: { scale: number; rotation_scale: number };
-  clearance?: { body: string; sure: string; camera: string; level: string } | null;
+  clearance?: { body: string; confidence: string; camera: string; level: string } | null;
   verdict?: { released?: boolean; code?: number; name?: string; text?: string; remedy?: string; margin?: string };
   buses?: { name: string; state: string; lost?: boolean; refused?: number; worst_load?: number }[];
   drives?: { node: number; state: string; serial?: number | null }[];
@@ -33,7 +33,7 @@ export interface Facts {
   path?: { hash?: string } | null;
   mission_control?: { number: number; command: string; by: string } | null;
   operator_says?: { what: string; tick: number } | null;
-  push?: Push;
+  insert?: Push;
   adapter?: { captured: boolean; latch: string; lock: string };
   payload?: { mass_kg: number }; // what the arm was told that it carries
   servo?: Servo;

@@ -28,22 +28,22 @@ function vectorText(v: ArrayLike<number>, unit: string): string {
 }
 
 function wristText(sample: Sample): string {
-  const force = vectorText(values(sample, 'push.felt.force_N'), 'N');
-  const torque = vectorText(values(sample, 'push.felt.torque_Nm'), 'N m');
-  return force && listed(force, torque, sample.facts.push?.wrist);
+  const force = vectorText(values(sample, 'insert.measured_wrench.force_N'), 'N');
+  const torque = vectorText(values(sample, 'insert.measured_wrench.torque_Nm'), 'N m');
+  return force && listed(force, torque, sample.facts.insert?.wrist);
 }
 
 function pushText(sample: Sample): string {
-  const { push } = sample.facts;
+  const { insert: push } = sample.facts;
   if (!push || push.number === 0) return '';
   const law = push.law === 'impedance' ? ' by impedance' : '';
   const said = listed(
     push.end !== 'none' && `ended: ${push.end.replaceAll('_', ' ')}`,
     push.phase !== 'none' && `${push.phase}${law}`,
-    known(value(sample, 'push.set_N'), (newtons) => `set ${newtons.toFixed(1)} N`),
-    known(lengthOf(values(sample, 'push.given.force_N')), (newtons) => `gives ${newtons.toFixed(1)} N`),
-    known(value(sample, 'push.travel_m'), (m) => `${lengthText(m)} on`),
-    known(value(sample, 'push.aside_m'), (m) => `${lengthText(m)} aside`),
+    known(value(sample, 'insert.force_setpoint_N'), (newtons) => `set ${newtons.toFixed(1)} N`),
+    known(lengthOf(values(sample, 'insert.applied_force.force_N')), (newtons) => `gives ${newtons.toFixed(1)} N`),
+    known(value(sample, 'insert.travel_m'), (m) => `${lengthText(m)} on`),
+    known(value(sample, 'insert.lateral_m'), (m) => `${lengthText(m)} aside`),
     push.touched && 'touches',
   );
   return `${push.number} ${said}`;
@@ -63,7 +63,7 @@ function servoText(sample: Sample): string {
   const error_m = values(sample, 'servo.error_m');
   const error_deg = values(sample, 'servo.error_deg');
   const turn = known(lengthOf(error_deg), (deg) => ` and ${deg.toFixed(2)} deg`);
-  const swing_m = value(sample, 'servo.swing_m');
+  const swing_m = value(sample, 'servo.sway_m');
   const said = listed(
     servo.phase.replaceAll('_', ' '),
     known(lengthOf(error_m), (m) => `${lengthText(m)}${turn} to go`),

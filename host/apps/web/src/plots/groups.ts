@@ -60,14 +60,14 @@ function axes(field: string, factor = 1): Source[] {
 
 // Of an arm with a wrist sensor, an adapter or a servo; forces and torques in the tip's frame.
 function pushGroups(): Group[] {
-  const set = source('push.set_N', 0, 'set', '#f0a030', 1, true);
+  const set = source('insert.force_setpoint_N', 0, 'set', '#f0a030', 1, true);
   const depths = [0, 1, 2].map((i) => source('adapter.depth_m', i, `pin ${i + 1}`, segmentColour(i), 1000));
-  const way = source('push.travel_m', 0, 'way', '#c96bb0', 1000, true);
-  const aside = source('push.aside_m', 0, 'aside', '#8f9aa6', 1000, true);
+  const way = source('insert.travel_m', 0, 'way', '#c96bb0', 1000, true);
+  const aside = source('insert.lateral_m', 0, 'aside', '#8f9aa6', 1000, true);
   return [
-    { name: 'wrist force', title: 'force at the wrist [N]', sources: axes('push.felt.force_N') },
-    { name: 'wrist torque', title: 'torque at the wrist [N m]', sources: axes('push.felt.torque_Nm') },
-    { name: 'push', title: 'push: what the arm gives [N]', sources: [...axes('push.given.force_N'), set] },
+    { name: 'wrist force', title: 'force at the wrist [N]', sources: axes('insert.measured_wrench.force_N') },
+    { name: 'wrist torque', title: 'torque at the wrist [N m]', sources: axes('insert.measured_wrench.torque_Nm') },
+    { name: 'push', title: 'push: what the arm gives [N]', sources: [...axes('insert.applied_force.force_N'), set] },
     { name: 'insertion', title: 'into the adapter [mm]', sources: [...depths, way, aside] },
     { name: 'servo', title: 'servo: left to go [mm]', most: 100, sources: axes('servo.error_m', 1000) },
     { name: 'servo turn', title: 'servo: left to turn [deg]', most: 5, sources: axes('servo.error_deg') },

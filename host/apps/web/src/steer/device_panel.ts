@@ -52,7 +52,7 @@ export class DevicePanel {
     const clear_m = value(sample, 'clearance.distance_m');
     const level = facts.clearance?.level ?? '';
     this.clearance.set(clear_m / CLEARANCE_SHOWN_M, level === 'slow' || level === 'refuse',
-      Number.isFinite(clear_m) ? `${lengthText(clear_m)} from ${facts.clearance?.body}, sure by ${facts.clearance?.sure}` : 'none can be claimed');
+      Number.isFinite(clear_m) ? `${lengthText(clear_m)} from ${facts.clearance?.body}, sure by ${facts.clearance?.confidence}` : 'none can be claimed');
     const budget = pitchBudget(facts.held ?? [], values(sample, 'measured_js_deg'), values(sample, 'setpoint_js_deg'));
     this.budget.set(budget?.share ?? 0, (budget?.share ?? 0) > 0.8,
       budget ? `${budget.used_deg.toFixed(3)} of ${budget.allowed_deg} deg, segment ${budget.segments.join(', ')}` : 'no pitch is held');
