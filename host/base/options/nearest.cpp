@@ -10,8 +10,14 @@ namespace {
 
 constexpr std::size_t kMaxEdits = 2;
 
-// Words of command lines.
-constexpr std::array<RetiredName, 2> kRetired{{{"human", "model"}, {"--way-out", "--retract-path"}}};
+// Words of command lines, and shipped poses.
+constexpr std::array<RetiredName, 5> kRetired{{
+    {"human", "model"},
+    {"--way-out", "--retract-path"},
+    {"fixture", "jig"},
+    {"fixture_a", "jig_a"},
+    {"fixture_b", "jig_b"},
+}};
 
 // Fewest edits that make one word of the other, no letter edited twice (optimal string alignment).
 std::size_t edits_between(std::string_view a, std::string_view b) {

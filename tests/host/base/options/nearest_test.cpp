@@ -33,6 +33,7 @@ TEST(Nearest, WhatIsSaidNamesItAndIsNothingWhereNoneIsNear) {
   EXPECT_NE(did_you_mean("statsu", kNames).find("status"), std::string::npos);
   EXPECT_EQ(did_you_mean("nosuch", kNames), "");
   EXPECT_NE(did_you_mean("human", {"recorded", "model"}).find("called model now"), std::string::npos);
+  EXPECT_NE(did_you_mean("fixture_a", {"jig_a", "jig_b"}).find("called jig_a now"), std::string::npos);
 }
 
 TEST(Nearest, TheListOfAllowedNamesEndsWithTheNearest) {
