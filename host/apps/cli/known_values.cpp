@@ -22,7 +22,7 @@ constexpr KnownValues kValues[] = {
     {"--time", "", "fast paced real", false},
     {"--physics", "", "nominal ideal worn", false},
     {"--true-physics", "", "nominal ideal worn", false},
-    {"--operator", "", "recorded human", false},
+    {"--operator", "", "recorded model", false},
     {"--feedback", "", "aligned claim abstract off", false},
     {"--fixtures", "", "on off", false},
     {"--passivity", "", "on off", false},
