@@ -116,7 +116,7 @@ void Arbiter<Arm>::hold(const std::string& why) {
 // A path that is cut short says how far it has come, and so does a way back.
 template <class Arm>
 void Arbiter<Arm>::stop_asking(const std::string& why) {
-  if (std::holds_alternative<RetractMove<Arm>>(way_)) way_out_.end(why, command_rad_);
+  if (std::holds_alternative<RetractMove<Arm>>(way_)) retract_request_.end(why, command_rad_);
   servo_.end(why);
   const auto* move = std::get_if<PathMove<Arm>>(&way_);
   if (move != nullptr && !move->is_over()) {
@@ -142,7 +142,7 @@ void Arbiter<Arm>::require_way_back(const Now& now, std::uint64_t until_tick) co
                                          " is latched, with which the arm cannot be led back: " + fault.remedy);
   }
   require_enabled(now);
-  const std::string why = way_out_.why_no_way(until_tick);
+  const std::string why = retract_request_.why_no_way(until_tick);
   if (!why.empty()) throw api::RequestError("refused", why);
 }
 
@@ -151,15 +151,15 @@ void Arbiter<Arm>::retract(const Now& now, std::uint64_t until_tick) {
   require_way_back(now, until_tick);
   stop_asking("another retract was asked for");
   wishes_ = {};
-  way_out_.begin(until_tick);
-  way_.template emplace<RetractMove<Arm>>(table_, way_out_.path(), until_tick);
+  retract_request_.begin(until_tick);
+  way_.template emplace<RetractMove<Arm>>(table_, retract_request_.path(), until_tick);
   motion_begins();
 }
 
 template <class Arm>
 RetractState Arbiter<Arm>::retract_state() const {
   const auto* back = std::get_if<RetractMove<Arm>>(&way_);
-  return back != nullptr ? RetractState{back->phase(), back->points_left(), ""} : way_out_.last_retract();
+  return back != nullptr ? RetractState{back->phase(), back->points_left(), ""} : retract_request_.last_retract();
 }
 
 template <class Arm>
@@ -193,7 +193,7 @@ bool Arbiter<Arm>::begin_interval(std::uint64_t tick, const Now& now) {
   servo_.note_tip((static_cast<double>(tick) - 1.0) * table_.tick_s, Kind::tip_at(table_, Kind::measured_rad(now)));
   if (now.state != OperatingState::kEnabled) {
     stop_asking("the arm is not enabled any more");
-    way_out_.wait();
+    retract_request_.wait();
     wishes_ = {};
     return false;
   }
@@ -205,7 +205,7 @@ bool Arbiter<Arm>::begin_interval(std::uint64_t tick, const Now& now) {
   speed_rise_.pass(interval_s(table_));
   const auto* back = std::get_if<RetractMove<Arm>>(&way_);
   const bool stops = now.at_rest == 0 && (back != nullptr || std::holds_alternative<Idle>(way_));
-  way_out_.stand(tick, command_rad_, back != nullptr && back->has_begun(), stops);
+  retract_request_.stand(tick, command_rad_, back != nullptr && back->has_begun(), stops);
   return true;
 }
 

@@ -82,8 +82,8 @@ class Arbiter {
   RetractState retract_state() const;
   bool has_retracted() const { return retract_state().phase == RetractPhase::kDone; }
   // The verified way back, for a copy that survives lianad.
-  PathHistory<Joints<Arm>>& path_history() { return way_out_.path(); }
-  std::vector<RetractEvents> take_way_news() { return way_out_.take_events(); }
+  PathHistory<Joints<Arm>>& path_history() { return retract_request_.path(); }
+  std::vector<RetractEvents> take_way_news() { return retract_request_.take_events(); }
   // The path under way; none.
   std::optional<PathProgress> path() const;
   // What has become of paths since the last call.
@@ -138,7 +138,7 @@ class Arbiter {
   GoalRamp goal_ramp_{Kind::goal_ramp(table_)};
   SpeedRise speed_rise_;
   typename Kind::Wishes wishes_{};
-  RetractRequest<Arm> way_out_{table_};
+  RetractRequest<Arm> retract_request_{table_};
   Joints<Arm> command_rad_{};  // where the command stood last
   SearchResult taken_;
   PathCheck<Arm> path_check_;

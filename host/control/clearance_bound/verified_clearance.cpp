@@ -52,18 +52,18 @@ VerifiedClearance ClearanceFinder::judged(const clearance::Clearance& found, std
   const Registration& registration = known.registration;
   const std::size_t from = static_cast<std::size_t>(link);
   const Vec3 where_m = known.has_seen ? registration.registered(found.on_axis_m) : found.on_axis_m;
-  const Vec3 way_out = known.has_seen ? rotate(quaternion_of(registration.turn_rad()), found.normal) : found.normal;
+  const Vec3 outward = known.has_seen ? rotate(quaternion_of(registration.turn_rad()), found.normal) : found.normal;
   const Vec3 from_origin = subtract(where_m, registration.pivot_m());
   const double body = known.has_seen ? -1.0 : 0.0;  // a body that is where it is drawn has its allowance instead
   CableVector by_length{};
   for (std::size_t c = 0; c < static_cast<std::size_t>(table_.cable_count()); ++c)
-    by_length[c] = dot(way_out, between(motion_.by_length[from][c], motion_.by_length[from + 1][c], found.share));
+    by_length[c] = dot(outward, between(motion_.by_length[from][c], motion_.by_length[from + 1][c], found.share));
   const double variance_m2 =
-      registration.variance(scale(way_out, body), scale(cross(from_origin, way_out), body), by_length);
+      registration.variance(scale(outward, body), scale(cross(from_origin, outward), body), by_length);
   const Vec3 velocity_m_s = between(motion_.velocity_m_s[from], motion_.velocity_m_s[from + 1], found.share);
   const double uncertain_m = rule_.constant_m + rule_.sigmas * std::sqrt(variance_m2);
   const double allowance_m = known.has_seen ? 0.0 : known.shift_m + known.turn_rad * norm(from_origin);
-  const double bound_m = uncertain_m + allowance_m + rule_.ahead_s * std::max(0.0, -dot(way_out, velocity_m_s));
+  const double bound_m = uncertain_m + allowance_m + rule_.ahead_s * std::max(0.0, -dot(outward, velocity_m_s));
   return {found.distance_m - bound_m, bound_m, link, obstacle, where_m, uncertain_m, allowance_m};
 }
 

@@ -44,7 +44,7 @@ void handle_signals() {
 
 struct Options {
   std::string robot, scene, buses, api, time = "fast", physics = "nominal", bus_socket, expect, calibration, in_pose,
-                                        events, commands, way_out, verify_times, group, devices, fixtures;
+                                        events, commands, retract_path, verify_times, group, devices, fixtures;
 };
 
 std::vector<liana::api::Role> roles_in(const std::string& list) {
@@ -105,7 +105,7 @@ liana::server::ServiceConfig service_config(const Setup& setup, const std::strin
   config.buses = setup.buses;
   config.events_file = setup.options.events;
   config.commands_file = setup.options.commands;
-  config.way_file = setup.options.way_out;
+  config.way_file = setup.options.retract_path;
   config.verify_times_file = setup.options.verify_times;
   if (setup.scene.camera) config.camera_latency_s = setup.scene.camera->latency_s;
   const auto mission = std::find(setup.expected.begin(), setup.expected.end(), liana::api::Role::kMission);
@@ -220,7 +220,7 @@ int main(int argc, char** argv) {
   line.option("--events", options.events, "file for what happened and why, a line for each event");
   line.option("--commands", options.commands, "file for what becomes of every command, a line for each stage");
   line.option(
-      "--retract-path", options.way_out,
+      "--retract-path", options.retract_path,
       "file that keeps the verified way back, so that it survives lianad: read at the start, used where the arm "
       "is enabled within 50 mm of it");
   line.option("--verify-times", options.verify_times,
