@@ -256,13 +256,21 @@ typename Arm::Setpoint Arbiter<Arm>::tip_setpoint(const Now& now, const Pose& go
   Kind::add_wishes(wishes_, setpoint);
   const auto* target = std::get_if<TipTarget<Arm>>(&way_);
   const double max_m_s = tip_speed_m_s_ * (target != nullptr ? target->speed_share() : 1.0);
-  setpoint.tip_speed_m_s =
-      speed_rise_.limited(zone_.advice_at(now.tip_command.position_m, zone_.advice_at(goal.position_m, max_m_s)));
+  const double zone_m_s = zone_.advice_at(now.tip_command.position_m, zone_.advice_at(goal.position_m, SpeedRise::kMost_m_s));
+  setpoint.tip_speed_m_s = std::min(max_m_s, speed_rise_.limited(zone_m_s));
   if (target != nullptr && target->is_distant())
     setpoint.tip_speed_m_s = std::min(setpoint.tip_speed_m_s, goal_ramp_.speed_m_s());
   if (zone_.slows_at(now.tip_command.position_m))
     setpoint.tip_speed_m_s = std::min(setpoint.tip_speed_m_s, start_ramp_.speed_m_s());
+  const Vec3 way_m = subtract(goal.position_m, now.tip_command.position_m);
+  const double left_m_s = speed_left_m_s(way_m, Kind::tip_bounds(table_).linear.speed);
+  setpoint.tip_speed_m_s = std::min(setpoint.tip_speed_m_s, left_m_s);
   return setpoint;
+}
+
+template <class Arm>
+double Arbiter<Arm>::speed_left_m_s(const Vec3&, double limit_m_s) {
+  return limit_m_s;
 }
 
 template <class Arm>

@@ -106,6 +106,8 @@ class Arbiter {
   typename Kind::Wishes& wishes() { return wishes_; }
   const typename Kind::Wishes& wishes() const { return wishes_; }
   void ask_anew();
+  // Of `limit_m_s`, what a tip that is led along `way_m` may have now.
+  virtual double speed_left_m_s(const Vec3& way_m, double limit_m_s);
   void limit_tip_speed(double speed_m_s) { tip_speed_m_s_ = speed_m_s; }
   const Table& table() const { return table_; }
   const SpeedZone& zone() const { return zone_; }

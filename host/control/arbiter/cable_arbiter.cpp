@@ -11,8 +11,6 @@ namespace liana::arbiter {
 
 namespace {
 
-// Of the tip's speed limit that a hand may ask for: an arm that friction held swings on faster than it is led.
-constexpr double kHandSpeed = 0.8;
 constexpr double kLeastShare = 0.02;  // a setpoint has a speed, also one that stays
 // A hand that turns away from what slowed it is not let go all at once.
 constexpr double kEaseRise_1_s = 2.0;
@@ -43,6 +41,7 @@ CableArbiter::CableArbiter(const cable::RobotParams& table, const SpeedZone& zon
       cap_m_s_(table.limits.tip_speed_m_s),
       interval_s_(interval_s(table)),
       lead_(table, taken),
+      catch_up_(interval_s_),
       guidance_(guidance) {}
 
 void CableArbiter::require_free(const cable::Outputs& now) const {
@@ -140,8 +139,7 @@ void CableArbiter::cap_tip_speed(double speed_m_s) {
 }
 
 void CableArbiter::ask_speed() {
-  const double max_m_s = kHandSpeed * robot_speed_m_s_;
-  limit_tip_speed(std::max(kLeastShare, ease_.share) * std::min({asked_speed_m_s_, cap_m_s_, max_m_s}));
+  limit_tip_speed(std::max(kLeastShare, ease_.share) * std::min({asked_speed_m_s_, cap_m_s_, robot_speed_m_s_}));
 }
 
 void CableArbiter::end_shape_transition() {
@@ -200,8 +198,10 @@ std::optional<cable::Setpoint> CableArbiter::next_setpoint(std::uint64_t tick, c
   if (!begin_interval(tick, now)) {
     hold();
     nodes_ = {};
+    catch_up_.forget();
     return std::nullopt;
   }
+  catch_up_.note(tip_of(now.theta_command_rad), tip_of(now.theta_measured_rad));
   if (is_busy()) {
     device_.drop_anchor();  // a hand that closes the deadman now starts from where the move ends
     if (dither_.is_under_way()) return dithering_setpoint();
@@ -255,6 +255,21 @@ std::optional<cable::Setpoint> CableArbiter::steered_setpoint(const cable::Outpu
 cable::Setpoint CableArbiter::led_setpoint(const cable::Outputs& now) {
   ask_speed();
   return steer(now, ease_.share < 1.0 ? pulled_in(table(), now.tip_command, led_to_, ease_.share) : led_to_);
+}
+
+Vec3 CableArbiter::tip_of(const cable::ThetaVector& theta_rad) const {
+  return tip_pose(table(), arm_trig(table(), theta_rad)).position_m;
+}
+
+double CableArbiter::speed_left_m_s(const Vec3& way_m, double limit_m_s) {
+  const double left_m_s = catch_up_.speed_m_s(way_m, limit_m_s);
+  lag_share_ = left_m_s / limit_m_s;
+  return std::max(kLeastShare * limit_m_s, left_m_s);
+}
+
+virtual_fixtures::Ease CableArbiter::ease() const {
+  if (!was_engaged_ || lag_share_ >= ease_.share) return ease_;
+  return {lag_share_, virtual_fixtures::SlowdownCause::kLag};
 }
 
 // The operator's node takes the place of its own target, or one that is free.

@@ -8,6 +8,7 @@
 
 #include "host/control/arbiter/arbiter.hpp"
 #include "host/control/arbiter/cable_traits.hpp"
+#include "host/control/arbiter/catch_up.hpp"
 #include "host/control/arbiter/dither_order.hpp"
 #include "host/control/arbiter/refusal_wait.hpp"
 #include "host/control/arbiter/shape_transition.hpp"
@@ -76,7 +77,7 @@ class CableArbiter final : public Arbiter<cable::CableArm> {
   std::uint32_t held_mask() const { return wishes().held_mask; }
   const virtual_fixtures::Guidance& guidance() const { return guidance_; }
   // Why the hand is followed more slowly than it asks, and how much; nothing while nobody steers.
-  const virtual_fixtures::Ease& ease() const { return ease_; }
+  virtual_fixtures::Ease ease() const;
   TeleopInput& device() { return device_; }
   const TeleopInput& device() const { return device_; }
 
@@ -92,6 +93,8 @@ class CableArbiter final : public Arbiter<cable::CableArm> {
   cable::Setpoint led_setpoint(const cable::Outputs& now);
   void end_shape_transition();
   void ask_speed();
+  Vec3 tip_of(const cable::ThetaVector& theta_rad) const;
+  double speed_left_m_s(const Vec3& way_m, double limit_m_s) override;
 
   double asked_speed_m_s_;  // limit of the device in use, or of the robot's tip
   double robot_speed_m_s_;
@@ -105,6 +108,8 @@ class CableArbiter final : public Arbiter<cable::CableArm> {
   cable::NodeTarget device_node_{};
   bool was_engaged_ = false;
   RefusalWait refusal_wait_;
+  CatchUp catch_up_;
+  double lag_share_ = 1.0;  // of the tip's speed, what an arm that lags leaves
   Pose led_from_{}, led_to_{};   // last setpoint of the hand: where the tip was commanded to be, and its goal
   std::size_t slower_ways_ = 0;  // that were tried in its interval
   double asked_share_ = 1.0;     // of its first setpoint

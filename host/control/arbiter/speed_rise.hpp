@@ -10,6 +10,8 @@ namespace liana::arbiter {
 // to, and has not become so fast that cables come near slack where the goal stands.
 class SpeedRise {
  public:
+  static constexpr double kMost_m_s = 1.0;  // faster than any tip
+
   // Once per command interval of `dt_s`.
   void pass(double dt_s) { max_m_s_ = std::min(max_m_s_ + kRise_m_s2 * dt_s, kMost_m_s); }
   // What to ask for now of what is wanted [m/s].
@@ -17,7 +19,6 @@ class SpeedRise {
 
  private:
   static constexpr double kRise_m_s2 = 0.006;
-  static constexpr double kMost_m_s = 1.0;  // faster than any tip
 
   double max_m_s_ = kMost_m_s;
 };

@@ -67,6 +67,8 @@ std::string ease_name(const virtual_fixtures::Ease& ease) {
       return "tension";
     case virtual_fixtures::SlowdownCause::kSingular:
       return "near singular";
+    case virtual_fixtures::SlowdownCause::kLag:
+      return "arm lags";
     case virtual_fixtures::SlowdownCause::kRefused:
       return ease.limit;
     case virtual_fixtures::SlowdownCause::kJointLimit:

@@ -543,7 +543,7 @@ TEST_F(Arbitration, ATipAfterADistantGoalSpeedsUpAsItMaySwingAndSlowsDownAtOnce)
   arbiter_.cap_tip_speed(0.015);
   EXPECT_DOUBLE_EQ(next()->tip_speed_m_s, 0.015);
   arbiter_.cap_tip_speed(table_.limits.tip_speed_m_s);
-  EXPECT_LT(next()->tip_speed_m_s, 0.016);
+  EXPECT_LT(next()->tip_speed_m_s, 0.02);
 }
 
 // A way in along theta 1: 20 intervals of 1 mrad each.
