@@ -221,10 +221,11 @@ const RequestRow& row_of(const Json& request) {
     wrong_type("op", op, "a text of 1 to 32 bytes, such as \"hold\"");
   const RequestRow* row = find_request(op.text());
   const std::string_view now = present_op(op.text());
-  if (row == nullptr)
-    throw RequestError("bad_request", "unknown op " + brief(op) + ": " +
-                                          (now.empty() ? "docs/reference/api.md lists them all"
-                                                       : "it is called " + std::string(now) + " now"));
+  if (row == nullptr) {
+    const std::string known =
+        now.empty() ? "docs/reference/api.md lists them all" : "it is called " + std::string(now) + " now";
+    throw RequestError("bad_request", "unknown op " + brief(op) + ": " + known);
+  }
   return *row;
 }
 

@@ -1,4 +1,4 @@
-// An arm that lags is led more slowly, by as much as it has yet to swing after its command.
+// An arm that lags is led more slowly, by as much as it has yet to sway after its command.
 #include "host/control/arbiter/catch_up.hpp"
 
 #include <gtest/gtest.h>
