@@ -21,6 +21,7 @@ Saturated saturate(const Vec3& v, double limit) noexcept {
 // Velocity towards the wanted velocity within acceleration and jerk.
 bool follow_velocity(const FilterBounds& bounds, double tick_s, const Vec3& wanted, ChannelState& state) noexcept {
   const double before = norm(state.velocity);
+  const double rises = before > 0.0 ? dot(state.velocity, state.acceleration) / before : 0.0;
   const double k2 = bounds.jerk / bounds.accel;
   const double k3 = 4.0 * k2;
   const Saturated a = saturate(scale(subtract(wanted, state.velocity), k2), bounds.accel);
@@ -28,8 +29,9 @@ bool follow_velocity(const FilterBounds& bounds, double tick_s, const Vec3& want
   const Saturated jerk = saturate(scale(subtract(a.value, state.acceleration), gain), bounds.jerk);
   state.acceleration = add(state.acceleration, scale(jerk.value, tick_s));
   state.velocity = add(state.velocity, scale(state.acceleration, tick_s));
-  // Coming from a higher speed limit, the filter brakes down to the new one instead of jumping.
-  const double allowed = larger(bounds.speed, before - bounds.accel * tick_s);
+  // Coming from a higher speed limit, the filter brakes down to the new one, and what speeds up still ends that first.
+  const double ends = larger(0.0, rises - bounds.jerk * tick_s);
+  const double allowed = before > bounds.speed ? before + ends * tick_s : bounds.speed;
   const Saturated v = saturate(state.velocity, allowed);  // the discrete steps may overshoot by a rounding
   state.velocity = v.value;
   return a.acted;

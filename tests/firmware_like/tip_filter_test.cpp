@@ -225,6 +225,32 @@ TEST(TipFilter, TheSlitsSpeedLowersTheBoundAndTheRobotsIsTheMost) {
   EXPECT_EQ(tip_filter_config(robot, -1.0).linear.speed, robot.limits.tip_speed_m_s);
 }
 
+// req:A9
+TEST(TipFilter, ALowerSpeedLimitIsComeToWithinTheJerkWhileTheTipSpeedsUp) {
+  const FilterBounds fast = config().linear;
+  for (const double share : {0.2, 0.5, 0.9}) {
+    ChannelState state;
+    const double tick_s = config().tick_s;
+    while (norm(state.velocity) < share * fast.speed) follow_channel(fast, tick_s, {1.0, 0.0, 0.0}, state);
+    FilterBounds lower = fast;
+    lower.pull_1_s = fast.accel / fast.speed;
+    const double falls = 0.5 * fast.accel;
+    double most = 0.0, before = state.velocity[0], rises = state.acceleration[0];
+    for (std::int32_t i = 0; i < 300; ++i) {
+      lower.speed = larger(0.3 * share * fast.speed, share * fast.speed - falls * i * tick_s);
+      follow_channel(lower, tick_s, {1.0, 0.0, 0.0}, state);
+      const double now = (state.velocity[0] - before) / tick_s;
+      EXPECT_LE(std::fabs(now - rises), fast.jerk * tick_s * kWithRounding) << share << " " << i;
+      rises = now;
+      before = state.velocity[0];
+      most = larger(most, state.velocity[0] - lower.speed);
+    }
+    const double change = fast.accel + falls;
+    EXPECT_LE(most, 1.05 * 0.5 * change * change / fast.jerk) << "beyond the lower one for a moment";
+    EXPECT_NEAR(state.velocity[0], lower.speed, 1e-4);
+  }
+}
+
 TEST(TipFilter, LimitsThatActAreNamed) {
   TipFilterState state;
   filter_tip(config(), {{1.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, state);
