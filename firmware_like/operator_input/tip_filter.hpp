@@ -59,8 +59,8 @@ struct ChannelLimits {
 };
 
 // One tick of one channel: velocity (and acceleration) change so as to bring `error` = target - state to zero; the
-// caller integrates velocity. From above a speed limit that was lowered it comes down to it within accel and jerk; a tip
-// that speeds up then passes it by accel^2 / (2 jerk) for a moment.
+// caller integrates velocity. From above a speed limit that was lowered it comes down to it within accel and jerk; a
+// tip that speeds up then passes it by accel^2 / (2 jerk) for a moment.
 ChannelLimits follow_channel(const FilterBounds& bounds, double tick_s, const Vec3& error,
                              ChannelState& state) noexcept;
 
