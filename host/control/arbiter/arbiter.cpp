@@ -256,7 +256,8 @@ typename Arm::Setpoint Arbiter<Arm>::tip_setpoint(const Now& now, const Pose& go
   Kind::add_wishes(wishes_, setpoint);
   const auto* target = std::get_if<TipTarget<Arm>>(&way_);
   const double max_m_s = tip_speed_m_s_ * (target != nullptr ? target->speed_share() : 1.0);
-  const double zone_m_s = zone_.advice_at(now.tip_command.position_m, zone_.advice_at(goal.position_m, SpeedRise::kMost_m_s));
+  const double zone_m_s =
+      zone_.advice_at(now.tip_command.position_m, zone_.advice_at(goal.position_m, SpeedRise::kMost_m_s));
   setpoint.tip_speed_m_s = std::min(max_m_s, speed_rise_.limited(zone_m_s));
   if (target != nullptr && target->is_distant())
     setpoint.tip_speed_m_s = std::min(setpoint.tip_speed_m_s, goal_ramp_.speed_m_s());

@@ -109,7 +109,7 @@ class CableArbiter final : public Arbiter<cable::CableArm> {
   bool was_engaged_ = false;
   RefusalWait refusal_wait_;
   CatchUp catch_up_;
-  double lag_share_ = 1.0;  // of the tip's speed, what an arm that lags leaves
+  double lag_share_ = 1.0;       // of the tip's speed, what an arm that lags leaves
   Pose led_from_{}, led_to_{};   // last setpoint of the hand: where the tip was commanded to be, and its goal
   std::size_t slower_ways_ = 0;  // that were tried in its interval
   double asked_share_ = 1.0;     // of its first setpoint
