@@ -12,6 +12,7 @@ namespace liana::arbiter {
 namespace {
 
 constexpr double kLeastShare = 0.02;  // a setpoint has a speed, also one that stays
+constexpr double kLagTold = 0.75;     // of the tip's speed: every arm lags a little
 // A hand that turns away from what slowed it is not let go all at once.
 constexpr double kEaseRise_1_s = 2.0;
 // The tip goes on as it was commanded until a new setpoint acts.
@@ -268,7 +269,7 @@ double CableArbiter::speed_left_m_s(const Vec3& way_m, double limit_m_s) {
 }
 
 virtual_fixtures::Ease CableArbiter::ease() const {
-  if (!was_engaged_ || lag_share_ >= ease_.share) return ease_;
+  if (!was_engaged_ || lag_share_ > kLagTold || lag_share_ >= ease_.share) return ease_;
   return {lag_share_, virtual_fixtures::SlowdownCause::kLag};
 }
 

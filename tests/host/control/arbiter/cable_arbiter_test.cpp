@@ -450,6 +450,31 @@ TEST_F(Arbitration, AnotherDeviceOrNoneTakesOverFromAHandThatSteers) {
   }
 }
 
+// req:A9
+TEST_F(Arbitration, AHandIsToldOfAnArmThatStaysBehindAndAsksForLessSpeed) {
+  const cable::ArmKinematics arm = forward_kinematics(table_, now_.theta_command_rad);
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(table_.theta_count()); ++i) {
+    if (std::fabs(arm.tip_jacobian.linear[i][0]) > std::fabs(arm.tip_jacobian.linear[k][0])) k = i;
+  }
+  now_.theta_measured_rad = now_.theta_command_rad;
+  use_hand();
+  for (int i = 0; i < 5; ++i) steered(0.0, false);
+  double hand_m = 0.0;
+  const auto led = [&] { return steered(hand_m += 5e-4); };
+  for (int i = 0; i < 5; ++i) led();
+  const double fast_m_s = led()->tip_speed_m_s;
+  EXPECT_NE(arbiter_.ease().cause, virtual_fixtures::SlowdownCause::kLag);
+  double asked_m_s = fast_m_s;
+  for (int i = 0; i < 60; ++i) {  // 40 mm behind, on the way
+    if (i < 40) now_.theta_measured_rad[k] -= 1e-3 / arm.tip_jacobian.linear[k][0];
+    asked_m_s = led()->tip_speed_m_s;
+  }
+  EXPECT_LT(asked_m_s, 0.5 * fast_m_s);
+  EXPECT_EQ(arbiter_.ease().cause, virtual_fixtures::SlowdownCause::kLag);
+  EXPECT_LT(arbiter_.ease().share, 0.3);
+}
+
 class AtTheSlit : public Arbitration {
  protected:
   AtTheSlit() {
