@@ -7,6 +7,8 @@
 namespace liana {
 namespace {
 
+constexpr double kEnds_s = 0.1;  // at most about so long what speeds up goes on beyond a lowered speed limit
+
 struct Saturated {
   Vec3 value;
   bool acted;
@@ -21,19 +23,24 @@ Saturated saturate(const Vec3& v, double limit) noexcept {
 // Velocity towards the wanted velocity within acceleration and jerk.
 bool follow_velocity(const FilterBounds& bounds, double tick_s, const Vec3& wanted, ChannelState& state) noexcept {
   const double before = norm(state.velocity);
-  const double rises = before > 0.0 ? dot(state.velocity, state.acceleration) / before : 0.0;
+  const Vec3 ahead = before > 0.0 ? scale(state.velocity, 1.0 / before) : Vec3{};
+  const double rises = dot(ahead, state.acceleration);
   const double k2 = bounds.jerk / bounds.accel;
   const double k3 = 4.0 * k2;
   const Saturated a = saturate(scale(subtract(wanted, state.velocity), k2), bounds.accel);
   const double gain = k3 * tick_s < 1.0 ? k3 : 1.0 / tick_s;
   const Saturated jerk = saturate(scale(subtract(a.value, state.acceleration), gain), bounds.jerk);
   state.acceleration = add(state.acceleration, scale(jerk.value, tick_s));
-  state.velocity = add(state.velocity, scale(state.acceleration, tick_s));
-  // Coming from a higher speed limit, the filter brakes down to the new one, and what speeds up still ends that first.
-  const double ends = larger(0.0, rises - bounds.jerk * tick_s);
-  const double allowed = before > bounds.speed ? before + ends * tick_s : bounds.speed;
-  const Saturated v = saturate(state.velocity, allowed);  // the discrete steps may overshoot by a rounding
-  state.velocity = v.value;
+  double allowed = bounds.speed;  // the discrete steps may overshoot it by a rounding
+  if (before > bounds.speed) {
+    // Coming from a higher speed limit, the filter brakes down to the new one, and what speeds up still ends that
+    // first.
+    const double most = larger(0.0, rises - tick_s * larger(bounds.jerk, rises / kEnds_s));
+    const double over = dot(ahead, state.acceleration) - most;
+    if (over > 0.0) state.acceleration = subtract(state.acceleration, scale(ahead, over));
+    allowed = before + most * tick_s;
+  }
+  state.velocity = saturate(add(state.velocity, scale(state.acceleration, tick_s)), allowed).value;
   return a.acted;
 }
 

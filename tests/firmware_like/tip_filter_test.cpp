@@ -251,6 +251,26 @@ TEST(TipFilter, ALowerSpeedLimitIsComeToWithinTheJerkWhileTheTipSpeedsUp) {
   }
 }
 
+// req:A9
+TEST(TipFilter, ALowerSpeedLimitIsComeToWhereTheArmHasLittleJerkLeft) {
+  FilterBounds bounds = config().linear;
+  ChannelState state;
+  const double tick_s = config().tick_s;
+  while (norm(state.velocity) < 0.5 * bounds.speed) follow_channel(bounds, tick_s, {1.0, 0.0, 0.0}, state);
+  const double before = norm(state.velocity), rises = norm(state.acceleration);
+  bounds.pull_1_s = bounds.accel / bounds.speed;
+  bounds.speed *= 0.05;
+  bounds.accel *= 0.1;  // as the governor leaves it where the cables have no room
+  bounds.jerk *= 0.03;
+  double most = 0.0;
+  for (std::int32_t i = 0; i < 1500; ++i) {
+    follow_channel(bounds, tick_s, {1.0, 0.0, 0.0}, state);
+    most = larger(most, state.velocity[0]);
+  }
+  EXPECT_LE(most, before + 0.11 * rises);
+  EXPECT_NEAR(state.velocity[0], bounds.speed, 1e-3);
+}
+
 TEST(TipFilter, LimitsThatActAreNamed) {
   TipFilterState state;
   filter_tip(config(), {{1.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, state);
