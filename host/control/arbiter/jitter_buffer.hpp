@@ -24,7 +24,7 @@ class JitterBuffer {
 
   // Another device, or another clock.
   void forget() { *this = JitterBuffer{}; }
-  // A sample has come that may be followed (hand_watch.hpp); times rise. One with an open deadman waits for nothing,
+  // A sample has come that may be followed (hand_monitor.hpp); times rise. One with an open deadman waits for nothing,
   // nor does what came before it.
   void add(const device::Sample& sample);
   // Ends an interval: the samples whose time has come, oldest first. While news is never older by more than an interval
