@@ -5,6 +5,7 @@
 #include "host/api/server/request_error.hpp"
 #include "host/api/server/request_text.hpp"
 #include "host/base/json/json.hpp"
+#include "host/base/options/retired.hpp"
 
 namespace liana::api {
 
@@ -70,7 +71,7 @@ class Check {
           std::find_if(fields.begin(), fields.end(), [&](const RequestField& field) { return key == field.name; });
       if (found == fields.end()) {
         const std::string_view present = present_field(key);
-        const std::string now = "it is called " + std::string(present) + " now";
+        const std::string now = options::called_now(present);
         refuse("bad_request", "unknown field " + key.substr(0, 60) + " = " + brief(member.second),
                names.empty() ? "none" : names, present.empty() ? "correct its spelling or remove it" : now.c_str());
       }
@@ -220,10 +221,9 @@ const RequestRow& row_of(const Json& request) {
   if (!op.is_string() || op.text().empty() || op.text().size() > 32)
     wrong_type("op", op, "a text of 1 to 32 bytes, such as \"hold\"");
   const RequestRow* row = find_request(op.text());
-  const std::string_view now = present_op(op.text());
   if (row == nullptr) {
-    const std::string known =
-        now.empty() ? "docs/reference/api.md lists them all" : "it is called " + std::string(now) + " now";
+    const std::string_view now = present_op(op.text());
+    const std::string known = now.empty() ? "docs/reference/api.md lists them all" : options::called_now(now);
     throw RequestError("bad_request", "unknown op " + brief(op) + ": " + known);
   }
   return *row;

@@ -55,7 +55,7 @@ std::string nearest(std::string_view given, const std::vector<std::string>& know
 
 std::string did_you_mean(std::string_view given, const std::vector<std::string>& known) {
   const std::string now{present_name(given, kRetired)};
-  if (std::find(known.begin(), known.end(), now) != known.end()) return "; it is called " + now + " now";
+  if (std::find(known.begin(), known.end(), now) != known.end()) return "; " + called_now(now);
   const std::string name = nearest(given, known);
   return name.empty() ? "" : "; did you mean " + name + "?";
 }

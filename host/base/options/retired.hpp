@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace liana::options {
@@ -16,5 +17,8 @@ constexpr std::string_view present_name(std::string_view given, std::span<const 
   const auto found = std::ranges::find(retired, given, &RetiredName::old_name);
   return found != retired.end() ? found->new_name : std::string_view{};
 }
+
+// For a refusal of an old name: what it is now.
+inline std::string called_now(std::string_view name) { return "it is called " + std::string(name) + " now"; }
 
 }  // namespace liana::options

@@ -140,7 +140,7 @@ void CableArbiter::cap_tip_speed(double speed_m_s) {
 }
 
 void CableArbiter::ask_speed() {
-  limit_tip_speed(std::max(kLeastShare, ease_.share) * std::min({asked_speed_m_s_, cap_m_s_, robot_speed_m_s_}));
+  limit_tip_speed(std::max(kLeastShare, ease_.share) * std::min(asked_speed_m_s_, cap_m_s_));
 }
 
 void CableArbiter::end_shape_transition() {

@@ -78,7 +78,7 @@ void Field::only(const std::set<std::string>& known) const {
     if (known.count(key) != 0) continue;
     const Field field(item, file_, path_.empty() ? key : path_ + "." + key);
     const std::string now{options::present_name(key, kRetired)};
-    if (!now.empty()) field.refuse("no such field", "it is called " + now + " now");
+    if (!now.empty()) field.refuse("no such field", options::called_now(now));
     field.refuse("no such field" + options::did_you_mean(key, {known.begin(), known.end()}),
                  "remove it or correct its spelling");
   }
