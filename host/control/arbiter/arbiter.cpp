@@ -49,7 +49,12 @@ template <class Arm>
 void Arbiter<Arm>::move_joints(const Now& now, const Joints<Arm>& goal_rad, double rate_rad_s,
                                const motion::Swings& swings) {
   require_free(now);
-  way_.template emplace<JointMove<Arm>>(table_, Kind::command_rad(now), goal_rad, rate_rad_s, swings);
+  auto& move =
+      way_.template emplace<JointMove<Arm>>(table_, Kind::command_rad(now), goal_rad, rate_rad_s, swings);
+  if (path_check_)
+    move.look_first(move_work_, taken_, [check = path_check_](const Joints<Arm>& from_rad, const Joints<Arm>& to_rad) {
+      return check({from_rad, to_rad}, std::nullopt);
+    });
   motion_begins();
 }
 
@@ -228,6 +233,9 @@ void Arbiter<Arm>::end_motion() {
     return;
   }
   if (const auto* back = std::get_if<RetractMove<Arm>>(&way_)) return stop_asking(back->why_ended());
+  const auto* move = std::get_if<JointMove<Arm>>(&way_);
+  if (move != nullptr && !move->refusal().empty())
+    path_news_.push_back({event::PathEvent::kRefused, {"move_jp", 0.0}, 0.0, "move_jp is refused: " + move->refusal()});
   const auto* path = std::get_if<PathMove<Arm>>(&way_);
   if (path != nullptr && path->outlook()->refusal.empty()) tell(event::PathEvent::kArrives, *path, " has arrived");
   stop_asking();

@@ -32,7 +32,8 @@ class Arbiter {
   using Setpoint = typename Arm::Setpoint;
   using Now = liana::Outputs<Arm>;  // the newest tick of the arm
 
-  // In `zone` the tip is asked to go no faster than the zone says. `check` looks at the straight pieces of a path.
+  // In `zone` the tip is asked to go no faster than the zone says. `check` looks at the straight pieces of a path, and
+  // at the way of a joint move.
   explicit Arbiter(const Table& table, const SpeedZone& zone = {}, SearchResult taken = SearchResult::kInItsInterval,
                    PathCheck<Arm> check = {});
   Arbiter(const Arbiter&) = delete;  // ways of moving refer to its path and wishes
@@ -145,6 +146,7 @@ class Arbiter {
   SearchResult taken_;
   PathCheck<Arm> path_check_;
   typename PathMove<Arm>::Work path_work_;
+  typename JointMove<Arm>::Work move_work_;
   std::vector<PathEvents> path_news_;
   std::variant<Idle, TipTarget<Arm>, LineMove<Arm>, JointMove<Arm>, PathMove<Arm>, ServoMove<Arm>, RetractMove<Arm>>
       way_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <utility>
 
 #include "host/control/arbiter/cable_traits.hpp"
@@ -73,10 +74,38 @@ Joints<Arm> JointMove<Arm>::at(double time_s) const {
 }
 
 template <class Arm>
+void JointMove<Arm>::look_first(Work& work, SearchResult taken, Look look) {
+  work.forget();
+  work_ = &work;
+  taken_ = taken;
+  look_ = std::move(look);
+}
+
+template <class Arm>
+bool JointMove<Arm>::is_looked_at(const Joints<Arm>& from_rad) {
+  if (work_ == nullptr) return true;
+  if (look_) work_->start([look = std::exchange(look_, nullptr), from_rad, to_rad = to_rad_] {
+    try {
+      return look(from_rad, to_rad);
+    } catch (const std::exception& error) {  // a look that fails is none that has passed
+      return std::string(error.what());
+    }
+  });
+  const std::optional<std::string> refusal = work_->take(taken_ == SearchResult::kInItsInterval);
+  if (!refusal) return false;
+  work_ = nullptr;
+  refusal_ = *refusal;
+  return true;
+}
+
+template <class Arm>
 Goal<Arm> JointMove<Arm>::next(const liana::Outputs<Arm>& now) {
   if (again_.waits(now.at_rest != 0)) return {};
   if (!has_begun_ && now.at_rest == 0) return {};
   const Joints<Arm>& stands_rad = ArmTraits<Arm>::command_rad(now);
+  if (!is_looked_at(stands_rad)) return {};
+  is_over_ = !refusal_.empty();
+  if (is_over_) return {};
   if (!std::exchange(has_begun_, true) && (again_.begins_again() || stands_rad != from_rad_)) plan(stands_rad);
   time_s_ += pace_ * interval_s_;
   pace_ = std::min(1.0, pace_ + kPaceRise_1_s * interval_s_);

@@ -31,9 +31,10 @@ template <class Arm>
 PathRequest<Arm> admit_path(const typename Arm::Table& table, const Joints<Arm>& command_rad, PathRequest<Arm> request);
 
 // Why the arm must not go straight from point to point; empty: it may. Called in another thread, with the place of the
-// command as point 0.
+// command as point 0. Without a margin it is a move to point 1: allowed is what verification allows.
 template <class Arm>
-using PathCheck = std::function<std::string(const std::vector<Joints<Arm>>& points_rad, double margin_m)>;
+using PathCheck =
+    std::function<std::string(const std::vector<Joints<Arm>>& points_rad, std::optional<double> margin_m)>;
 
 // What the whole of a path has come to.
 template <class Arm>

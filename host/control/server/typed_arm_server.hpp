@@ -49,7 +49,7 @@ class TypedArmServer : public ArmServer {
   void take_observation(const CameraObservation& picture) override;
   std::optional<LastVerdict> release_next(bool may_release, std::uint32_t owner) override;
   std::vector<arbiter::PathEvents> take_path_news() override { return arbiter_.take_path_news(); }
-  std::vector<arbiter::RetractEvents> take_way_news() override { return arbiter_.take_way_news(); }
+  std::vector<arbiter::RetractEvents> take_way_news() override;
   void restore_way(const arbiter::KeptWay& kept) override;
   std::optional<arbiter::WayChange> take_way_change() override;
   std::size_t joint_count() const override { return arbiter::ArmTraits<Arm>::joint_count(table_); }
@@ -147,6 +147,14 @@ void TypedArmServer<Arm, Steering>::move_joints(const api::Arguments& fields) {
 template <class Arm, class Steering>
 void TypedArmServer<Arm, Steering>::retract(const api::Arguments& fields) {
   arbiter_.retract(outputs(), static_cast<std::uint64_t>(fields.integer("until_tick")));
+}
+
+template <class Arm, class Steering>
+std::vector<arbiter::RetractEvents> TypedArmServer<Arm, Steering>::take_way_news() {
+  std::vector<arbiter::RetractEvents> news = arbiter_.take_way_news();
+  for (const arbiter::RetractEvents& one : news)
+    if (one.what == event::RetractEvent::kLost) simulation_->led_astray();
+  return news;
 }
 
 template <class Arm, class Steering>

@@ -55,8 +55,9 @@ void TooNearTo::stand(double distance_m) {
   min_m_ = stands_ ? std::max(min_m_, kept_m) : kept_m;
   back_m_ = stands_ ? std::max(back_m_, kept_m) : kept_m;
   if (was_refused_) back_m_ = std::max(std::min(back_m_, distance_m - kCreptDip_m), farthest_m_ - kMostCrept_m);
+  if (was_disabled_) back_m_ = kept_m;
   stands_ = true;
-  was_refused_ = false;
+  was_refused_ = was_disabled_ = false;
 }
 
 std::string in_millimetres(double distance_m) {

@@ -35,9 +35,11 @@ class TooNearTo {
  public:
   // The next motion begins so far off.
   void stand(double distance_m);
-  // It is far enough off, or something else than commands has moved it.
+  // It is far enough off, or something else than commands has led it away.
   void forget() { *this = {}; }
   void refused() { was_refused_ = true; }
+  // The arm was disabled, which may have moved it: a retract may go along from where it stands then.
+  void disabled() { was_disabled_ = true; }
   bool stands() const { return stands_; }
   // No motion may end nearer than that.
   double least_m(bool retracts) const { return retracts ? back_m_ : min_m_; }
@@ -46,13 +48,18 @@ class TooNearTo {
 
  private:
   double farthest_m_ = 0.0, min_m_ = 0.0, back_m_ = 0.0;
-  bool stands_ = false, was_refused_ = false;
+  bool stands_ = false, was_refused_ = false, was_disabled_ = false;
 };
 
 struct TooNear {
   TooNearTo scene, itself;
   bool retracts = false;  // the motion that is judged next
   void forget() { *this = {}; }
+  // To itself an arm may stay as near as it is enabled.
+  void disabled() {
+    scene.disabled();
+    itself.forget();
+  }
 };
 
 // What people call link 0, 1, ...

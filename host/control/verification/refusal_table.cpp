@@ -49,7 +49,7 @@ constexpr std::array<RefusalRow, count_enumerators<Refusal, 100>()> kRows{{
      "Ask for a tip pose within reach; where angles are held (cable arms), release them first: hold_theta with an "
      "empty "
      "list."},
-    {kPath, "path", "The whole of a path was looked at, and it is not begun.", "", kHold,
+    {kPath, "path", "The whole of a path or of a joint move was looked at, and it is not begun.", "", kHold,
      "Ask for a way that keeps clear, such as liana plan finds, from where the arm stands."},
     {kSceneContact, "scene_contact", "The arm could touch the scene, on the way or while it stops.", "m", kHold,
      "Retract, or ask for a way that leaves the body named more room."},

@@ -81,8 +81,11 @@ void SimulationVerifier<CableArm>::watch(const TwinSnapshot<CableArm>& image) {
   const cable::Outputs& now = image.last_outputs;
   const double since_s = static_cast<double>(image.next_tick - watched_tick_) * rules_.table.tick_s;
   if (since_s <= 0.0) return;
-  if (now.state != OperatingState::kEnabled) too_near_.forget();
-  if (now.homed == 0) observer_.forget();
+  if (now.state != OperatingState::kEnabled) too_near_.disabled();
+  if (now.homed == 0) {
+    too_near_.forget();
+    observer_.forget();
+  }
   observer_.watch(now.theta_measured_rad, now.tension_measured_N, told_now(rules_.table, now), since_s);
   watched_tick_ = image.next_tick;
   stop_.solved = false;

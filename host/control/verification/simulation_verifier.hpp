@@ -40,8 +40,11 @@ class SimulationVerifier<cable::CableArm> {
   // `arm`: lengths, masses, stiffness and friction of the robot's table.
   SimulationVerifier(const simulation::ArmModel& arm, const MotionRules& rules);
 
-  // Once an interval: what the drives say about how the arm moves.
+  // Once an interval: what the drives say about how the arm moves. How near to a body it has come counts on while it is
+  // disabled: a stop and enabling give it no further millimetres.
   void watch(const TwinSnapshot<Arm>& image);
+  // Something else than commands has led the arm away from its path: how near it had come counts no more.
+  void led_astray() { too_near_.forget(); }
   // From now on: what is known of arm and scene beside the measured angles and the drawing. `prediction_m` takes the
   // place of the scene's own; angles and placement are those of a StartState.
   void believe(const cable::ThetaVector& theta_off_rad, const Pose& drawing_in_base, double prediction_m);
@@ -86,8 +89,9 @@ class SimulationVerifier<serial::SerialArm> {
 
   // Once an interval: whether commands still are what moves the arm.
   void watch(const TwinSnapshot<Arm>& image) {
-    if (image.last_outputs.state != OperatingState::kEnabled) too_near_.forget();
+    if (image.last_outputs.state != OperatingState::kEnabled) too_near_.disabled();
   }
+  void led_astray() { too_near_.forget(); }
   // Judges what the candidate makes the controller tell its drives, from where the arm is measured to be.
   void begin(const TwinSnapshot<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction,
              bool retracts);

@@ -26,7 +26,7 @@ enum class Refusal : std::uint16_t {
   kNoRest = 204,        // the stop after the command would take too long
   kNotFinite = 205,     // a predicted number is not finite
   kUnreachable = 206,   // the arm cannot take the tip there: the servo IK would fall behind its target
-  kPath = 207,          // the whole of a path was looked at, and it is not begun
+  kPath = 207,          // the whole of a path or joint move was looked at, and it is not begun
   kSceneContact = 208,  // the arm could touch the scene, on the way or while it stops
   kSelfContact = 209,   // the arm would touch itself
   kNodeSpeed = 210,     // the arm's body would move too fast

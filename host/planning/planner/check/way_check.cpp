@@ -1,6 +1,7 @@
 #include "host/planning/planner/check/way_check.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "host/planning/planner/check/plan_check.hpp"
 #include "host/planning/planner/text.hpp"
@@ -32,6 +33,17 @@ std::string refusal(const config::RobotConfig& robot, const config::SceneConfig&
   return {};
 }
 
+// Straight in theta, with points enough for tensions, which are looked at there only.
+std::vector<ThetaVector> straight(const ThetaVector& from, const ThetaVector& goal, double share) {
+  constexpr std::size_t kPieces = 16;
+  std::vector<ThetaVector> way(kPieces + 1, from);
+  for (std::size_t k = 0; k <= kPieces; ++k) {
+    for (std::size_t i = 0; i < from.size(); ++i)
+      way[k][i] += share * static_cast<double>(k) / kPieces * (goal[i] - from[i]);
+  }
+  return way;
+}
+
 }  // namespace
 
 std::string refusal_of_way(const config::RobotConfig& robot, const config::SceneConfig& scene,
@@ -46,6 +58,23 @@ std::string refusal_of_way(const config::RobotConfig& robot, const config::Scene
     if (!piece.empty()) return text("between points %d and %d ", static_cast<int>(k), static_cast<int>(k + 1)) + piece;
   }
   return whole;
+}
+
+std::string refusal_of_move(const config::RobotConfig& robot, const config::SceneConfig& scene, const ThetaVector& from,
+                            const ThetaVector& goal) {
+  const PlanCheck stands = check_plan(robot, scene, {from}, plain_tip(robot.table, from));
+  const Allowed allowed{std::min(scene.margins.prediction_m + scene.margins.refuse_m, stands.min_clearance_m),
+                        std::min(kSelfMargin_m, stands.self.clearance_m)};
+  std::string first = refusal(robot, scene, straight(from, goal, 1.0), allowed);
+  if (first.empty()) return {};
+  double free = 0.0, beyond = 1.0;
+  while (beyond - free > 0.01) {
+    const double middle = 0.5 * (free + beyond);
+    std::string found = refusal(robot, scene, straight(from, goal, middle), allowed);
+    found.empty() ? free = middle : beyond = middle;
+    if (!found.empty()) first = std::move(found);
+  }
+  return text("after %d %% of the straight way in the joint angles ", static_cast<int>(100.0 * free)) + first;
 }
 
 }  // namespace liana::planner

@@ -891,9 +891,10 @@ class Paths : public Arbitration {
   using Request = PathRequest<CableArm>;
 
   CableArbiter& with(const std::string& refusal, SearchResult taken = SearchResult::kInItsInterval) {
-    checked_.emplace(table_, SpeedZone{}, taken, [this, refusal](const auto& points, double margin_m) {
+    checked_.emplace(table_, SpeedZone{}, taken, [this, refusal](const auto& points, std::optional<double> margin_m) {
+      ++looks_;
       looked_at_ = points.size();
-      margin_m_ = margin_m;
+      margin_m_ = margin_m.value_or(-1.0);
       return refusal;
     });
     return *checked_;
@@ -913,7 +914,7 @@ class Paths : public Arbitration {
   }
 
   std::optional<CableArbiter> checked_;
-  std::size_t looked_at_ = 0;
+  std::size_t looks_ = 0, looked_at_ = 0;
   double margin_m_ = 0.0;
 };
 
@@ -958,6 +959,37 @@ TEST_F(Paths, APathThatTheCheckRefusesDoesNotMoveTheArm) {
   ASSERT_EQ(news.size(), 1u);
   EXPECT_EQ(news[0].what, event::PathEvent::kRefused);
   EXPECT_TRUE(names(news[0].text, {"abc", "refused", "link 9", "1 mm", "panel"}));
+}
+
+TEST_F(Paths, AJointMoveWhoseWayTheCheckRefusesDoesNotMoveTheArm) {
+  CableArbiter& arbiter = with("after 40 % link 9 is 1 mm from 'panel'");
+  ThetaVector goal = now_.theta_command_rad;
+  goal[0] += 0.01;
+  arbiter.move_joints(now_, goal, 0.03);
+  now_.at_rest = 0;
+  EXPECT_FALSE(arbiter.next_setpoint(tick_ += 5, now_));
+  EXPECT_EQ(looked_at_, 0u) << "it is looked at from where the arm has come to rest";
+  now_.at_rest = 1;
+  EXPECT_FALSE(arbiter.next_setpoint(tick_ += 5, now_));
+  EXPECT_EQ(looked_at_, 2u);
+  EXPECT_FALSE(arbiter.is_busy());
+  const auto news = arbiter.take_path_news();
+  ASSERT_EQ(news.size(), 1u);
+  EXPECT_EQ(news[0].what, event::PathEvent::kRefused);
+  EXPECT_TRUE(names(news[0].text, {"move_jp", "refused", "40 %", "link 9"}));
+}
+
+TEST_F(Paths, AJointMoveIsLookedAtOnceAndThenGoes) {
+  CableArbiter& arbiter = with("");
+  ThetaVector goal = now_.theta_command_rad;
+  goal[0] += 0.01;
+  arbiter.move_joints(now_, goal, 0.03);
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(arbiter.next_setpoint(tick_ += 5, now_));
+  EXPECT_EQ(looks_, 1u);
+  EXPECT_TRUE(arbiter.refused("", true)) << "and goes on from rest";
+  for (int i = 0; i < 100; ++i) arbiter.next_setpoint(tick_ += 5, now_);
+  EXPECT_TRUE(arbiter.next_setpoint(tick_ += 5, now_));
+  EXPECT_EQ(looks_, 1u);
 }
 
 TEST_F(Paths, APathIsRefusedByTheNumberOfItsPoint) {

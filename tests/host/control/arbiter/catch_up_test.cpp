@@ -10,7 +10,7 @@
 namespace liana::arbiter {
 namespace {
 
-constexpr double kLimit_m_s = 0.1;
+constexpr double kLimit_m_s = 0.1, kMost_m_s = 0.092;
 constexpr Vec3 kAlongX{0.05, 0.0, 0.0};
 
 // A tip that is commanded along x with `speed_m_s` from the first note on, and one that comes after it.
@@ -27,15 +27,15 @@ struct Led {
 };
 
 // req:A9
-TEST(CatchUp, AnArmThatComesAlongHasAllOfItsSpeed) {
+TEST(CatchUp, AnArmThatComesAlongHasAllButAFewPerCentOfItsLimit) {
   Led led;
-  for (int k = 0; k < 200; ++k) EXPECT_NEAR(led.lead(0.08, 0.08), kLimit_m_s, 1e-12);
+  for (int k = 0; k < 200; ++k) EXPECT_NEAR(led.lead(0.08, 0.08), kMost_m_s, 1e-12);
 }
 
 // req:A9
 TEST(CatchUp, AnArmThatFrictionHoldsIsLedMoreSlowly) {
   Led led;
-  double before_m_s = kLimit_m_s;
+  double before_m_s = kMost_m_s;
   for (int k = 0; k < 10; ++k) {  // to 16 mm
     const double left_m_s = led.lead(0.08, 0.0);
     EXPECT_LE(left_m_s, before_m_s);
@@ -59,30 +59,30 @@ TEST(CatchUp, AnArmThatSwaysOnIsLedMoreSlowlyWhereItHasNoLagLeft) {
 TEST(CatchUp, WhatStandsBesideTheCommandForGoodIsNoSwayToCome) {
   Led led;
   led.tip_m = -0.008;
-  EXPECT_NEAR(led.lead(0.0, 0.0), kLimit_m_s, 1e-12) << "from the beginning";
+  EXPECT_NEAR(led.lead(0.0, 0.0), kMost_m_s, 1e-12) << "from the beginning";
   led.command_m += 0.008;
   for (int k = 0; k < 500; ++k) led.lead(0.05, 0.05);
-  EXPECT_GT(led.lead(0.05, 0.05), 0.095) << "after ten seconds";
+  EXPECT_GT(led.lead(0.05, 0.05), 0.087) << "after ten seconds";
 }
 
 // req:A9
 TEST(CatchUp, ALagToTheSideOrAheadDoesNotSlowTheWay) {
   Led beside, ahead;
   beside.lead(0.0, 0.0);
-  EXPECT_NEAR(beside.lead(0.0, 0.0, 0.02), kLimit_m_s, 1e-12);
+  EXPECT_NEAR(beside.lead(0.0, 0.0, 0.02), kMost_m_s, 1e-12);
   ahead.lead(0.0, 0.0);
   for (int k = 0; k < 10; ++k) ahead.lead(0.0, -0.02);
   ahead.catch_up.note({ahead.command_m, 0.0, 0.0}, {ahead.tip_m, 0.0, 0.0});
-  EXPECT_GT(ahead.catch_up.speed_m_s({0.0, 0.03, 0.0}, kLimit_m_s), 0.0999);
+  EXPECT_GT(ahead.catch_up.speed_m_s({0.0, 0.03, 0.0}, kLimit_m_s), 0.0919);
 }
 
 // req:A9
 TEST(CatchUp, AWayOfNoLengthIsNotSlowedAndAnArmThatWasDisabledBeginsAnew) {
   Led led;
   for (int k = 0; k < 20; ++k) led.lead(0.08, 0.0);
-  EXPECT_EQ(led.catch_up.speed_m_s({}, kLimit_m_s), kLimit_m_s);
+  EXPECT_EQ(led.catch_up.speed_m_s({}, kLimit_m_s), kMost_m_s);
   led.catch_up.forget();
-  EXPECT_NEAR(led.lead(0.0, 0.0), kLimit_m_s, 1e-12);
+  EXPECT_NEAR(led.lead(0.0, 0.0), kMost_m_s, 1e-12);
 }
 
 }  // namespace

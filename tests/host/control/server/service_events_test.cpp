@@ -179,6 +179,7 @@ class ServiceTellsEvents : public testing::Test {
     }
     goal[0] = goal[0].get<double>() + 2.0;
     client_.send({{"op", "move_jp"}, {"goal_deg", goal}});
+    for (int i = 0; i < 400 && arm_.now().active_sequence == 0; ++i) intervals(1);  // its way is looked at first
     intervals(20);
   }
 

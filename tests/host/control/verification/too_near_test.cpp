@@ -120,6 +120,22 @@ TEST_F(AnArmBesideABody, ThatHasLostThreeMillimetresOnlyRetracts) {
   EXPECT_EQ(goes(0.00299, 0.00299, 0.0060), Refusal::kNone);
 }
 
+// Stops and enabling in turn would lead it nearer without end.
+TEST_F(AnArmBesideABody, GetsNoFurtherMillimetresByBeingDisabled) {
+  moves(0.010);
+  EXPECT_EQ(goes(0.0060, 0.0055, 0.0055), Refusal::kNone);
+  too_near_.disabled();
+  EXPECT_EQ(goes(0.0048, 0.0047, 0.0047), Refusal::kSceneContact) << "it stood off 6 mm before";
+  EXPECT_EQ(goes(0.0048, 0.0048, 0.0059), Refusal::kNone) << "away";
+  too_near_.disabled();
+  EXPECT_EQ(goes(0.0025, 0.0025, 0.0060), Refusal::kSceneContact) << "it may be led no more";
+  too_near_.retracts = true;
+  EXPECT_EQ(goes(0.0025, 0.0024, 0.0024), Refusal::kSceneContact) << "disabled before the last motion, not after it";
+  too_near_.disabled();
+  EXPECT_EQ(goes(0.0025, 0.0024, 0.0024), Refusal::kNone) << "a way back along the body is there";
+  EXPECT_EQ(goes(0.0024, 0.0014, 0.0014), Refusal::kSceneContact);
+}
+
 TEST_F(AnArmBesideABody, ThatHasLeftItIsAsOneThatNeverWasThere) {
   EXPECT_EQ(goes(0.0050, 0.0050, 0.0080), Refusal::kNone);
   EXPECT_EQ(goes(0.0080, 0.0069, 0.0069), Refusal::kSceneContact);

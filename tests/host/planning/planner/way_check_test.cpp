@@ -56,6 +56,23 @@ TEST(WayCheck, TheWayToTheFirstPointNeedsOnlyRoomForTheMotionItself) {
   EXPECT_NE(refusal(near(0.0045), {bent(1.0), bent(1.0), bent(1.5)}), "") << "points need the margin";
 }
 
+TEST(WayCheck, AMoveIsRefusedWithHowFarItCouldGo) {
+  const auto move = [](const config::SceneConfig& scene, double from_deg, double goal_deg) {
+    return refusal_of_move(robot_of(zhu2022::table()), scene, bent(from_deg), bent(goal_deg));
+  };
+  EXPECT_EQ(move(config::SceneConfig{}, 1.0, 8.0), "");
+  EXPECT_TRUE(names(move(config::SceneConfig{}, 1.0, 18.0), {"% of the straight way", "arm itself"}));
+  EXPECT_TRUE(names(move(scene_with_sphere(bent(3.0), -0.02), 1.0, 4.0), {"% of the straight way", "ball"}));
+  EXPECT_EQ(move(scene_with_sphere(bent(3.0), 0.001), 3.0, 1.0), "") << "away from where it stands";
+}
+
+TEST(WayCheck, AMoveThatAsksTooMuchOfACableIsRefusedWithItsTension) {
+  const config::RobotConfig robot = robot_of(zhu2022::table());
+  ThetaVector corner{};
+  for (std::size_t i = 0; i < zhu2022::kThetas; ++i) corner[i] = (i % 4 < 2 ? 1.0 : -1.0) * robot.table.segment[i / 2].theta_limit_rad;
+  EXPECT_TRUE(names(refusal_of_move(robot, {}, ThetaVector{}, corner), {"% of the straight way", "150 N"}));
+}
+
 TEST(WayCheck, AnArmThatWouldLieInItselfIsRefused) {
   const std::string found = refusal(config::SceneConfig{}, {bent(10.0), bent(10.0), bent(18.0)});
   EXPECT_TRUE(names(found, {"link 40", "link 5", "arm itself"}));
