@@ -10,7 +10,7 @@
 namespace liana::arbiter {
 namespace {
 
-constexpr double kLimit_m_s = 0.1, kMost_m_s = 0.092;
+constexpr double kLimit_m_s = 0.1, kMost_m_s = (1.0 - 0.08) * kLimit_m_s;
 constexpr Vec3 kAlongX{0.05, 0.0, 0.0};
 
 // A tip that is commanded along x with `speed_m_s` from the first note on, and one that comes after it.
