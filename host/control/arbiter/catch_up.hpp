@@ -45,7 +45,7 @@ class CatchUp {
  private:
   // Measured: long poses sway once in 1.2 to 1.6 s; a little more, for the estimate comes late.
   static constexpr double kSway_rad_s = 4.5;
-  static constexpr double kFreeShare = 0.08;
+  static constexpr double kFreeShare = 0.12;
   static constexpr double kFall_m_s2 = 0.1;
   static constexpr double kStanding_s = 4.0;
   static constexpr double kRate_s = 0.03;
