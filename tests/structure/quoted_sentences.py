@@ -29,7 +29,7 @@ KNOWN = {  # file: how many sentences it may quote, and why
     "tests/host/planning/error_budget/test_budget_command.py": (2, "names of terms in the budget of the paper"),
     "tests/host/base/json/message_test.cpp": (5, "messages on which the comparison of facts is tried"),
     "tests/host/api/python/recordings_test.py": (1, "a comment line that the reader of events has to skip"),
-    "tests/host/socketcan/socketcan_test.cpp": (2, "commands that the test gives to the shell"),
+    "tests/host/drives/socketcan/socketcan_test.cpp": (2, "commands that the test gives to the shell"),
     "tests/system/missions/short_micro.lua": (1, "the name of a step"),
     "tests/system/recordings_test.py": (1, "columns of a table of the archive"),
 }
