@@ -49,8 +49,7 @@ template <class Arm>
 void Arbiter<Arm>::move_joints(const Now& now, const Joints<Arm>& goal_rad, double rate_rad_s,
                                const motion::Swings& swings) {
   require_free(now);
-  auto& move =
-      way_.template emplace<JointMove<Arm>>(table_, Kind::command_rad(now), goal_rad, rate_rad_s, swings);
+  auto& move = way_.template emplace<JointMove<Arm>>(table_, Kind::command_rad(now), goal_rad, rate_rad_s, swings);
   if (path_check_)
     move.look_first(move_work_, taken_, [check = path_check_](const Joints<Arm>& from_rad, const Joints<Arm>& to_rad) {
       return check({from_rad, to_rad}, std::nullopt);

@@ -32,12 +32,12 @@ class CatchUp {
   // brakes hard sways the arm, too. 0 at least.
   double speed_m_s(const Vec3& way_m, double limit_m_s) {
     const double way = norm(way_m);
-    const double most_m_s = (1.0 - kFreeShare) * limit_m_s;
-    if (!(way > 0.0)) return most_m_s;
+    const double max_m_s = (1.0 - kFreeShare) * limit_m_s;
+    if (!(way > 0.0)) return max_m_s;
     const Vec3 along = scale(way_m, 1.0 / way);
     const double behind_m = dot(subtract(lag_m_, standing_m_), along), comes_m_s = std::min(0.0, dot(rate_m_s_, along));
-    const double left_m_s = most_m_s - std::hypot(kSway_rad_s * behind_m, comes_m_s);
-    left_m_s_ = std::max({0.0, left_m_s, std::min(before_m_s_, most_m_s) - kFall_m_s2 * interval_s_});
+    const double left_m_s = max_m_s - std::hypot(kSway_rad_s * behind_m, comes_m_s);
+    left_m_s_ = std::max({0.0, left_m_s, std::min(before_m_s_, max_m_s) - kFall_m_s2 * interval_s_});
     return left_m_s_;
   }
   void forget() { *this = CatchUp(interval_s_); }

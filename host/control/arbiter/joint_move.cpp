@@ -84,13 +84,14 @@ void JointMove<Arm>::look_first(Work& work, SearchResult taken, Look look) {
 template <class Arm>
 bool JointMove<Arm>::is_looked_at(const Joints<Arm>& from_rad) {
   if (work_ == nullptr) return true;
-  if (look_) work_->start([look = std::exchange(look_, nullptr), from_rad, to_rad = to_rad_] {
-    try {
-      return look(from_rad, to_rad);
-    } catch (const std::exception& error) {  // a look that fails is none that has passed
-      return std::string(error.what());
-    }
-  });
+  if (look_)
+    work_->start([look = std::exchange(look_, nullptr), from_rad, to_rad = to_rad_] {
+      try {
+        return look(from_rad, to_rad);
+      } catch (const std::exception& error) {  // a look that fails is none that has passed
+        return std::string(error.what());
+      }
+    });
   const std::optional<std::string> refusal = work_->take(taken_ == SearchResult::kInItsInterval);
   if (!refusal) return false;
   work_ = nullptr;

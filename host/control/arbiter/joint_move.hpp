@@ -1,6 +1,7 @@
 // A way of moving: all joints together from where they stand to a goal, on one time law. It begins from rest: an arm
-// that moves stops first. Then the whole way is looked at: a goal that cannot be reached so is told at once. What was refused goes on from rest, half as fast, and comes to its speed again on the way; it
-// is given up after four refusals at one place.
+// that moves stops first. Then the whole way is looked at: a goal that cannot be reached so is told at once. What was
+// refused goes on from rest, half as fast, and comes to its speed again on the way; it is given up after four refusals
+// at one place.
 #pragma once
 
 #include <functional>

@@ -35,8 +35,7 @@ std::unique_ptr<verification::SimulationVerifier<cable::CableArm>> simulation_ve
 
 // Called in another thread: it has all it needs with it.
 arbiter::PathCheck<cable::CableArm> path_check(const config::RobotConfig& robot, const config::SceneConfig& scene) {
-  return [robot, scene](const std::vector<cable::ThetaVector>& points_rad,
-                        std::optional<double> margin_m) {
+  return [robot, scene](const std::vector<cable::ThetaVector>& points_rad, std::optional<double> margin_m) {
     if (!margin_m) return planner::refusal_of_move(robot, scene, points_rad.front(), points_rad.back());
     return planner::refusal_of_way(robot, scene, points_rad, *margin_m, arbiter::kPathOff_m);
   };

@@ -69,7 +69,8 @@ TEST(WayCheck, AMoveIsRefusedWithHowFarItCouldGo) {
 TEST(WayCheck, AMoveThatAsksTooMuchOfACableIsRefusedWithItsTension) {
   const config::RobotConfig robot = robot_of(zhu2022::table());
   ThetaVector corner{};
-  for (std::size_t i = 0; i < zhu2022::kThetas; ++i) corner[i] = (i % 4 < 2 ? 1.0 : -1.0) * robot.table.segment[i / 2].theta_limit_rad;
+  for (std::size_t i = 0; i < zhu2022::kThetas; ++i)
+    corner[i] = (i % 4 < 2 ? 1.0 : -1.0) * robot.table.segment[i / 2].theta_limit_rad;
   EXPECT_TRUE(names(refusal_of_move(robot, {}, ThetaVector{}, corner), {"% of the straight way", "150 N"}));
 }
 
