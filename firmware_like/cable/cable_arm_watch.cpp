@@ -32,8 +32,8 @@ bool leaves_balance(FaultNumber number) noexcept {
 void CableArm::watch(WatchScope scope, std::uint64_t tick, FaultList& faults) noexcept {
   const CableReadings cables{payout_measured_m_, tension_measured_N_, model_.geometry.length_m, estimator_.residual_m};
   watch_missed(tick, faults);
-  const bool retreats = motion_.to.kind == CommandKind::kRetreat && !motion_.braking;
-  if (retreats && faults.count > 0) spare_cables(table_, layout_, faults, lift_N_);
+  const bool retracts = motion_.to.kind == CommandKind::kRetract && !motion_.braking;
+  if (retracts && faults.count > 0) spare_cables(table_, layout_, faults, lift_N_);
   const bool usable = scope.prepared && feedback_age_ticks_ == 0 && faults.count == 0 && !is_let_go(let_go_);
   watch_cables(table_, cable_watch_limits_, cables, usable, tick, cable_watch_, faults);
   if (scope.prepared) {

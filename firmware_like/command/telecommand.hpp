@@ -12,17 +12,17 @@ enum class CommandKind : std::uint8_t {
   kJoint = 2,    // joint angles
   kHold = 3,     // stop along the path, stay enabled
   kStop = 4,     // stop, then brakes, then disable
-  kRetreat = 5,  // joint angles on the way out: slowly (kRetreatRateShare), also while faults are latched that allow it
+  kRetract = 5,  // joint angles on the way out: slowly (kRetractRateShare), also while faults are latched that allow it
   kPush = 6,     // a set force along an axis of the tip; the rest follows from what is felt
   kFollow = 7,   // joints give way to what pushes them, and stay where nothing does
 };
 
-// Share of the joints' rate limits at which a retreat moves at most.
-constexpr double kRetreatRateShare = 0.25;
+// Share of the joints' rate limits at which a retract moves at most.
+constexpr double kRetractRateShare = 0.25;
 
 // True for the kinds that carry joint angles.
 constexpr bool is_joint(CommandKind kind) noexcept {
-  return kind == CommandKind::kJoint || kind == CommandKind::kRetreat;
+  return kind == CommandKind::kJoint || kind == CommandKind::kRetract;
 }
 
 // True for the kinds in which forces say where the arm goes.

@@ -36,10 +36,10 @@ enum Condition : std::uint32_t {
   kBudgetSpent = 1u << 19,  // the phase's largest number of ticks has passed
   // Nothing is wrong in this tick (latched or not).
   kCausesGone = 1u << 20,
-  kFaultPersists = 1u << 21,  // something has been wrong for Patience::persist in a row, without a retreat that moves
+  kFaultPersists = 1u << 21,  // something has been wrong for Patience::persist in a row, without a retract that moves
 };
 
-// Every drive is heard and the measured pose is trusted: what a retreat needs besides faults that allow it.
+// Every drive is heard and the measured pose is trusted: what a retract needs besides faults that allow it.
 constexpr std::uint32_t kSound = kBusesUp | kDrivesFresh | kDrivesOperational | kNoDriveInFault | kHomed;
 
 // All that enabling needs.

@@ -109,7 +109,7 @@ constexpr bool is_complete() noexcept {
     if (row > 0 && (info.number <= kFaultTable[as_index(row - 1)].number || info.category == StopCategory::kNone))
       return false;
     if (info.immediate && info.category < kStop) return false;  // a hold keeps the drives on the path
-    if (info.retreat && info.category > kHold) return false;    // without power nothing can be led back
+    if (info.retract && info.category > kHold) return false;    // without power nothing can be led back
   }
   return true;
 }
@@ -130,10 +130,10 @@ const FaultInfo& fault_info(FaultNumber number) noexcept {
   return row != kFaultTable.end() && row->number == number ? *row : kFaultTable.front();
 }
 
-bool allow_retreat(const FaultList& faults) noexcept {
+bool allow_retract(const FaultList& faults) noexcept {
   bool allowed = faults.category <= kHold && faults.dropped == 0;
   for (std::int32_t i = 0; i < faults.count; ++i)
-    allowed = allowed && fault_info(faults.fault[as_index(i)].number).retreat;
+    allowed = allowed && fault_info(faults.fault[as_index(i)].number).retract;
   return allowed;
 }
 

@@ -65,7 +65,7 @@ struct FaultInfo {
   const char* name = "";  // snake_case
   StopCategory category = StopCategory::kNone;
   bool immediate = false;   // drives cannot follow a path any more: quick stop in the same tick instead of a path stop
-  bool retreat = false;     // while it is latched the arm may still be led back slowly (CommandKind::kRetreat)
+  bool retract = false;     // while it is latched the arm may still be led back slowly (CommandKind::kRetract)
   const char* text = "";    // what happened, one line
   const char* remedy = "";  // what to do about it, one line
 };
@@ -78,7 +78,7 @@ const FaultInfo& fault_info(FaultNumber number) noexcept;
 
 // True when every latched fault lets the arm be led back: none ends the power, and all are known (none was dropped).
 // Without a fault: true.
-bool allow_retreat(const FaultList& faults) noexcept;
+bool allow_retract(const FaultList& faults) noexcept;
 
 // Latches a fault; true when it is new. The same number and index is kept once (a detail that was 0 is filled in); what
 // finds no room is counted in `dropped`.

@@ -20,7 +20,7 @@ struct Patience {
   std::uint32_t preparing = 0;  // the ramp takes a few seconds
   std::uint32_t rest = 0;       // standing still this long before the brakes close
   std::uint32_t persist = 0;  // a cause that stays this long turns a hold into a stop; counted anew after each tick in
-                              // which a retreat moves the arm
+                              // which a retract moves the arm
   std::uint32_t path_stop = 0;  // full speed to rest takes about 1 s
   std::uint32_t braking = 0;    // brakes closed this long before power goes
   std::uint32_t quick_stop = 0;

@@ -191,7 +191,7 @@ void remember_stop(const FaultList& faults, SupervisorState& state) noexcept {
 // Faults that hold leave the way out open while the arm can still be measured.
 MayMove may_move(std::uint32_t now, const FaultList& faults) noexcept {
   if (faults.category == StopCategory::kNone) return MayMove::kEverything;
-  return (now & kSound) == kSound && allow_retreat(faults) ? MayMove::kRetreat : MayMove::kNothing;
+  return (now & kSound) == kSound && allow_retract(faults) ? MayMove::kRetract : MayMove::kNothing;
 }
 
 Orders orders_of(const SupervisorState& state, std::uint32_t now, const FaultList& faults) noexcept {
@@ -218,8 +218,8 @@ WatchScope watch_scope(const SupervisorState& state) noexcept {
 Orders supervise(const LinkLimits& limits, const CycleInputs& inputs, const ArmStatus& arm, CommandKind in_force,
                  std::int32_t active_faults, SupervisorState& state, FaultList& faults) noexcept {
   count(arm.at_rest, limits.patience.rest, state.rest_ticks);
-  const bool retreats = in_force == CommandKind::kRetreat && !arm.at_rest;
-  count(active_faults != 0 && !retreats, limits.patience.persist, state.wrong_ticks);
+  const bool retracts = in_force == CommandKind::kRetract && !arm.at_rest;
+  count(active_faults != 0 && !retracts, limits.patience.persist, state.wrong_ticks);
   std::uint32_t now = conditions_now(limits, inputs, arm, in_force, active_faults, state);
   latch_timeouts(limits, inputs, state.phase, now, faults);
   if (is_clear_due(state.phase, now)) judge_clear(inputs.tick, now, state, faults);

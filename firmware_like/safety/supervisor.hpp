@@ -41,7 +41,7 @@ struct SupervisorState {
   Phase phase = Phase::kDisabled;
   std::uint32_t phase_ticks = 0;  // ticks spent in it, saturating
   std::uint32_t rest_ticks = 0;   // in a row at rest, up to Patience::rest
-  std::uint32_t wrong_ticks = 0;  // in a row with something wrong and no retreat that moves, up to Patience::persist
+  std::uint32_t wrong_ticks = 0;  // in a row with something wrong and no retract that moves, up to Patience::persist
   StopCategory stopped =
       StopCategory::kNone;  // highest category of the stop that led into Fault; kept until the faults are cleared
   ClearResult clear{};
@@ -56,11 +56,11 @@ struct ArmStatus {
 };
 
 // What telecommands may move.
-enum class MayMove : std::uint8_t { kNothing = 0, kRetreat = 1, kEverything = 2 };
+enum class MayMove : std::uint8_t { kNothing = 0, kRetract = 1, kEverything = 2 };
 
 // True when a command of this kind may move the arm. Kinds without a goal never do.
 constexpr bool is_let_move(MayMove allowed, CommandKind kind) noexcept {
-  if (allowed == MayMove::kRetreat) return kind == CommandKind::kRetreat;
+  if (allowed == MayMove::kRetract) return kind == CommandKind::kRetract;
   return allowed == MayMove::kEverything && is_motion(kind);
 }
 

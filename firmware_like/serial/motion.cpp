@@ -139,7 +139,7 @@ void advance_motion(const RobotParams& table, bool allowed, MotionState& state) 
   } else {
     follow_joints(table, state);
   }
-  limit_motion(table, state.ik_rad, state.limiter, state.to.kind == CommandKind::kRetreat ? kRetreatRateShare : 1.0);
+  limit_motion(table, state.ik_rad, state.limiter, state.to.kind == CommandKind::kRetract ? kRetractRateShare : 1.0);
   state.limits |= state.limiter.limits;
   state.arm = forward_kinematics(table, state.limiter.joint_rad);
 }

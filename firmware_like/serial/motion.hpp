@@ -31,7 +31,7 @@ struct MotionState {
 // Stands still at the joint angles.
 void reset_motion(const RobotParams& table, const JointVector& joint_rad, MotionState& state) noexcept;
 
-// Takes a usable setpoint into force (kTip, kJoint or kRetreat); the motion goes on from where it is.
+// Takes a usable setpoint into force (kTip, kJoint or kRetract); the motion goes on from where it is.
 void accept_setpoint(const RobotParams& table, const Setpoint& setpoint, MotionState& state) noexcept;
 
 // One tick. With `allowed` false or braking, everything comes to rest along its path. The arm turns about the line that

@@ -29,7 +29,7 @@ struct Push {
 struct Setpoint {
   CommandKind kind = CommandKind::kNone;
   Pose tip_in_base{};          // kTip
-  JointVector joint_rad{};     // kJoint, kRetreat
+  JointVector joint_rad{};     // kJoint, kRetract
   double tip_speed_m_s = 0.0;  // kTip: limit for this motion, > 0; the robot's own limit holds besides
   Push push{};                 // kPush
   LinkMass payload_at_tip{};   // all that move: what the arm carries, in the tip's frame; torque drives are told of it

@@ -100,9 +100,9 @@ def reactions_by_hand():
     return {number: REACTIONS.index(row["reaction"]) for number, row in page_of_reactions().items()}
 
 
-def retreats_by_hand():
+def retracts_by_hand():
     """Numbers of faults with which the arm may be led back."""
-    return {number for number, row in page_of_reactions().items() if row["retreat"]}
+    return {number for number, row in page_of_reactions().items() if row["retract"]}
 
 
 def page_of_reactions():
@@ -185,15 +185,15 @@ def acting(tick):
     return [fault for fault in tick.faults if fault.tick < tick.tick or fault.number not in LATCHED_LAST]
 
 
-def commands_while_latched(ticks, retreats=frozenset()):
-    """No telecommand is in force while a fault is latched, and what moved comes to rest; `retreats`: faults with which
+def commands_while_latched(ticks, retracts=frozenset()):
+    """No telecommand is in force while a fault is latched, and what moved comes to rest; `retracts`: faults with which
     the arm may be led back.
     """
     complaints = []
     for now in ticks:
-        held = [] if may_retreat(now, retreats) else acting(now)
+        held = [] if may_retract(now, retracts) else acting(now)
         held = [
-            fault for fault in held if fault.number not in retreats
+            fault for fault in held if fault.number not in retracts
         ] or held  # until the first of them it might move
         if held and now.active_sequence != 0:
             complaints.append(
@@ -206,9 +206,9 @@ def commands_while_latched(ticks, retreats=frozenset()):
     return complaints
 
 
-def may_retreat(tick, retreats):
+def may_retract(tick, retracts):
     """All that is latched is known, and of a kind that leaves the way back open."""
-    return not tick.dropped and all(fault.number in retreats for fault in tick.faults)
+    return not tick.dropped and all(fault.number in retracts for fault in tick.faults)
 
 
 def states_not_documented(ticks, reactions):
@@ -509,7 +509,7 @@ def all_complaints(recording, enabled, told, left_out=(), first_cause=-1):
         missing_ticks(ticks),
         target_steps(ticks, limits),
         commands_out_of_time(ticks),
-        commands_while_latched(ticks, retreats_by_hand()),
+        commands_while_latched(ticks, retracts_by_hand()),
         states_not_documented(ticks, reactions),
         enabling_unasked(ticks),
         faults_gone_unasked(ticks),

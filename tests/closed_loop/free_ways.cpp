@@ -124,7 +124,7 @@ void out_and_back_again(ArmUnderControl& arm, std::uint64_t seed, Look look) {
   ThetaVector goal = start;
   for (double& angle : goal) angle += draw.within(-2.0, 2.0) * kDegree;
   glide(arm, goal, 24.0, look);
-  glide(arm, start, 40.0, look, 1.0, CommandKind::kRetreat);
+  glide(arm, start, 40.0, look, 1.0, CommandKind::kRetract);
 }
 
 }  // namespace

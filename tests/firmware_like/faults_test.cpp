@@ -123,18 +123,18 @@ TEST(Faults, AFullListCountsTheRestAndStillRaisesTheStopCategory) {
   EXPECT_EQ(faults.immediate, 1);
 }
 
-TEST(Faults, ARetreatNeedsEveryLatchedFaultToAllowItAndNoneThatIsUnknown) {
+TEST(Faults, ARetractNeedsEveryLatchedFaultToAllowItAndNoneThatIsUnknown) {
   FaultList faults{};
-  EXPECT_TRUE(allow_retreat(faults));
+  EXPECT_TRUE(allow_retract(faults));
   for (std::int16_t i = 0; i < FaultList::kCapacity; ++i) latch(faults, {FaultNumber::kCableSlack, i, 0, 1});
-  EXPECT_TRUE(allow_retreat(faults));
+  EXPECT_TRUE(allow_retract(faults));
   FaultList with_break = faults;
   with_break.count = 3;
   latch(with_break, {FaultNumber::kCableBreak, 4, 0, 2});
-  EXPECT_FALSE(allow_retreat(with_break));
+  EXPECT_FALSE(allow_retract(with_break));
   latch(faults, {FaultNumber::kCommandInvalid, -1, 0, 2});
   EXPECT_EQ(faults.dropped, 1U);
-  EXPECT_FALSE(allow_retreat(faults));
+  EXPECT_FALSE(allow_retract(faults));
 }
 
 TEST(Faults, NoFaultIsNeverLatched) {

@@ -115,7 +115,7 @@ TEST(SupervisorTable, OnlyAnEnabledArmMovesAndWithAFaultOnlyBackAsTheFaultsTable
           supervise(kLimits, healthy(kStatusReady), {true, true, false}, CommandKind::kNone, 0, state, faults);
       const bool enabled = static_cast<Phase>(phase) == Phase::kEnabled;
       const MayMove by_fault = info.number == FaultNumber::kNone ? MayMove::kEverything
-                               : info.retreat                    ? MayMove::kRetreat
+                               : info.retract                    ? MayMove::kRetract
                                                                  : MayMove::kNothing;
       EXPECT_EQ(orders.may_move, enabled ? by_fault : MayMove::kNothing) << phase << " " << info.name;
     }
@@ -131,9 +131,9 @@ TEST(SupervisorTable, NothingMovesWithAFaultWhileADriveIsNotHeardOrTheArmNotHome
     CycleInputs inputs = healthy(kStatusEnabled);
     ArmStatus arm{true, true, true};
     spoil(inputs, arm);
-    return supervise(kLimits, inputs, arm, CommandKind::kRetreat, 0, state, faults).may_move;
+    return supervise(kLimits, inputs, arm, CommandKind::kRetract, 0, state, faults).may_move;
   };
-  EXPECT_EQ(ordered([](CycleInputs&, ArmStatus&) {}), MayMove::kRetreat);
+  EXPECT_EQ(ordered([](CycleInputs&, ArmStatus&) {}), MayMove::kRetract);
   EXPECT_EQ(ordered([](CycleInputs&, ArmStatus& arm) { arm.homed = false; }), MayMove::kNothing);
   EXPECT_EQ(ordered([](CycleInputs& in, ArmStatus&) { in.drive[2].feedback_age_ticks = 3; }), MayMove::kNothing);
   EXPECT_EQ(ordered([](CycleInputs& in, ArmStatus&) { in.drive[2].heartbeat_age_ticks = 76; }), MayMove::kNothing);
@@ -143,9 +143,9 @@ TEST(SupervisorTable, NothingMovesWithAFaultWhileADriveIsNotHeardOrTheArmNotHome
 
 TEST(SupervisorTable, WhatMayMoveIsAskedOfTheKindOfCommand) {
   for (const CommandKind kind : {CommandKind::kNone, CommandKind::kTip, CommandKind::kJoint, CommandKind::kHold,
-                                 CommandKind::kStop, CommandKind::kRetreat}) {
+                                 CommandKind::kStop, CommandKind::kRetract}) {
     EXPECT_FALSE(is_let_move(MayMove::kNothing, kind));
-    EXPECT_EQ(is_let_move(MayMove::kRetreat, kind), kind == CommandKind::kRetreat);
+    EXPECT_EQ(is_let_move(MayMove::kRetract, kind), kind == CommandKind::kRetract);
     EXPECT_EQ(is_let_move(MayMove::kEverything, kind), is_motion(kind));
   }
 }

@@ -261,13 +261,13 @@ TEST_F(Operation, AHoldFaultKeepsTheDrivesEnabledAndBlocksMotionUntilCleared) {
   EXPECT_TRUE(has(faults_, FaultNumber::kCableSlack, 2));
   EXPECT_EQ(orders_.state, OperatingState::kEnabled);
   EXPECT_EQ(orders_.stop_category, StopCategory::kHold);
-  EXPECT_EQ(orders_.may_move, MayMove::kRetreat);
+  EXPECT_EQ(orders_.may_move, MayMove::kRetract);
   EXPECT_TRUE(orders_.live_targets) << "the path stop still moves the drives";
   tick(Request::kClear);
   EXPECT_EQ(state_.clear.missing, static_cast<std::uint32_t>(kCausesGone));
-  EXPECT_EQ(orders_.may_move, MayMove::kRetreat) << "the cable is still slack";
+  EXPECT_EQ(orders_.may_move, MayMove::kRetract) << "the cable is still slack";
   tension_N_[2] = 40.0;
-  for (int i = 0; i < 100; ++i) EXPECT_EQ(tick().may_move, MayMove::kRetreat) << "clearing is explicit";
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(tick().may_move, MayMove::kRetract) << "clearing is explicit";
   tick(Request::kClear);
   EXPECT_EQ(state_.clear.missing, 0U);
   EXPECT_EQ(state_.clear.checked, kClearable);
@@ -300,22 +300,22 @@ TEST_F(Operation, ACauseThatPersistsTurnsAHoldIntoAStop) {
   EXPECT_EQ(orders_.stop_category, StopCategory::kNone);
 }
 
-TEST_F(Operation, ACauseThatPersistsDoesNotStopARetreatThatMovesButCountsAnewAfterIt) {
+TEST_F(Operation, ACauseThatPersistsDoesNotStopARetractThatMovesButCountsAnewAfterIt) {
   enable();
   tension_N_[2] = 450.0;
   for (std::uint32_t i = 1; i < kAlarmDebounceTicks; ++i) tick();
-  in_force_ = CommandKind::kRetreat;
+  in_force_ = CommandKind::kRetract;
   arm_.at_rest = false;
   for (std::uint32_t i = 0; i < 3 * kTimeout_s.persist; ++i) {
     ASSERT_EQ(tick().state, OperatingState::kEnabled) << i;
-    ASSERT_EQ(orders_.may_move, MayMove::kRetreat) << i;
+    ASSERT_EQ(orders_.may_move, MayMove::kRetract) << i;
   }
   arm_.at_rest = true;  // its end, or whatever holds it up
   for (std::uint32_t i = 1; i < kTimeout_s.persist; ++i) ASSERT_EQ(tick().state, OperatingState::kEnabled) << i;
   EXPECT_EQ(tick().state, OperatingState::kStopping);
 }
 
-TEST_F(Operation, AnotherCommandThanARetreatDoesNotKeepACauseFromStoppingTheArm) {
+TEST_F(Operation, AnotherCommandThanARetractDoesNotKeepACauseFromStoppingTheArm) {
   enable();
   tension_N_[2] = 450.0;
   in_force_ = CommandKind::kJoint;

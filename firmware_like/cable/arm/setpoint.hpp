@@ -43,7 +43,7 @@ struct Setpoint {
   ThetaVector held_rad{};       // kTip: where held variables go
   NodeTargets node{};           // kTip
   KeepClearTargets clear{};     // kTip
-  ThetaVector joint_rad{};      // kJoint, kRetreat
+  ThetaVector joint_rad{};      // kJoint, kRetract
   double tip_speed_m_s = 0.0;   // kTip: limit for this motion, > 0, at most the robot's
   double dither_share = 0.0;    // while the arm is at rest: share by which all tensions go up and down (dither.hpp)
 };

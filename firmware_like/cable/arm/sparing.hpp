@@ -1,4 +1,4 @@
-// What tensions do for a cable that is named by a fault while the arm is led back (CommandKind::kRetreat).
+// What tensions do for a cable that is named by a fault while the arm is led back (CommandKind::kRetract).
 #pragma once
 
 #include "firmware_like/cable/arm/cables.hpp"

@@ -357,7 +357,7 @@ void advance_motion(const RobotParams& table, const CableGeometry& geometry, boo
   } else {
     follow_joints(table, state);
   }
-  const double rate_share = state.to.kind == CommandKind::kRetreat ? kRetreatRateShare : 1.0;
+  const double rate_share = state.to.kind == CommandKind::kRetract ? kRetractRateShare : 1.0;
   limit_motion(table, geometry, state.ik_rad, state.limiter, braking || leads_tip, rate_share);
   state.limits |= state.limiter.limits;
   take_kinematics(table, state);

@@ -51,7 +51,7 @@ TipFilterConfig tip_filter_config(const RobotParams& table, double tip_speed_m_s
 // Stands still at theta.
 void reset_motion(const RobotParams& table, const ThetaVector& theta_rad, MotionState& state) noexcept;
 
-// Takes a new setpoint into force (kTip, kJoint or kRetreat); the motion goes on from where it is.
+// Takes a new setpoint into force (kTip, kJoint or kRetract); the motion goes on from where it is.
 void accept_setpoint(const RobotParams& table, const Setpoint& setpoint, MotionState& state) noexcept;
 
 // One tick. With `allowed` false or braking, everything comes to rest along its path.

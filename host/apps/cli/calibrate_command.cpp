@@ -12,8 +12,8 @@
 #include "host/apps/launcher/tables.hpp"
 #include "host/base/json/json.hpp"
 #include "host/drives/calibration/calibrate.hpp"
-#include "host/drives/calibration/fixture.hpp"
-#include "host/drives/calibration/fixture_prompt.hpp"
+#include "host/drives/calibration/jig.hpp"
+#include "host/drives/calibration/jig_prompt.hpp"
 #include "host/model/config/drive_names.hpp"
 
 namespace liana::cli {

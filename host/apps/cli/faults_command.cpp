@@ -18,7 +18,7 @@ Json json_of(const std::vector<report::FaultRow>& rows) {
                     {"detected_by", row.detector},
                     {"within_ticks", row.within_ticks < 0 ? Json() : Json(row.within_ticks)},
                     {"stops_by", row.stops_by},
-                    {"retreat", row.info.retreat},
+                    {"retract", row.info.retract},
                     {"text", row.info.text},
                     {"remedy", row.info.remedy}});
   }
@@ -28,7 +28,7 @@ Json json_of(const std::vector<report::FaultRow>& rows) {
 void print_text(const std::vector<report::FaultRow>& rows) {
   for (const report::FaultRow& row : rows) {
     std::printf("%d %s (%s%s): %s\n", static_cast<int>(row.info.number), row.info.name, row.stops_by.c_str(),
-                row.info.retreat ? ", retreat possible" : "", row.info.text);
+                row.info.retract ? ", retract possible" : "", row.info.text);
     std::printf("     detected by %s\n", row.detector);
     if (row.within_ticks >= 0) std::printf("     within ticks: %d\n", row.within_ticks);
     std::printf("     %s\n", row.info.remedy);

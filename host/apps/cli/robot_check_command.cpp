@@ -12,7 +12,7 @@
 #include "host/apps/launcher/tables.hpp"
 #include "host/base/json/json.hpp"
 #include "host/drives/calibration/calibrate.hpp"
-#include "host/drives/calibration/fixture.hpp"
+#include "host/drives/calibration/jig.hpp"
 #include "host/model/config/drive_names.hpp"
 #include "host/model/config/field.hpp"
 #include "host/planning/workspace/picture.hpp"

@@ -28,7 +28,7 @@
 #include "host/apps/launcher/validate_goals.hpp"
 #include "host/base/install_paths/places.hpp"
 #include "host/drives/calibration/calibration.hpp"
-#include "host/drives/calibration/fixture.hpp"
+#include "host/drives/calibration/jig.hpp"
 #include "host/model/config/field.hpp"
 #include "host/model/config/serial_robot.hpp"
 

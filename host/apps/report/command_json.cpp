@@ -50,7 +50,7 @@ const char* command_kind_name(const CommandRecord& life) {
       return "tip";
     case CommandKind::kJoint:
       return "joints";
-    case CommandKind::kRetreat:
+    case CommandKind::kRetract:
       return "retract";
     case CommandKind::kPush:
       return "insert";

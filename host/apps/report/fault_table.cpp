@@ -125,12 +125,12 @@ std::vector<FaultRow> fault_rows(const FaultTimes& times) {
 
 std::string markdown_of(const std::vector<FaultRow>& rows) {
   std::string text =
-      "| number | name | detected by | within ticks | stops by | retreat | what it means | what to do |\n"
+      "| number | name | detected by | within ticks | stops by | retract | what it means | what to do |\n"
       "|---|---|---|---|---|---|---|---|\n";
   for (const FaultRow& row : rows) {
     text += "| " + std::to_string(static_cast<int>(row.info.number)) + " | " + row.info.name + " | " + row.detector +
             " | " + (row.within_ticks < 0 ? "" : std::to_string(row.within_ticks)) + " | " + row.stops_by + " | " +
-            (row.info.retreat ? "yes" : "no") + " | " + row.info.text + " | " + row.info.remedy + " |\n";
+            (row.info.retract ? "yes" : "no") + " | " + row.info.text + " | " + row.info.remedy + " |\n";
   }
   return text;
 }

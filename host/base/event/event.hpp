@@ -18,7 +18,7 @@ enum class EventKind : std::uint8_t {
   kFault,        // number of the fault, 0: faults that found no place; subject drive, bus or nothing; `detail`, `tick`
   kEmergency,    // number: emergency error code of CiA 301; subject the drive, value `drive`
   kClear,        // number: conditions that were not met, as bits, 0: cleared; value `checked`, as bits
-  kHostTrouble,  // number: HostTroubleEvent; subject the bus, or what else of the host; `count`
+  kHostWarning,  // number: HostTroubleEvent; subject the bus, or what else of the host; `count`
   kClient,       // a client is gone; subject its name
   kOwner,        // number: OwnerEvent; subject the client's name; `ttl_s` of one that stands still
   kStep,         // number of the step that begins, 0 when the last is over; subject its name
@@ -28,7 +28,7 @@ enum class EventKind : std::uint8_t {
   kRefusal,      // a request was answered with an error; number: RefusalEvent; subject the client's name
   kVerdict,      // verification refused a command: number M_e; subject which of the two ends; `command`, `share`
   kPath,         // number: PathEvent; subject the path's hash; `share` of its time, `duration_s`
-  kWayBack,      // number: RetractEvent; `points` of the path, `distance_m` of the arm from it
+  kRetract,      // number: RetractEvent; `points` of the path, `distance_m` of the arm from it
   kFriction,     // number: 5009 where it is not as declared, 0: as declared again; `mu`, `sd`, `declared_mu`
   kStop,         // number: stop category (docs/explanation/fault-detection.md); subject who asked for it
   kShutdown,     // subject who asked for it, or nothing

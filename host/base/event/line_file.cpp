@@ -20,7 +20,7 @@ std::uint64_t lines_of_events(std::string_view text) {
 }
 
 Event event_of_file(HostTroubleEvent what, const std::string& path, std::uint64_t missing, const std::string& text) {
-  return {.kind = EventKind::kHostTrouble,
+  return {.kind = EventKind::kHostWarning,
           .number = number_of(what),
           .subject = path,
           .values = {{"count", static_cast<double>(missing)}},

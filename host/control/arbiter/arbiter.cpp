@@ -140,7 +140,7 @@ void Arbiter<Arm>::tell_of_outlook(const PathMove<Arm>& move) {
 
 template <class Arm>
 void Arbiter<Arm>::require_way_back(const Now& now, std::uint64_t until_tick) const {
-  if (!allow_retreat(now.faults)) {
+  if (!allow_retract(now.faults)) {
     const FaultInfo& fault = fault_info(now.faults.fault[0].number);
     throw api::RequestError("fault", std::string("fault ") + fault.name +
                                          " is latched, with which the arm cannot be led back: " + fault.remedy);
@@ -251,8 +251,8 @@ std::optional<typename Arm::Setpoint> Arbiter<Arm>::setpoint_for(const Now& now,
   if (const auto* tip_in_base = std::get_if<Pose>(&goal)) return tip_setpoint(now, *tip_in_base);
   const auto* joint_rad = std::get_if<Joints<Arm>>(&goal);
   if (joint_rad == nullptr) return std::nullopt;
-  const bool retreats = std::holds_alternative<RetractMove<Arm>>(way_) && now.faults.count > 0;
-  return joint_setpoint(*joint_rad, retreats ? CommandKind::kRetreat : CommandKind::kJoint);
+  const bool retracts = std::holds_alternative<RetractMove<Arm>>(way_) && now.faults.count > 0;
+  return joint_setpoint(*joint_rad, retracts ? CommandKind::kRetract : CommandKind::kJoint);
 }
 
 template <class Arm>

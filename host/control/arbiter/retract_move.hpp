@@ -22,7 +22,7 @@ namespace liana::arbiter {
 // Path points per command interval on the way back: slower than the way in, so that what passed verification then
 // passes it again.
 constexpr double kWayBackPace = 0.8;
-constexpr double kRetreatPace = 0.4;        // the same while a fault is latched
+constexpr double kFaultyPace = 0.4;        // the same while a fault is latched
 constexpr double kJoinRate_rad_s = 0.0052;  // fastest joint on the way onto the path: 0.3 deg/s
 
 template <class Arm>
@@ -48,7 +48,7 @@ class RetractMove {
   const std::string& why_ended() const { return why_ended_; }
 
   Goal<Arm> next(const liana::Outputs<Arm>& now) {
-    if (!allow_retreat(now.faults)) {
+    if (!allow_retract(now.faults)) {
       why_ended_ = "a fault is latched that does not let the arm be led back";
       is_over_ = true;
       return {};
@@ -120,7 +120,7 @@ class RetractMove {
   // One command interval on.
   Goal<Arm> step(const liana::Outputs<Arm>& now) {
     if (join_) return go_on_joining(now);
-    pace_ = risen(std::min(is_faulty_ ? kRetreatPace : kWayBackPace, pace_ + kPaceGain));
+    pace_ = risen(std::min(is_faulty_ ? kFaultyPace : kWayBackPace, pace_ + kPaceGain));
     share_ += is_faulty_ ? std::min(pace_, retreat_share()) : pace_;
     while (share_ >= 1.0 && ahead() != nullptr && !path_.newest().begins) pass_point();
     const typename Memory::Point* to = ahead();
@@ -145,14 +145,14 @@ class RetractMove {
     step_rad_ = way_rad * pace;
     return pace;
   }
-  // Of the piece to the point ahead, as much as a retreat may go in an interval, and some less.
+  // Of the piece to the point ahead, as much as a retract may go in an interval, and some less.
   double retreat_share() const {
     const typename Memory::Point* to = ahead();
     if (to == nullptr) return 1.0;
     double share = 1.0;
     for (std::size_t i = 0; i < ArmTraits<Arm>::joint_count(table_); ++i) {
       const double way_rad = std::fabs(to->joint_rad[i] - path_.newest().joint_rad[i]);
-      const double max_rad = 0.8 * kRetreatRateShare * ArmTraits<Arm>::rate_rad_s(table_, i) * interval_s(table_);
+      const double max_rad = 0.8 * kRetractRateShare * ArmTraits<Arm>::rate_rad_s(table_, i) * interval_s(table_);
       if (way_rad > max_rad) share = std::min(share, max_rad / way_rad);
     }
     return share;

@@ -30,7 +30,7 @@ void SerialArbiter::hold(const std::string& why) {
   Base::hold(why);
 }
 
-// With a fault the Controller lets nothing but a retreat move: what was asked for here has ended.
+// With a fault the Controller lets nothing but a retract move: what was asked for here has ended.
 std::optional<SerialArbiter::Setpoint> SerialArbiter::next_setpoint(std::uint64_t tick, const Now& now) {
   const bool ready = begin_interval(tick, now);
   if (!ready || now.faults.count > 0) asked_.reset();

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "host/drives/calibration/fixture.hpp"
+#include "host/drives/calibration/jig.hpp"
 
 namespace liana::server {
 namespace {

@@ -22,7 +22,7 @@ std::string number(std::uint64_t value) { return std::to_string(value); }
 
 event::Event trouble(event::HostTroubleEvent what, const std::string& subject, const event::EventValue& value,
                      const std::string& text) {
-  return {.kind = event::EventKind::kHostTrouble,
+  return {.kind = event::EventKind::kHostWarning,
           .number = event::number_of(what),
           .subject = subject,
           .values = {value},

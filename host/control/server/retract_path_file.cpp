@@ -164,7 +164,7 @@ void RetractPathFile::follow(const arbiter::WayChange& change) {
 std::optional<event::Event> RetractPathFile::trouble() {
   const std::lock_guard lock(mutex_);
   if (problem_.empty() || std::exchange(told_, true)) return std::nullopt;
-  return event::Event{.kind = event::EventKind::kHostTrouble,
+  return event::Event{.kind = event::EventKind::kHostWarning,
                       .number = event::number_of(event::HostTroubleEvent::kWayFile),
                       .subject = path_,
                       .text = "the way back is not kept in " + path_ + " any more: " + problem_ +

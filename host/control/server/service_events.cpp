@@ -130,7 +130,7 @@ event::Event path_event(const arbiter::PathEvents& news) {
 }
 
 event::Event way_event(const arbiter::RetractEvents& news) {
-  return {.kind = event::EventKind::kWayBack,
+  return {.kind = event::EventKind::kRetract,
           .number = event::number_of(news.what),
           .values = {{"points", static_cast<double>(news.points)}, {"distance_m", news.distance_m}},
           .text = news.text};

@@ -207,7 +207,7 @@ Json Service::on_operator_says(const api::ClientInfo& client, const api::Argumen
 
 // Nothing of the arm depends on the archive: it is said, and the arm goes on.
 Json Service::on_archive_alarm(const api::ClientInfo& client, const api::Arguments& fields) {
-  note({.kind = event::EventKind::kHostTrouble,
+  note({.kind = event::EventKind::kHostWarning,
         .number = event::number_of(event::HostTroubleEvent::kArchive),
         .subject = printable(client.name),
         .values = {{"count", static_cast<double>(fields.integer("count"))}},

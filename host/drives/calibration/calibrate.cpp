@@ -8,7 +8,7 @@
 
 #include "firmware_like/cable/arm/cables.hpp"
 #include "firmware_like/math/convert.hpp"
-#include "host/drives/calibration/fixture.hpp"
+#include "host/drives/calibration/jig.hpp"
 #include "host/drives/calibration/text.hpp"
 #include "host/model/config/drive_names.hpp"
 #include "host/model/config/sha256.hpp"

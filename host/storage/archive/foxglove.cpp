@@ -102,7 +102,7 @@ int level_of(const event::Event& event) {
   const event::EventKind kind = event.kind;
   if (kind == kDevice && event.number == event::number_of(event::DeviceEvent::kSlow)) return kWarning;
   if (kind == kFault || kind == kEmergency || kind == kStop || kind == kBootProblem) return kError;
-  return kind == kVerdict || kind == kRefusal || kind == kHostTrouble ? kWarning : kInfo;
+  return kind == kVerdict || kind == kRefusal || kind == kHostWarning ? kWarning : kInfo;
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ TEST_F(Log, WhatDiffersIsToldWhateverStandsBesideIt) {
   EXPECT_EQ(told_.size(), 3u);
   for (const double state : {1.0, 0.0, 1.0, 0.0})
     log_.add(tick_,
-             {.kind = EventKind::kHostTrouble, .number = 1, .subject = "bus can0", .values = {{"state", state}}});
+             {.kind = EventKind::kHostWarning, .number = 1, .subject = "bus can0", .values = {{"state", state}}});
   EXPECT_EQ(told_.size(), 5u) << "each state of the interface";
   intervals(3.0);
   ASSERT_EQ(told_.size(), 10u);

@@ -111,7 +111,7 @@ TEST_F(File, AFullDiskIsSaidOnceAndHoldsNobodyUp) {
   for (std::uint64_t n = 1; n <= 100; ++n) file.append(line(n));
   const auto trouble = change(file);
   ASSERT_TRUE(trouble);
-  EXPECT_EQ(trouble->kind, EventKind::kHostTrouble);
+  EXPECT_EQ(trouble->kind, EventKind::kHostWarning);
   EXPECT_EQ(trouble->number, number_of(HostTroubleEvent::kEventFile));
   EXPECT_TRUE(names(trouble->text, {"/dev/full", "No space left"}));
   for (std::uint64_t n = 1; n <= 100; ++n) file.append(line(n));

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host/drives/calibration/fixture.hpp"
+#include "host/drives/calibration/jig.hpp"
 #include "tests/host/control/verification/sim_arm.hpp"
 #include "tests/message.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "firmware_like/cable/arm/tension.hpp"
 #include "firmware_like/math/trig.hpp"
-#include "host/drives/calibration/fixture.hpp"
+#include "host/drives/calibration/jig.hpp"
 #include "host/model/config/sha256.hpp"
 #include "tests/host/drives/calibration/day.hpp"
 #include "tests/host/model/config/tables.hpp"

@@ -1,4 +1,4 @@
-#include "host/drives/calibration/fixture_prompt.hpp"
+#include "host/drives/calibration/jig_prompt.hpp"
 
 #include <stdexcept>
 

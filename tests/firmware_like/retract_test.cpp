@@ -1,4 +1,4 @@
-// The way out: a retreat moves the arm, slowly, where faults forbid everything else.
+// The way out: a retract moves the arm, slowly, where faults forbid everything else.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ struct SerialRig : serial::micro::Rig {
 };
 
 template <class Rig>
-class Retreat : public testing::Test {
+class Retract : public testing::Test {
  protected:
   using Angles = typename Rig::Angles;
 
@@ -76,22 +76,22 @@ class Retreat : public testing::Test {
 };
 
 using BothArms = testing::Types<CableRig, SerialRig>;
-TYPED_TEST_SUITE(Retreat, BothArms);
+TYPED_TEST_SUITE(Retract, BothArms);
 
-TYPED_TEST(Retreat, MovesTheArmToItsAnglesAtAQuarterOfTheRateWhileAHoldIsLatched) {
+TYPED_TEST(Retract, MovesTheArmToItsAnglesAtAQuarterOfTheRateWhileAHoldIsLatched) {
   auto& rig = this->rig;
   ASSERT_TRUE(rig.latch_hold());
-  rig.tick(Request::kNone, this->command(CommandKind::kRetreat));
+  rig.tick(Request::kNone, this->command(CommandKind::kRetract));
   EXPECT_EQ(rig.out.active_sequence, rig.sequence);
   const double fastest = this->run_to_goal();
   EXPECT_EQ(rig.command(), this->goal);
-  EXPECT_LE(fastest, kRetreatRateShare * (1.0 + 1e-9));
-  EXPECT_GE(fastest, 0.9 * kRetreatRateShare) << "no slower than it has to be";
+  EXPECT_LE(fastest, kRetractRateShare * (1.0 + 1e-9));
+  EXPECT_GE(fastest, 0.9 * kRetractRateShare) << "no slower than it has to be";
   EXPECT_EQ(rig.out.state, OperatingState::kEnabled);
   EXPECT_EQ(rig.out.faults.count, 1) << "the fault stays until it is cleared, and nothing joined it";
 }
 
-TYPED_TEST(Retreat, IsTheOnlyMotionThatAHoldLets) {
+TYPED_TEST(Retract, IsTheOnlyMotionThatAHoldLets) {
   auto& rig = this->rig;
   ASSERT_TRUE(rig.latch_hold());
   rig.tick(Request::kNone, this->command(CommandKind::kJoint));
@@ -100,18 +100,18 @@ TYPED_TEST(Retreat, IsTheOnlyMotionThatAHoldLets) {
   EXPECT_EQ(rig.out.active_sequence, 0U);
 }
 
-TYPED_TEST(Retreat, MovesAsSlowlyWithoutAFault) {
+TYPED_TEST(Retract, MovesAsSlowlyWithoutAFault) {
   auto& rig = this->rig;
-  rig.tick(Request::kNone, this->command(CommandKind::kRetreat));
-  EXPECT_LE(this->run_to_goal(), kRetreatRateShare * (1.0 + 1e-9));
+  rig.tick(Request::kNone, this->command(CommandKind::kRetract));
+  EXPECT_LE(this->run_to_goal(), kRetractRateShare * (1.0 + 1e-9));
   EXPECT_EQ(rig.command(), this->goal);
 }
 
-TYPED_TEST(Retreat, EndsWithItsLifeAlongThePathAndStaysEnabled) {
+TYPED_TEST(Retract, EndsWithItsLifeAlongThePathAndStaysEnabled) {
   auto& rig = this->rig;
   ASSERT_TRUE(rig.latch_hold());
   auto setpoint = rig.joints(this->goal);
-  setpoint.kind = CommandKind::kRetreat;
+  setpoint.kind = CommandKind::kRetract;
   rig.tick(Request::kNone, rig.release(setpoint, 20));
   rig.run(19);
   EXPECT_FALSE(rig.out.at_rest);
@@ -121,10 +121,10 @@ TYPED_TEST(Retreat, EndsWithItsLifeAlongThePathAndStaysEnabled) {
   EXPECT_EQ(rig.out.state, OperatingState::kEnabled);
 }
 
-TYPED_TEST(Retreat, EndsInAStopThatIsAskedFor) {
+TYPED_TEST(Retract, EndsInAStopThatIsAskedFor) {
   auto& rig = this->rig;
   ASSERT_TRUE(rig.latch_hold());
-  rig.tick(Request::kNone, this->command(CommandKind::kRetreat));
+  rig.tick(Request::kNone, this->command(CommandKind::kRetract));
   rig.run(50);
   rig.tick(Request::kStop);
   EXPECT_EQ(rig.out.state, OperatingState::kStopping);

@@ -1,4 +1,4 @@
-#include "host/drives/calibration/fixture.hpp"
+#include "host/drives/calibration/jig.hpp"
 
 #include <algorithm>
 #include <cmath>
