@@ -22,7 +22,7 @@ namespace liana::arbiter {
 // Path points per command interval on the way back: slower than the way in, so that what passed verification then
 // passes it again.
 constexpr double kWayBackPace = 0.8;
-constexpr double kFaultyPace = 0.4;        // the same while a fault is latched
+constexpr double kFaultyPace = 0.4;         // the same while a fault is latched
 constexpr double kJoinRate_rad_s = 0.0052;  // fastest joint on the way onto the path: 0.3 deg/s
 
 template <class Arm>
