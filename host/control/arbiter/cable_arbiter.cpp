@@ -96,7 +96,7 @@ void CableArbiter::require_open_clutch(const DeviceUse& use) const {
   if (!device_.engaged() || use.kind != in_use.kind || use.mapping == in_use.mapping) return;
   throw api::RequestError("busy",
                           "the operator steers: scale, rotation_scale and frame of the device in use change while the "
-                          "deadman is open: wait for that, or say device = none first");
+                          "deadman is open: wait for that, or say device = none first, which holds the arm");
 }
 
 void CableArbiter::use_device(const cable::Outputs& now, const DeviceUse& use) {
@@ -105,6 +105,7 @@ void CableArbiter::use_device(const cable::Outputs& now, const DeviceUse& use) {
         "refused", "device = " + use.name + ": the tip is inside the slit: use hand there, or say anywhere = true");
   if (is_busy()) throw api::RequestError("busy", "a planned move is under way: wait for it or send hold");
   require_open_clutch(use);
+  if (was_engaged_) Base::hold();  // the tip does not go on to where the hand before has led it
   take_device_away();
   device_.use(use);
   asked_speed_m_s_ = use.speed_m_s > 0.0 ? use.speed_m_s : robot_speed_m_s_;

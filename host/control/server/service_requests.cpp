@@ -126,9 +126,12 @@ Json Service::on_state_command(const api::ClientInfo&, const api::Arguments& fie
                               "a stop was asked for in the same command interval: ask again if the arm should go on");
     if (now().faults.count > 0) throw api::RequestError("fault", "a fault is latched: clear it first");
     if (lifecycle_.is_stopping()) throw api::RequestError("refused", "lianad is stopping: start it again afterwards");
+    if (now().state == OperatingState::kStopping || disable_tick_ == tick())
+      throw api::RequestError("busy", "the arm is stopping: ask again when it is disabled");
     require_homed();
     this->request(Request::kEnable);
   } else if (command == "disable") {
+    disable_tick_ = tick();
     this->request(Request::kDisable);
   } else if (command == "clear") {
     notes_.stop.release();

@@ -9,11 +9,13 @@
 namespace liana::planner {
 namespace {
 
+constexpr double kLetOut = 1.02;      // of the tension that it stands with, on the way to less
 constexpr double kRounding_m = 1e-6;  // of points that became degrees in between
 
 struct Allowed {
   double clearance_m;
   double self_m;
+  double ceiling_N;
 };
 
 std::string refusal(const config::RobotConfig& robot, const config::SceneConfig& scene,
@@ -21,14 +23,14 @@ std::string refusal(const config::RobotConfig& robot, const config::SceneConfig&
   const PlanCheck check = check_plan(robot, scene, way, plain_tip(robot.table, way.back()));
   const TensionLimits& tension = robot.table.tension;
   if (check.min_clearance_m < allowed.clearance_m - kRounding_m) {
-    return text("link %d %s; allowed are %.2f mm", static_cast<int>(check.nearest_link),
+    return text("link %d %s; at least %.2f mm are needed", static_cast<int>(check.nearest_link),
                 distance_text(check.min_clearance_m, "'" + check.nearest + "'").c_str(), 1000.0 * allowed.clearance_m);
   }
   if (check.self.clearance_m < allowed.self_m - kRounding_m)
-    return text("%s; allowed are %.2f mm", nearest_text(check.self).c_str(), 1000.0 * allowed.self_m);
-  if (check.min_tension_N < tension.floor_motor_N || check.max_tension_N > tension.ceiling_free_N) {
-    return text("cables would be pulled with %.0f to %.0f N; allowed are %.0f to %.0f N", check.min_tension_N,
-                check.max_tension_N, tension.floor_motor_N, tension.ceiling_free_N);
+    return text("%s; at least %.2f mm are needed", nearest_text(check.self).c_str(), 1000.0 * allowed.self_m);
+  if (check.min_tension_N < tension.floor_motor_N || check.max_tension_N > allowed.ceiling_N) {
+    return text("cables would be pulled with %.1f to %.1f N; allowed are %.1f to %.1f N", check.min_tension_N,
+                check.max_tension_N, tension.floor_motor_N, allowed.ceiling_N);
   }
   return {};
 }
@@ -48,8 +50,9 @@ std::vector<ThetaVector> straight(const ThetaVector& from, const ThetaVector& go
 
 std::string refusal_of_way(const config::RobotConfig& robot, const config::SceneConfig& scene,
                            const std::vector<ThetaVector>& points, double margin_m, double off_m) {
-  const Allowed allowed{margin_m, std::max(kSelfMargin_m, 2.0 * off_m)};
-  const std::string lead = refusal(robot, scene, {points[0], points[1]}, {2.0 * off_m, allowed.self_m});
+  const Allowed allowed{margin_m, std::max(kSelfMargin_m, 2.0 * off_m), robot.table.tension.ceiling_free_N};
+  const Allowed on_lead{2.0 * off_m, allowed.self_m, allowed.ceiling_N};
+  const std::string lead = refusal(robot, scene, {points[0], points[1]}, on_lead);
   if (!lead.empty()) return "between where the arm stands and point 1 " + lead;
   const std::string whole = refusal(robot, scene, {points.begin() + 1, points.end()}, allowed);
   if (whole.empty()) return {};
@@ -64,7 +67,8 @@ std::string refusal_of_move(const config::RobotConfig& robot, const config::Scen
                             const ThetaVector& goal) {
   const PlanCheck stands = check_plan(robot, scene, {from}, plain_tip(robot.table, from));
   const Allowed allowed{std::min(scene.margins.prediction_m + scene.margins.refuse_m, stands.min_clearance_m),
-                        std::min(kSelfMargin_m, stands.self.clearance_m)};
+                        std::min(kSelfMargin_m, stands.self.clearance_m),
+                        std::max(robot.table.tension.ceiling_free_N, kLetOut * stands.max_tension_N)};
   std::string first = refusal(robot, scene, straight(from, goal, 1.0), allowed);
   if (first.empty()) return {};
   double free = 0.0, beyond = 1.0;

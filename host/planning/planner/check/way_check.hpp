@@ -16,8 +16,9 @@ std::string refusal_of_way(const config::RobotConfig& robot, const config::Scene
                            const std::vector<cable::ThetaVector>& points_rad, double margin_m, double off_m);
 
 // Why the arm must not go straight in theta to a goal [rad], and how far it could: the same limits, but it may come as
-// near to an obstacle as verification lets a command (SceneMargins), and no nearer to anything than it stands where
-// that is nearer. Empty: it may. Cost: about 5 ms, past a slit 50 ms, where it is refused eight times that.
+// near to an obstacle as verification lets a command (SceneMargins), and no nearer to anything, nor with
+// more tension, than it stands where that is beyond the limit. Empty: it may. Cost: about 5 ms, past a slit 50 ms,
+// where it is refused eight times that.
 std::string refusal_of_move(const config::RobotConfig& robot, const config::SceneConfig& scene,
                             const cable::ThetaVector& from_rad, const cable::ThetaVector& goal_rad);
 

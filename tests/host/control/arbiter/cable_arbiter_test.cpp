@@ -885,6 +885,18 @@ TEST_F(RetractRequest, TakesTheDeviceAwayFromTheOperator) {
   EXPECT_EQ(arbiter_.device().in_use().kind, device::Kind::kNone);
 }
 
+// Else the tip would go on to where the hand has led it last.
+TEST_F(Arbitration, ADeviceThatIsTakenAwayOrChangedWhileItLeadsHoldsTheArm) {
+  for (const device::Kind kind : {device::Kind::kNone, device::Kind::kVrControllers}) {
+    use_hand();
+    steered(0.2);
+    ASSERT_TRUE(steered(0.4));
+    arbiter_.use_device(now_, DeviceUse{.kind = kind});
+    EXPECT_FALSE(arbiter_.next_setpoint(tick_ += 5, now_));
+    EXPECT_FALSE(arbiter_.is_asking());
+  }
+}
+
 // Paths, with a check that says what it is told to.
 class Paths : public Arbitration {
  protected:

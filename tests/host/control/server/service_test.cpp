@@ -206,6 +206,16 @@ TEST_F(ServiceOverSocket, TheDeathOfTheMissionIsAHold) {
   EXPECT_EQ(arm_->now().theta_command_rad, stopped);
 }
 
+// It would be answered with ok, and lost.
+TEST_F(ServiceOverSocket, AnArmThatStopsIsNotEnabledUntilItIsDisabled) {
+  api::ApiClient client = join("mission");
+  enable(client);
+  EXPECT_EQ(ask(client, {{"op", "state_command"}, {"command", "disable"}}), "ok");
+  EXPECT_EQ(ask(client, {{"op", "state_command"}, {"command", "enable"}}), "busy");
+  for (int i = 0; i < 500 && arm_->now().state != OperatingState::kDisabled; ++i) intervals(1);
+  enable(client);
+}
+
 TEST_F(ServiceOverSocket, OnlyOneClientMovesTheArm) {
   api::ApiClient mission = join("mission"), second = join("client"), watcher = join("observer");
   enable(mission);

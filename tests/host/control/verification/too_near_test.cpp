@@ -136,6 +136,16 @@ TEST_F(AnArmBesideABody, GetsNoFurtherMillimetresByBeingDisabled) {
   EXPECT_EQ(goes(0.0024, 0.0014, 0.0014), Refusal::kSceneContact);
 }
 
+// A stop after a refusal takes more than that.
+TEST_F(AnArmBesideABody, ThatStandsNearerThanThreeMillimetresIsLedNoNearer) {
+  EXPECT_EQ(goes(0.0031, 0.0022, 0.0022), Refusal::kNone);
+  too_near_.forget();
+  EXPECT_EQ(goes(0.0029, 0.0028, 0.0028), Refusal::kSceneContact);
+  EXPECT_EQ(goes(0.0029, 0.0028, 0.0029), Refusal::kNone);
+  too_near_.retracts = true;
+  EXPECT_EQ(goes(0.0029, 0.0020, 0.0020), Refusal::kNone);
+}
+
 TEST_F(AnArmBesideABody, ThatHasLeftItIsAsOneThatNeverWasThere) {
   EXPECT_EQ(goes(0.0050, 0.0050, 0.0080), Refusal::kNone);
   EXPECT_EQ(goes(0.0080, 0.0069, 0.0069), Refusal::kSceneContact);

@@ -71,7 +71,10 @@ TEST(WayCheck, AMoveThatAsksTooMuchOfACableIsRefusedWithItsTension) {
   ThetaVector corner{};
   for (std::size_t i = 0; i < zhu2022::kThetas; ++i)
     corner[i] = (i % 4 < 2 ? 1.0 : -1.0) * robot.table.segment[i / 2].theta_limit_rad;
-  EXPECT_TRUE(names(refusal_of_move(robot, {}, ThetaVector{}, corner), {"% of the straight way", "150 N"}));
+  EXPECT_TRUE(names(refusal_of_move(robot, {}, ThetaVector{}, corner), {"% of the straight way", "150.0 N"}));
+  ThetaVector half = corner;
+  for (double& theta_rad : half) theta_rad *= 0.5;
+  EXPECT_EQ(refusal_of_move(robot, {}, corner, half), "") << "it stands there, and is let out";
 }
 
 TEST(WayCheck, AnArmThatWouldLieInItselfIsRefused) {
