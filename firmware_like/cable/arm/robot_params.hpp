@@ -27,6 +27,9 @@ struct SegmentParams {
   double module_length_m = 0.0;  // link length l
   double theta_limit_rad = 0.0;  // |theta| of both axes
   double module_mass_kg = 0.0;
+  double module_center = 0.5;              // centre of mass along a module, of its length from the root's side
+  double joint_stiffness_Nm_rad = 0.0;     // of one joint, about both of its axes: backbone or spring
+  std::array<double, 2> joint_rest_rad{};  // pitch and yaw of one joint at which it gives no torque
   std::array<double, kMaxSegmentCables> cable_phase_rad{};  // angle of the hole from the pitch axis' y, see cables.hpp
 };
 
@@ -42,6 +45,12 @@ struct TensionLimits {
   // Constants of the tension plan were found on an arm that plans 40 N; another arm's are in proportion. Exactly 1
   // there.
   double scale() const noexcept { return plan_N / 40.0; }
+};
+
+// A point mass: the tool, and what it carries.
+struct TipLoad {
+  double mass_kg = 0.0;
+  Vec3 center_in_tip_m{};
 };
 
 // How well cables have to agree with what is known about them (docs/explanation/fault-detection.md). The defaults fit
@@ -93,6 +102,8 @@ struct RobotParams {
   double servo_time_constant_s = 0.0;
   double tick_s = 0.0;              // control period
   std::int32_t interval_ticks = 0;  // T_c in ticks
+  Vec3 gravity_m_s2{};              // in the base frame; zero: in orbit, or a rig takes the weight off
+  TipLoad tool{};
   TensionLimits tension{};
   CableMonitorParams cable_monitor{};
   TorqueZeroTable torque_zero{};
