@@ -172,13 +172,16 @@ std::uint32_t CableArm::plan_tensions(bool plans_now, bool tensions_valid) noexc
     wind_in(table_, estimator_.tension_N, taut_N_);
   }
   if (is_let_go(let_go_)) {  // nothing may lag now
-    tension_ = is_loose(let_go_) ? plan_without(table_, layout_, model_.geometry, ratio_, let_go_.segment)
-                                 : plan_tension(table_, model_.geometry, ratio_, lift_N_);
+    tension_ = is_loose(let_go_)
+                   ? plan_without(table_, layout_, model_.geometry, ratio_, let_go_.segment, static_load_Nm_)
+                   : plan_tension(table_, model_.geometry, ratio_, lift_N_, {static_load_Nm_, {}});
     planned_N_ = tension_.motor_N;
     planned_Nm_ = load_change_Nm_ = ThetaVector{};
     tension_change_N_ = CableVector{};
   } else if (plans_now) {
-    aim_tensions(plan_tension(table_, model_.geometry, ratio_, lift_N_, inertia_load_Nm()));
+    if (has_static_load(table_))
+      static_load_Nm_ = cable::static_load_Nm(table_, motion_.limiter.theta_rad, motion_.trig, motion_.arm);
+    aim_tensions(plan_tension(table_, model_.geometry, ratio_, lift_N_, {static_load_Nm_, inertia_load_Nm()}));
   }
   // The sum of even parts may end a last bit over the ceiling, and the gate would refuse that.
   for (Index c = 0; c < cables(); ++c)

@@ -13,6 +13,7 @@
 #include "firmware_like/cable/arm/friction_estimator.hpp"
 #include "firmware_like/cable/arm/let_go.hpp"
 #include "firmware_like/cable/arm/setpoint.hpp"
+#include "firmware_like/cable/arm/static_load.hpp"
 #include "firmware_like/cable/arm/tension.hpp"
 #include "firmware_like/cable/arm/tension_monitor.hpp"
 #include "firmware_like/cable/motion/damping.hpp"
@@ -117,6 +118,7 @@ class CableArm {
     v("damping", self.damping_);
     v("lift_N", self.lift_N_);
     v("taut_N", self.taut_N_);
+    v("static_load_Nm", self.static_load_Nm_);
     v("plan_rate_rad_s", self.plan_rate_rad_s_);
     v("let_go", self.let_go_);
     v("lets_out", self.lets_out_);
@@ -197,6 +199,7 @@ class CableArm {
   DampingState damping_{};
   SegmentVector lift_N_{};          // pulled tighter than planned
   CableVector taut_N_{};            // the same of single cables
+  ThetaVector static_load_Nm_{};    // what weight and springs take, when tensions were planned last
   ThetaVector plan_rate_rad_s_{};   // commanded, when tensions were planned last
   SegmentReleaseState let_go_{};    // cables of a segment that has lost one
   std::int32_t missed_ = -1;        // cable, found by watch_drive and judged by watch in the same tick; else -1

@@ -85,10 +85,11 @@ void CableArm::balance_next_axis(std::uint64_t tick) noexcept {
   // After a dither friction is nowhere, and what angles creep by says nothing of it.
   if (is_dithering(dither_) || contact_.state == ContactState::kDithered)
     fade_slip(layout_, kFrictionTicks * kDitherFade_1_s * kDitherMost * table_.tick_s, balance_.slip);
-  const double inertia_Nm = inertia_torque_Nm(table_, motion_.governor.mass_kg_m2, inertia_.accel_rad_s2, axis);
+  const double load_Nm =
+      static_load_Nm_[axis] + inertia_torque_Nm(table_, motion_.governor.mass_kg_m2, inertia_.accel_rad_s2, axis);
   const FrictionReadings planned{
       model_.geometry, ratio_,     slip_, wrap_rad_, inertia_.tension_N, table_.friction_mu, motion_.limiter.rate_rad_s,
-      inertia_Nm,      is_moving()};
+      load_Nm,         is_moving()};
   watch_friction(table_, layout_, declared_mu_, planned, friction_);
   const double hours = static_cast<double>(tick) * table_.tick_s / 3600.0;
   const BalanceReadings felt{model_.geometry,
@@ -97,7 +98,7 @@ void CableArm::balance_next_axis(std::uint64_t tick) noexcept {
                              motion_.limiter.rate_rad_s,
                              friction_.mu,
                              friction_sd(friction_),
-                             inertia_Nm,
+                             load_Nm,
                              table_.torque_zero.bias_N + table_.torque_zero.drift_N_h * hours,
                              contact_.state == ContactState::kDithered};
   balance_axis(table_, layout_, torque_limits_, felt, axis, balance_);

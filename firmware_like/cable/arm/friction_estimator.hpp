@@ -1,9 +1,9 @@
 // What friction between cables and holes really is, found while the arm moves.
 //
 // Nothing pushes the arm from outside, so that at each of its axes the torques of the cables balance: sum_c J_ck
-// exp(-mu slid_cj) t_c = 0, where slid_cj is the bend that cable c slides over until the middle of the axis' segment,
-// signed as planned (friction.hpp). One axis after another gives one equation for mu; a Kalman filter of that one
-// number weighs them. Derivation, what was left out and measured errors: docs/explanation/arm-control.md.
+// exp(-mu slid_cj) t_c = -load_k, where slid_cj is the bend that cable c slides over until the middle of the axis'
+// segment, signed as planned (friction.hpp). One axis after another gives one equation for mu; a Kalman filter of that
+// one number weighs them. Derivation, what was left out and measured errors: docs/explanation/arm-control.md.
 #pragma once
 
 #include <cstdint>
@@ -55,7 +55,7 @@ struct FrictionReadings {
   const CableVector& tension_N;   // measured, low-passed
   double planned_mu;              // what the arm plans with
   const ThetaVector& rate_rad_s;  // commanded
-  double inertia_Nm;              // what the arm's mass takes about the axis that is looked at
+  double load_Nm;                 // what weight, springs and the arm's mass take about the axis that is looked at
   bool moving;                    // commanded faster than kMovingRate_rad_s
 };
 

@@ -28,14 +28,14 @@ bool count_let_go(bool arrived, SegmentReleaseState& state) noexcept {
 }
 
 TensionPlan plan_without(const RobotParams& table, const CableLayout& layout, const CableGeometry& geometry,
-                         const TensionRatio& ratio, std::int32_t segment) noexcept {
+                         const TensionRatio& ratio, std::int32_t segment, const ThetaVector& static_Nm) noexcept {
   TensionRatio without = ratio;  // a loose cable carries nothing to any joint
   SegmentVector lift_N;
   lift_N.fill(-kLetGoLower_N * table.tension.scale());
   for (std::size_t c = 0; c < as_index(layout.cable_count); ++c) {
     if (layout.segment[c] == segment) without[c] = {};
   }
-  TensionPlan plan = plan_tension(table, geometry, without, lift_N);
+  TensionPlan plan = plan_tension(table, geometry, without, lift_N, {static_Nm, {}});
   for (std::size_t c = 0; c < as_index(layout.cable_count); ++c) {
     if (layout.segment[c] == segment) plan.motor_N[c] = 0.0;
   }

@@ -81,8 +81,8 @@ void judge_missed(bool is_slack, std::uint64_t tick, SegmentReleaseState& state,
 bool count_let_go(bool arrived, SegmentReleaseState& state) noexcept;
 
 // Tensions while a segment is let go: its cables pull 0 N, the others are near their floor and in balance at every
-// joint but this segment's.
+// joint but this segment's, with what weight and springs take there.
 TensionPlan plan_without(const RobotParams& table, const CableLayout& layout, const CableGeometry& geometry,
-                         const TensionRatio& ratio, std::int32_t segment) noexcept;
+                         const TensionRatio& ratio, std::int32_t segment, const ThetaVector& static_Nm) noexcept;
 
 }  // namespace liana::cable

@@ -129,11 +129,13 @@ CableVector pulls_for(const RobotParams& table, const TensionSolver& solver, con
 }
 
 TensionPlan plan_tension(const RobotParams& table, const CableGeometry& geometry, const TensionRatio& ratio,
-                         const SegmentVector& lift_N, const ThetaVector& load_Nm) noexcept {
+                         const SegmentVector& lift_N, const PlannedLoad& load) noexcept {
   TensionPlan plan;
-  plan.load_Nm = load_Nm;
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k)
+    plan.load_Nm[k] = load.static_Nm[k] + load.inertia_Nm[k];
+  const ThetaVector& load_Nm = plan.load_Nm;
   const TensionSolver solver = tension_solver(table, geometry, ratio);
-  const CableVector pull_N = pulls_for(table, solver, load_Nm);
+  const CableVector pull_N = pulls_for(table, solver, load.inertia_Nm);
   Index first = static_cast<Index>(table.cable_count());
   const double scale = table.tension.scale(), width_N = kSmoothWidth_N * scale;
   const double margin_N =

@@ -1,10 +1,11 @@
 // Tension plan and elongation: what the motors must pull so that the arm stands where the kinematics says.
 //
-// Balance B^T t = -Q with B = dL/dtheta weighted by friction (physics study, section 2) and Q the torque that the arm's
-// mass takes as it is commanded to accelerate: cables that are pulled so, and lengthened so, leave no swing behind.
-// Segments are swept from the tip to the root: the cables of a segment are the only ones left that turn its two angles,
-// so each sweep solves two equations for its cables and has freedom left to bring them near the planned tension and
-// above the floor. All formulas are smooth, so that tensions never jump.
+// Balance B^T t = -Q with B = dL/dtheta weighted by friction (physics study, section 2) and Q the torque that weight
+// and springs take at rest (static_load.hpp) and the arm's mass as it is commanded to accelerate: cables that are
+// pulled so, and lengthened so, leave no swing behind. Segments are swept from the tip to the root: the cables of a
+// segment are the only ones left that turn its two angles, so each sweep solves two equations for its cables and has
+// freedom left to bring them near the planned tension and above the floor. All formulas are smooth, so that tensions
+// never jump.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +32,7 @@ constexpr double kLoadCeilingShare = 0.95;
 struct TensionPlan {
   CableVector motor_N{};
   ThetaVector load_Nm{};          // that they give about each theta
-  SegmentVector spread_N{};       // between the cables of each segment, without the load
+  SegmentVector spread_N{};       // between the cables of each segment at rest
   bool floor_acted = false;       // tension was raised to keep the floor
   bool ceiling_exceeded = false;  // a planned tension is over the ceiling of free motion
   bool balanced = true;           // false: a segment's cables cannot turn both angles (degenerate table)
@@ -53,11 +54,17 @@ TensionSolver tension_solver(const RobotParams& table, const CableGeometry& geom
 // cannot turn both of its angles. Linear. Cost: two operations per cable and theta that it passes.
 CableVector pulls_for(const RobotParams& table, const TensionSolver& solver, const ThetaVector& load_Nm) noexcept;
 
+// What the cables are to give about each theta: weight and springs of the arm at rest, and what its mass takes besides.
+struct PlannedLoad {
+  ThetaVector static_Nm{};
+  ThetaVector inertia_Nm{};
+};
+
 // Plan at one pose around the table's level at the motor, every segment `lift_N` further above the floor (zero: as
-// planned without measurements; below zero: so much lower, the floor itself kept), with `load_Nm` about each theta for
-// the cables to give. Residual torque is below 1e-9 N m when balanced.
+// planned without measurements; below zero: so much lower, the floor itself kept). Residual torque is below 1e-9 N m
+// when balanced.
 TensionPlan plan_tension(const RobotParams& table, const CableGeometry& geometry, const TensionRatio& ratio,
-                         const SegmentVector& lift_N, const ThetaVector& load_Nm = {}) noexcept;
+                         const SegmentVector& lift_N, const PlannedLoad& load = {}) noexcept;
 
 // Friction that the plan does not know can take a cable further down than the margin. A segment whose lowest measured
 // tension nears the floor is pulled tighter, which turns no joint. First order, slower than the arm's modes. The more

@@ -95,7 +95,7 @@ void balance_axis(const RobotParams& table, const CableLayout& layout, const Tor
   const Index own = axis / 2;
   note_rates(table, limits, now.rate_rad_s, state);
   if (axis == 0) weigh_friction(layout, now, turning_segments(table, now.rate_rad_s), state);
-  double torque_Nm = now.inertia_Nm, per_mu_Nm = 0.0;
+  double torque_Nm = now.load_Nm, per_mu_Nm = 0.0;
   ThetaVector variance_Nm2{};
   Index c = 0;
   while (static_cast<Index>(layout.segment[c]) < own) ++c;

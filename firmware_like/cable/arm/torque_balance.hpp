@@ -59,7 +59,7 @@ struct BalanceReadings {
   const ThetaVector& rate_rad_s;  // commanded
   double mu;                      // as found
   double mu_sd;                   // its standard deviation
-  double inertia_Nm;              // what the arm's mass takes about the axis
+  double load_Nm;                 // what weight, springs and the arm's mass take about the axis
   double bias_N;                  // deviation of each drive's zero of torque, drift in it
   bool dithered;                  // nothing has moved since a dither
 };
