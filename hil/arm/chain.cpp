@@ -23,6 +23,9 @@ Chain::Chain(const RobotConfig& robot, const SceneConfig& scene, bool with_tendo
       const std::size_t first = i % 2 == 0 ? 0 : 1;
       theta_of_hinge_.push_back(2 * s + first);
       theta_of_hinge_.push_back(2 * s + 1 - first);
+      const SegmentConfig& segment = robot.segments[s];
+      spring_of_hinge_.push_back({segment.joint_stiffness_Nm_rad, segment.joint_rest_rad[first]});
+      spring_of_hinge_.push_back({segment.joint_stiffness_Nm_rad, segment.joint_rest_rad[1 - first]});
     }
   }
   share_of_hinge_.assign(theta_of_hinge_.size(), 1.0);
@@ -32,7 +35,11 @@ Chain::Chain(const RobotConfig& robot, const SceneConfig& scene, bool with_tendo
 
 Chain::~Chain() = default;
 
-void Chain::set_gravity(double down_m_s2) { engine_->model->opt.gravity[2] = -down_m_s2; }
+void Chain::set_gravity(const Vec3& gravity_m_s2) {
+  engine_->model->opt.gravity[0] = gravity_m_s2.x;
+  engine_->model->opt.gravity[1] = gravity_m_s2.y;
+  engine_->model->opt.gravity[2] = gravity_m_s2.z;
+}
 
 void Chain::set_linkage(const Linkage& linkage) {
   for (std::size_t i = 0; i < theta_of_hinge_.size(); ++i) {
@@ -76,7 +83,9 @@ void Chain::bias(const Theta& rate_rad_s, Theta& force) {
   mj_rne(engine_->model, data, 0, data->qfrc_bias);
   force = {};
   for (std::size_t i = 0; i < theta_of_hinge_.size(); ++i)
-    force[theta_of_hinge_[i]] += share_of_hinge_[i] * data->qfrc_bias[i];
+    force[theta_of_hinge_[i]] +=
+        share_of_hinge_[i] *
+        (data->qfrc_bias[i] + spring_of_hinge_[i].stiffness_Nm_rad * (data->qpos[i] - spring_of_hinge_[i].rest_rad));
 }
 
 void Chain::remove_rod() { engine_->model->geom_conaffinity[engine_->rod_geom] = 0; }

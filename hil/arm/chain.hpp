@@ -38,11 +38,11 @@ class Chain {
   void place(const Theta& theta_rad);
   // Reduced mass matrix S^T M S [kg.m^2]; upper-left n x n block.
   void inertia(ThetaMatrix& mass);
-  // Weight from now on, along -z of the base frame [m/s^2]; 0 at first. Part of bias().
-  void set_gravity(double down_m_s2);
+  // Weight from now on [m/s^2], in the base frame; none at first. Part of bias(), as the springs of the joints are.
+  void set_gravity(const Vec3& gravity_m_s2);
   // How the joints of each segment share its bend from now on; all alike at first.
   void set_linkage(const Linkage& linkage);
-  // Reduced Coriolis and centrifugal forces, and weight [N.m].
+  // Reduced Coriolis and centrifugal forces, weight and springs [N.m].
   void bias(const Theta& rate_rad_s, Theta& force);
   // The rod is gone from now on.
   void remove_rod();
@@ -73,6 +73,10 @@ class Chain {
   double tip_offset_m_ = 0.0;
   std::vector<std::size_t> theta_of_hinge_;
   std::vector<double> share_of_hinge_;
+  struct Spring {
+    double stiffness_Nm_rad = 0.0, rest_rad = 0.0;
+  };
+  std::vector<Spring> spring_of_hinge_;
   std::vector<Contact> contacts_;
 };
 

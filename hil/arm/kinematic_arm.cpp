@@ -44,7 +44,7 @@ KinematicArm::KinematicArm(const RobotConfig& robot, const TrueParameters& truth
       tip_(tip_of(robot, start_rad)) {
   if (truth.mu != 0.0)
     throw std::runtime_error("--arm light has no friction in its cables; give --physics ideal, or --arm full");
-  if (truth.gravity_m_s2 != 0.0 || !truth.linkage.empty())
+  if (norm(truth.gravity_m_s2) != 0.0 || !truth.linkage.empty())
     throw std::runtime_error("--arm light has neither weight nor an uneven linkage; leave these out, or --arm full");
   paths_.update(theta_);
   const CableValues tension = balanced_tensions(paths_, thetas_, Theta{}, kStartTensionOfPlan * robot.plan_tension_N,

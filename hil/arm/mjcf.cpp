@@ -62,15 +62,18 @@ void write_link(std::ostream& out, const RobotConfig& robot, const SegmentConfig
                 bool pitch_first, bool last) {
   const double l = segment.module_length_m;
   const double r = robot.module_radius_m;
-  const double m = robot.module_mass_kg;
+  const double m = segment.module_mass_kg;
   const double across = m * (3.0 * r * r + l * l) / 12.0;
   const char* axes[2] = {pitch_first ? "0 0 1" : "0 1 0", pitch_first ? "0 1 0" : "0 0 1"};
   out << "<body pos='" << offset_m << " 0 0'><joint type='hinge' axis='" << axes[0] << "'/><joint type='hinge' axis='"
       << axes[1] << "'/>"
-      << "<inertial pos='" << 0.5 * l << " 0 0' mass='" << m << "' diaginertia='" << 0.5 * m * r * r << ' ' << across
-      << ' ' << across << "'/>"
+      << "<inertial pos='" << segment.module_center * l << " 0 0' mass='" << m << "' diaginertia='" << 0.5 * m * r * r
+      << ' ' << across << ' ' << across << "'/>"
       << "<geom type='capsule' fromto='0 0 0 " << l << " 0 0' size='" << r << "' contype='" << (last ? 1 : 3)
       << "' conaffinity='0'/>\n";
+  if (last && robot.tool_kg > 0.0)
+    out << "<body pos='" << l << " 0 0'><inertial pos='" << robot.tool_center_m << "' mass='" << robot.tool_kg
+        << "' diaginertia='1e-6 1e-6 1e-6'/></body>\n";
 }
 
 void write_tendons(std::ostream& out, const RobotConfig& robot) {

@@ -7,6 +7,7 @@
 #include "hil/arm/linkage.hpp"
 #include "hil/config/robot_config.hpp"
 #include "hil/math/reduced.hpp"
+#include "hil/math/vec3.hpp"
 
 namespace liana::bench {
 
@@ -14,7 +15,7 @@ struct TrueParameters {
   double EA_N = 0.0;
   double mu = 0.0;
   double hole_radius_m = 0.0;
-  double gravity_m_s2 = 0.0;    // what is left of the arm's weight, along -z of the base frame
+  Vec3 gravity_m_s2;            // in the base frame: the table's, and what --gravity leaves along -z
   Linkage linkage;              // empty: all joints of a segment bend alike
   CableValues zero_offset_m{};  // payout beyond what counts and table say
   CableValues torque_gain{};    // measured / true drive torque

@@ -19,7 +19,8 @@ constexpr double kStartSpread_rad = 0.5 / kDegPerRad;
 TrueParameters parameters_of(const RobotConfig& robot, const ModelOptions& options, std::uint64_t seed) {
   TrueParameters truth =
       options.spread ? spread_parameters(robot, options.physics, seed) : table_parameters(robot, options.physics);
-  truth.gravity_m_s2 = kGravity_m_s2 * options.gravity_share;
+  truth.gravity_m_s2 = robot.gravity_m_s2;
+  truth.gravity_m_s2.z -= kGravity_m_s2 * options.gravity_share;
   truth.linkage = uneven_linkage(robot, options.linkage_error, seed);
   return truth;
 }
@@ -123,7 +124,7 @@ void CablePlant::summarise(nlohmann::json& summary) const {
   summary["true_parameters"] = {{"EA_N", truth_.EA_N},
                                 {"mu", truth_.mu},
                                 {"hole_radius_m", truth_.hole_radius_m},
-                                {"gravity_m_s2", truth_.gravity_m_s2},
+                                {"gravity_m_s2", {truth_.gravity_m_s2.x, truth_.gravity_m_s2.y, truth_.gravity_m_s2.z}},
                                 {"linkage_error", options_.linkage_error}};
 }
 

@@ -10,6 +10,31 @@ namespace liana::bench {
 
 namespace {
 
+double number_or(const JsonFile& file, const std::string& field, double low, double high, double otherwise) {
+  return file.has(field) ? file.number(field, low, high) : otherwise;
+}
+
+// What a segment's modules weigh and how their joints spring: its own fields, else those of all.
+void read_module(const JsonFile& file, const std::string& at_segment, SegmentConfig& segment) {
+  segment.module_mass_kg =
+      number_or(file, at_segment + "/module_mass_kg", 0.001, 100.0, file.number("/module/mass_kg", 0.001, 100.0));
+  segment.module_center =
+      number_or(file, at_segment + "/module_center", 0.0, 1.0, number_or(file, "/module/center", 0.0, 1.0, 0.5));
+  segment.joint_stiffness_Nm_rad = number_or(file, at_segment + "/joint_stiffness_Nm_per_rad", 0.0, 1e4,
+                                             number_or(file, "/joint/stiffness_Nm_per_rad", 0.0, 1e4, 0.0));
+  const std::string own = at_segment + "/joint_rest_deg", all = "/joint/rest_deg";
+  if (!file.has(own) && !file.has(all)) return;
+  const std::vector<double> rest_deg = file.numbers(file.has(own) ? own : all, 2, -45.0, 45.0);
+  segment.joint_rest_rad = {kRadPerDeg * rest_deg[0], kRadPerDeg * rest_deg[1]};
+}
+
+void read_weight(const JsonFile& file, RobotConfig& robot) {
+  if (file.has("/gravity_m_s2")) robot.gravity_m_s2 = file.vector("/gravity_m_s2");
+  if (!file.has("/tool")) return;
+  robot.tool_kg = file.number("/tool/mass_kg", 0.0, 100.0);
+  robot.tool_center_m = file.vector("/tool/center_m");
+}
+
 void read_segments(const JsonFile& file, RobotConfig& robot) {
   const std::size_t count = file.size("/segments");
   if (count < 1 || count > kMaxSegments)
@@ -19,6 +44,7 @@ void read_segments(const JsonFile& file, RobotConfig& robot) {
     segment.modules = file.integer(at("/segments", m) + "/modules", 1, 16);
     segment.module_length_m = file.number(at("/segments", m) + "/module_length_m", 0.01, 1.0);
     segment.theta_limit_rad = kRadPerDeg * file.number(at("/segments", m) + "/theta_limit_deg", 0.1, 45.0);
+    read_module(file, at("/segments", m), segment);
     const std::string phases = at("/cables/phase_deg", m);
     const std::size_t cables = file.size(phases);
     if (cables < 3 || cables > 4) file.fail(phases, "has " + std::to_string(cables) + " cables, allowed is 3 to 4");
@@ -29,7 +55,7 @@ void read_segments(const JsonFile& file, RobotConfig& robot) {
 }
 
 void read_mechanics(const JsonFile& file, RobotConfig& robot) {
-  robot.module_mass_kg = file.number("/module/mass_kg", 0.001, 100.0);
+  read_weight(file, robot);
   robot.module_radius_m = file.number("/module/radius_m", 0.001, 0.5);
   robot.viscous_Nms_per_rad = file.number("/joint/viscous_Nms_per_rad", 0.0, 100.0);
   robot.hole_radius_m = file.number("/cables/hole_radius_m", 0.001, 0.5);

@@ -1,10 +1,13 @@
 // The robot table as the bench reads it from JSON (docs/reference/formats.md). SI units, radians.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "hil/math/vec3.hpp"
 
 namespace liana::bench {
 
@@ -14,6 +17,10 @@ struct SegmentConfig {
   double module_length_m = 0.0;
   double theta_limit_rad = 0.0;
   std::vector<double> cable_phase_rad;
+  double module_mass_kg = 0.0;
+  double module_center = 0.5;           // of a module's length, from the root's side
+  double joint_stiffness_Nm_rad = 0.0;  // of one joint, about both axes
+  std::array<double, 2> joint_rest_rad{};
 };
 
 // What a drive is told about itself; one per cable.
@@ -25,7 +32,9 @@ struct DriveConfig {
 
 struct RobotConfig {
   std::vector<SegmentConfig> segments;
-  double module_mass_kg = 0.0;
+  Vec3 gravity_m_s2;  // in the base frame
+  double tool_kg = 0.0;
+  Vec3 tool_center_m;  // in the tip's frame
   double module_radius_m = 0.0;
   double viscous_Nms_per_rad = 0.0;  // per theta
   double hole_radius_m = 0.0;

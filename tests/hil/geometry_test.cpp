@@ -122,14 +122,14 @@ TEST(BenchGeometry, AnUnevenLinkageKeepsEverySegmentsMeanAndMujocoTendonsAgree) 
 TEST(BenchGeometry, WeightAndAnUnevenLinkageActByTheDerivativesOfHeightAndTip) {
   const RobotConfig robot = fixture_robot();
   Chain chain(robot, fixture_scene());
-  chain.set_gravity(2.0);
+  chain.set_gravity({0.0, 0.0, -2.0});
   chain.set_linkage(uneven_linkage(robot, 0.05, 4));
   const auto height_J = [&](const Theta& theta) {
     chain.place(theta);
     double sum_m = 0.0;
     for (std::size_t i = 0; i < chain.link_count(); ++i)
       sum_m += 0.5 * (chain.joint_center_m(i).z + chain.joint_center_m(i + 1).z);
-    return 2.0 * robot.module_mass_kg * sum_m;
+    return 2.0 * robot.segments[0].module_mass_kg * sum_m;
   };
   constexpr double kStep = 1e-5;
   Random random(13, "weight poses");

@@ -40,7 +40,7 @@ TEST(BenchPhysics, TheArmStaysWhereItStartsWithBrakesOn) {
 TEST(BenchPhysics, AnArmWithPartOfItsWeightStaysWhereItStartsWithBrakesOn) {
   const RobotConfig robot = fixture_robot();
   TrueParameters truth = table_parameters(robot, "ideal");
-  truth.gravity_m_s2 = 0.05;
+  truth.gravity_m_s2 = {0.0, 0.0, -0.05};
   ArmPhysics arm(robot, fixture_scene(), truth, start_pose(robot, "prepare", 0.0, 1));
   const Theta start = arm.theta_rad();
   const CableValues payout = arm.payouts_m();
@@ -92,7 +92,7 @@ TEST(BenchPhysics, StepsAreShortWhereTheArmCouldTouchSomething) {
 // The same arm with links of two grams: its cables swing it a hundred times as fast.
 TEST(BenchPhysics, StiffCablesOnLightLinksGetStepsThatKeepThemStill) {
   RobotConfig robot = fixture_robot();
-  robot.module_mass_kg *= 1e-4;
+  for (SegmentConfig& segment : robot.segments) segment.module_mass_kg *= 1e-4;
   robot.viscous_Nms_per_rad = 1e-4;
   ArmPhysics arm(robot, fixture_scene(), table_parameters(robot, "nominal"), start_pose(robot, "prepare", 0.0, 1));
   arm.begin_slot(0.004);
@@ -102,7 +102,7 @@ TEST(BenchPhysics, StiffCablesOnLightLinksGetStepsThatKeepThemStill) {
   const CableValues payout = arm.payouts_m();
   for (int i = 0; i < 2000; ++i) arm.step(step_s, payout);
   EXPECT_LT(largest_change_deg(arm.theta_rad(), start), 1e-3);
-  robot.module_mass_kg *= 1e-6;
+  for (SegmentConfig& segment : robot.segments) segment.module_mass_kg *= 1e-6;
   robot.viscous_Nms_per_rad = 0.0;
   EXPECT_THROW(
       ArmPhysics(robot, fixture_scene(), table_parameters(robot, "nominal"), start_pose(robot, "prepare", 0.0, 1)),

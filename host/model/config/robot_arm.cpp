@@ -10,12 +10,53 @@ namespace {
 
 constexpr double kLongestTipLag_s = 5.0;
 
-void read_segment(const Field& field, double mass_kg, cable::SegmentParams& segment) {
-  field.only({"modules", "module_length_m", "theta_limit_deg"});
+constexpr Range kModuleMass{0.001, 100};
+constexpr double kHeaviest_m_s2 = 30.0;
+
+bool has(const Field& table, const char* key) { return table.json().contains(key); }
+
+double number_or(const Field& table, const char* key, const Range& range, double otherwise) {
+  return has(table, key) ? table.at(key).number(range) : otherwise;
+}
+
+void read_rest(const Field& table, const char* key, cable::SegmentParams& segment) {
+  if (!has(table, key)) return;
+  const auto rest_deg = table.at(key).numbers<2>({-45, 45});
+  segment.joint_rest_rad = {rest_deg[0] * kDegree, rest_deg[1] * kDegree};
+}
+
+// What every segment has that does not say otherwise.
+cable::SegmentParams read_module(const Field& module, const Field& joint) {
+  module.only({"mass_kg", "radius_m", "center"});
+  joint.only({"viscous_Nms_per_rad", "stiffness_Nm_per_rad", "rest_deg"});
+  cable::SegmentParams out;
+  out.module_mass_kg = module.at("mass_kg").number(kModuleMass);
+  out.module_center = number_or(module, "center", {0, 1}, out.module_center);
+  out.joint_stiffness_Nm_rad = number_or(joint, "stiffness_Nm_per_rad", {0, 1e4}, 0.0);
+  read_rest(joint, "rest_deg", out);
+  return out;
+}
+
+void read_segment(const Field& field, cable::SegmentParams& segment) {
+  field.only({"modules", "module_length_m", "theta_limit_deg", "module_mass_kg", "module_center",
+              "joint_stiffness_Nm_per_rad", "joint_rest_deg"});
+  segment.module_mass_kg = number_or(field, "module_mass_kg", kModuleMass, segment.module_mass_kg);
+  segment.module_center = number_or(field, "module_center", {0, 1}, segment.module_center);
+  segment.joint_stiffness_Nm_rad =
+      number_or(field, "joint_stiffness_Nm_per_rad", {0, 1e4}, segment.joint_stiffness_Nm_rad);
+  read_rest(field, "joint_rest_deg", segment);
   segment.modules = static_cast<std::int32_t>(field.at("modules").integer(1, cable::kMaxModules));
   segment.module_length_m = field.at("module_length_m").number({0.01, 1});
   segment.theta_limit_rad = field.at("theta_limit_deg").number({0.1, 45}) * kDegree;
-  segment.module_mass_kg = mass_kg;
+}
+
+void read_weight(const Field& table, cable::RobotParams& robot) {
+  if (has(table, "gravity_m_s2"))
+    robot.gravity_m_s2 = table.at("gravity_m_s2").numbers<3>({-kHeaviest_m_s2, kHeaviest_m_s2});
+  if (!has(table, "tool")) return;
+  const Field tool = table.at("tool");
+  tool.only({"mass_kg", "center_m"});
+  robot.tool = {tool.at("mass_kg").number({0, 100}), tool.at("center_m").numbers<3>({-1, 1})};
 }
 
 // Cables can only pull: no half circle may be without one.
@@ -45,10 +86,9 @@ void read_phases(const Field& field, cable::SegmentParams& segment) {
 void read_arm(const Field& table, RobotConfig& out) {
   cable::RobotParams& robot = out.table;
   const Field module = table.at("module");
-  module.only({"mass_kg", "radius_m"});
-  const double mass_kg = module.at("mass_kg").number({0.001, 100});
   out.module_radius_m = module.at("radius_m").number({0.001, 0.5});
-  table.at("joint").only({"viscous_Nms_per_rad"});
+  const cable::SegmentParams each = read_module(module, table.at("joint"));
+  read_weight(table, robot);
   out.joint_viscous_Nms_per_rad = table.at("joint").at("viscous_Nms_per_rad").number({0, 100});
 
   const Field segments = table.at("segments");
@@ -58,7 +98,8 @@ void read_arm(const Field& table, RobotConfig& out) {
   phases.size(count, count, "give one list of phases per segment");
   double shortest_m = 1.0;
   for (std::size_t m = 0; m < count; ++m) {
-    read_segment(segments.element(m), mass_kg, robot.segment[m]);
+    robot.segment[m] = each;
+    read_segment(segments.element(m), robot.segment[m]);
     read_phases(phases.element(m), robot.segment[m]);
     shortest_m = std::min(shortest_m, robot.segment[m].module_length_m);
   }
