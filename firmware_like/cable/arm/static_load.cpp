@@ -83,4 +83,12 @@ ThetaVector static_load_Nm(const RobotParams& table, const ThetaVector& theta_ra
   return load_Nm;
 }
 
+TensionPlan plan_at_rest(const RobotParams& table, const CableLayout& layout, const ThetaVector& theta_rad) noexcept {
+  const ArmTrig trig = arm_trig(table, theta_rad);
+  PlannedLoad load;
+  if (has_static_load(table)) load.static_Nm = static_load_Nm(table, theta_rad, trig, forward_kinematics(table, trig));
+  const TensionRatio ratio = tension_ratio(table, layout, trig, SlipState{});
+  return plan_tension(table, cable_geometry(table, layout, trig), ratio, SegmentVector{}, load);
+}
+
 }  // namespace liana::cable

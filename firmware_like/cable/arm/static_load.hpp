@@ -8,6 +8,7 @@
 
 #include "firmware_like/cable/arm/kinematics.hpp"
 #include "firmware_like/cable/arm/robot_params.hpp"
+#include "firmware_like/cable/arm/tension.hpp"
 
 namespace liana::cable {
 
@@ -18,5 +19,8 @@ bool has_static_load(const RobotParams& table) noexcept;
 // of the same angles. Cost: 30 operations a module and 60 a segment.
 ThetaVector static_load_Nm(const RobotParams& table, const ThetaVector& theta_rad, const ArmTrig& trig,
                            const ArmKinematics& arm) noexcept;
+
+// The plan for an arm that stands at theta_rad, nothing having slipped. Cost: kinematics, cables and a plan.
+TensionPlan plan_at_rest(const RobotParams& table, const CableLayout& layout, const ThetaVector& theta_rad) noexcept;
 
 }  // namespace liana::cable

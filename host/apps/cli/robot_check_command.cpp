@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "firmware_like/cable/arm/tension.hpp"
+#include "firmware_like/cable/arm/static_load.hpp"
 #include "firmware_like/math/trig.hpp"
 #include "host/apps/cli/commands.hpp"
 #include "host/apps/cli/serial_robot_check.hpp"
@@ -49,11 +49,7 @@ struct Planned {
 };
 
 Planned planned_at(const cable::RobotParams& table, const cable::ThetaVector& theta_rad) {
-  const cable::CableLayout layout = cable_layout(table);
-  const cable::ArmTrig trig = arm_trig(table, theta_rad);
-  const cable::TensionRatio ratio = tension_ratio(table, layout, trig, cable::SlipState{});
-  const cable::TensionPlan plan =
-      plan_tension(table, cable_geometry(table, layout, trig), ratio, cable::SegmentVector{});
+  const cable::TensionPlan plan = plan_at_rest(table, cable_layout(table), theta_rad);
   Planned planned{.is_balanced = plan.balanced};
   for (std::size_t c = 0; c < static_cast<std::size_t>(table.cable_count()); ++c) {
     planned.least_N = std::min(planned.least_N, plan.motor_N[c]);

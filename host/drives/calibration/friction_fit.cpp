@@ -30,6 +30,7 @@ struct FrictionFit::Moment {
   CableGeometry geometry;
   SegmentVector wrap_rad;
   MassMatrix mass_kg_m2;
+  ThetaVector static_Nm;
   const Sample& sample;
 
   // Bend that cable c slides over within segment j until the middle of segment `own`, signed; and what of it may rest.
@@ -64,8 +65,9 @@ void FrictionFit::add(const ThetaVector& commanded_rad, const CableVector& tensi
 // The balance about one axis with the parameters as they are, and how it changes with them.
 FrictionFit::Equation FrictionFit::equation(const Moment& now, Index axis, const Fit& fit) const {
   const Index own = axis / 2;
-  Equation out{inertia_torque_Nm(table_, now.mass_kg_m2, now.sample.inertia.accel_rad_s2, axis),
-               kBalanceNoise_Nm * kBalanceNoise_Nm, Eigen::VectorXd::Zero(fit.value.size())};
+  const double inertia_Nm = inertia_torque_Nm(table_, now.mass_kg_m2, now.sample.inertia.accel_rad_s2, axis);
+  Equation out{now.static_Nm[axis] + inertia_Nm, kBalanceNoise_Nm * kBalanceNoise_Nm,
+               Eigen::VectorXd::Zero(fit.value.size())};
   for (Index c = 0; c < static_cast<Index>(layout_.cable_count); ++c) {
     if (static_cast<Index>(layout_.segment[c]) < own) continue;
     double exponent = 0.0, unsure = 0.0;
@@ -98,8 +100,13 @@ void FrictionFit::improve(Fit& fit) const {
   Eigen::VectorXd right = -normal.diagonal().cwiseProduct(fit.value);
   for (const Sample& sample : samples_) {
     const ArmTrig trig = arm_trig(table_, sample.theta_rad);
-    Moment now{cable_geometry(table_, layout_, trig), cable_wraps(table_, trig), {}, sample};
-    update_mass_matrix(table_, forward_kinematics(table_, trig), now.mass_kg_m2);
+    const ArmKinematics arm = forward_kinematics(table_, trig);
+    Moment now{cable_geometry(table_, layout_, trig),
+               cable_wraps(table_, trig),
+               {},
+               static_load_Nm(table_, sample.theta_rad, trig, arm),
+               sample};
+    update_mass_matrix(table_, arm, now.mass_kg_m2);
     for (Index axis = 0; axis < static_cast<Index>(table_.theta_count()); ++axis) {
       const Equation one = equation(now, axis, fit);
       normal += one.row * one.row.transpose() / one.variance_Nm2;

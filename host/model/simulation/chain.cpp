@@ -92,4 +92,33 @@ eigen::ThetaMatrix mass_matrix(const ArmModel& model, const Chain& chain) {
   return mass;
 }
 
+eigen::ThetaColumn static_load(const ArmModel& model, const ThetaVector& theta_rad, const Chain& chain) {
+  const cable::RobotParams& table = model.table;
+  const Eigen::Index thetas = eigen::theta_count(table);
+  const Vector3d gravity(table.gravity_m_s2.data());
+  eigen::ThetaColumn load = eigen::ThetaColumn::Zero(thetas);
+  JointSums sums{eigen::SpaceColumns::Zero(3, thetas), eigen::SpaceColumns::Zero(3, thetas)};
+  const auto weigh = [&](double mass_kg, const Vector3d& at_m) {
+    for (Eigen::Index i = 0; i < thetas; ++i)
+      load(i) -= mass_kg * gravity.dot(sums.axes.col(i).cross(at_m) - sums.moments.col(i));
+  };
+  Index link = 0;
+  for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
+    const SegmentParams& segment = table.segment[m];
+    const Eigen::Index pitch = static_cast<Eigen::Index>(2 * m);
+    for (std::int32_t k = 0; k < segment.modules; ++k, ++link) {
+      const Matrix3d &before = chain.rotation[link], &after = chain.rotation[link + 1];
+      const Vector3d& joint_m = chain.point_m[link];
+      sums.add(pitch, is_pitch_first(k) ? before.col(2) : after.col(2), joint_m);
+      sums.add(pitch + 1, is_pitch_first(k) ? after.col(1) : before.col(1), joint_m);
+      weigh(segment.module_mass_kg, joint_m + segment.module_center * (chain.point_m[link + 1] - joint_m));
+    }
+    for (Index axis = 0; axis < 2; ++axis)
+      load(pitch + static_cast<Eigen::Index>(axis)) +=
+          segment.modules * segment.joint_stiffness_Nm_rad * (theta_rad[2 * m + axis] - segment.joint_rest_rad[axis]);
+  }
+  weigh(table.tool.mass_kg, chain.tip_m() + chain.rotation[link] * Vector3d(table.tool.center_in_tip_m.data()));
+  return load;
+}
+
 }  // namespace liana::simulation

@@ -27,4 +27,7 @@ void place(const ArmModel& model, const ThetaVector& theta_rad, Chain& chain);
 // Reduced mass matrix [kg m2] of the placed links: for each link its mass at its centre and its inertia about it.
 eigen::ThetaMatrix mass_matrix(const ArmModel& model, const Chain& chain);
 
+// Torque [N m] about each theta that holds the placed links: their weight, the tool's, and the springs of the joints.
+eigen::ThetaColumn static_load(const ArmModel& model, const ThetaVector& theta_rad, const Chain& chain);
+
 }  // namespace liana::simulation

@@ -73,7 +73,8 @@ JointSequence planned_with(const ArmModel& model, const ToldRows<ThetaVector>& r
     if (!ends) change_rad = row(i + 1) - 2.0 * row(i) + row(i - 1);
     Chain chain;
     place(model, rows.rows_rad[i], chain);
-    const ThetaColumn load_Nm = mass_matrix(model, chain) * change_rad / (rows.interval_s * rows.interval_s);
+    const ThetaColumn load_Nm = static_load(model, rows.rows_rad[i], chain) +
+                                mass_matrix(model, chain) * change_rad / (rows.interval_s * rows.interval_s);
     CableVector tension_N{};
     Eigen::Map<CableColumn>(tension_N.data(), cables) =
         planned_tensions(model, cable_paths(model, rows.rows_rad[i]), load_Nm);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware_like/cable/arm/tension.hpp"
+#include "firmware_like/cable/arm/static_load.hpp"
 #include "firmware_like/math/trig.hpp"
 #include "host/planning/planner/check/convex_check.hpp"
 #include "host/planning/planner/check/path_search.hpp"
@@ -217,9 +217,7 @@ void check_tension(const RobotParams& table, const std::vector<ThetaVector>& pat
   const CableLayout layout = cable_layout(table);
   out.min_tension_N = 1e300;
   for (const ThetaVector& theta : path) {
-    const ArmTrig trig = arm_trig(table, theta);
-    const TensionRatio ratio = tension_ratio(table, layout, trig, SlipState{});
-    const TensionPlan plan = plan_tension(table, cable_geometry(table, layout, trig), ratio, SegmentVector{});
+    const TensionPlan plan = plan_at_rest(table, layout, theta);
     for (Index c = 0; c < static_cast<Index>(table.cable_count()); ++c) {
       out.min_tension_N = std::min(out.min_tension_N, plan.motor_N[c]);
       out.max_tension_N = std::max(out.max_tension_N, plan.motor_N[c]);

@@ -13,9 +13,7 @@ constexpr double kSecond_rad = 1e-4;
 }  // namespace
 
 CableVector PlannedTension::at(const ThetaVector& theta_rad) const {
-  const ArmTrig trig = arm_trig(table_, theta_rad);
-  const TensionRatio ratio = tension_ratio(table_, layout_, trig, SlipState{});
-  return plan_tension(table_, cable_geometry(table_, layout_, trig), ratio, SegmentVector{}).motor_N;
+  return plan_at_rest(table_, layout_, theta_rad).motor_N;
 }
 
 std::array<ThetaVector, kMaxCables> PlannedTension::by_theta(const ThetaVector& theta_rad) const {

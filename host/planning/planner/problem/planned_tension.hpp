@@ -1,4 +1,4 @@
-// Cable tensions of a pose as the core plans them (firmware_like/cable/arm/tension.hpp, nothing has slipped yet), with
+// Cable tensions of a pose as the core plans them (firmware_like/cable/arm/static_load.hpp, nothing has slipped yet), with
 // derivatives.
 //
 // The core's plan is a sweep over segments by smooth formulas. It is asked, not copied: derivatives are central
@@ -9,7 +9,7 @@
 
 #include <array>
 
-#include "firmware_like/cable/arm/tension.hpp"
+#include "firmware_like/cable/arm/static_load.hpp"
 #include "host/planning/planner/problem/arm_derivatives.hpp"
 
 namespace liana::planner {
