@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "firmware_like/cable/arm/friction_estimator.hpp"
+#include "firmware_like/cable/arm/static_load.hpp"
 
 namespace liana::calibration {
 
