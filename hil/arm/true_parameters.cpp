@@ -47,6 +47,30 @@ TrueParameters spread_parameters(const RobotConfig& robot, const std::string& ph
   return parameters;
 }
 
+RobotConfig spread_load(const RobotConfig& robot, std::uint64_t seed) {
+  RobotConfig built = robot;
+  bool has_springs = false;
+  for (const SegmentConfig& segment : robot.segments) has_springs |= segment.joint_stiffness_Nm_rad != 0.0;
+  if (norm(robot.gravity_m_s2) == 0.0 && !has_springs) return built;
+  constexpr double kMass = 0.05, kCenter_m = 0.005, kStiffness = 0.1, kTilt_rad = 1.0 / kDegPerRad;
+  Random load(seed, "load");
+  for (SegmentConfig& segment : built.segments) {
+    segment.module_mass_kg *= 1.0 + load.uniform(-kMass, kMass);
+    segment.module_center += load.uniform(-kCenter_m, kCenter_m) / segment.module_length_m;
+    segment.joint_stiffness_Nm_rad *= 1.0 + load.uniform(-kStiffness, kStiffness);
+  }
+  built.tool_kg *= 1.0 + load.uniform(-kMass, kMass);
+  Vec3& center_m = built.tool_center_m;
+  if (built.tool_kg != 0.0)
+    center_m = center_m + Vec3{load.uniform(-kCenter_m, kCenter_m), load.uniform(-kCenter_m, kCenter_m),
+                               load.uniform(-kCenter_m, kCenter_m)};
+  const double gravity = norm(robot.gravity_m_s2), tilt_rad = load.uniform(0.0, kTilt_rad);
+  const Vec3 aside = cross(robot.gravity_m_s2, gaussian(load, 1.0));
+  if (norm(aside) != 0.0)
+    built.gravity_m_s2 = std::cos(tilt_rad) * robot.gravity_m_s2 + (std::sin(tilt_rad) * gravity / norm(aside)) * aside;
+  return built;
+}
+
 Theta start_pose(const RobotConfig& robot, const std::string& name, double spread_rad, std::uint64_t seed) {
   const std::vector<double> pose_rad = start_angles_rad(robot.named_poses_rad, robot.theta_count(), name);
   Random offsets(seed, "start pose");

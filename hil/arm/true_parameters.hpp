@@ -25,6 +25,9 @@ struct TrueParameters {
 TrueParameters table_parameters(const RobotConfig& robot, const std::string& physics);
 // EA +-5 %, mu +-20 %, hole radius +-0.02 mm (one draw each), cable zero +-0.05 mm and torque gain +-1 % per cable.
 TrueParameters spread_parameters(const RobotConfig& robot, const std::string& physics, std::uint64_t seed);
+// The arm as it was built. Of one with weight or springs: masses +-5 % and their centers +-5 mm (each segment, the
+// tool), joint stiffness +-10 % (each segment), gravity turned by 1 deg at most; of any other what the table says.
+RobotConfig spread_load(const RobotConfig& robot, std::uint64_t seed);
 // Named pose, or angles in degrees, plus uniform +-`spread_rad` per angle; throws std::runtime_error for anything else.
 Theta start_pose(const RobotConfig& robot, const std::string& name, double spread_rad, std::uint64_t seed);
 

@@ -33,7 +33,7 @@ return {
   tension = { plan_N = 30, floor_motor_N = 10, floor_anywhere_N = 1, ceiling_free_N = 200, alarm_N = 300, hard_limit_N = 400 },
   drives = {
     drum_radius_m = 0.012,
-    counts_per_turn = 4096,
+    counts_per_turn = 16384,
     gear = 1,
     servo_time_constant_s = 0.03,
     rated_torque_Nm = 5,

@@ -46,9 +46,50 @@ TEST(BenchPhysics, AnArmWithPartOfItsWeightStaysWhereItStartsWithBrakesOn) {
   const CableValues payout = arm.payouts_m();
   run(arm, payout, 2.0);
   EXPECT_LT(largest_change_deg(arm.theta_rad(), start), 1e-6);
-  arm.chain().set_gravity(0.0);
+  arm.chain().set_gravity({});
   run(arm, payout, 2.0);
   EXPECT_GT(largest_change_deg(arm.theta_rad(), start), 0.01) << "the weight bent it, so it swings without";
+}
+
+TEST(BenchPhysics, AnArmWithWeightIsBuiltAsItsSeedDrawsItAndOneWithoutAsItsTableSays) {
+  RobotConfig robot = fixture_robot();
+  EXPECT_EQ(spread_load(robot, 7).segments[2].module_mass_kg, robot.segments[2].module_mass_kg);
+  robot.gravity_m_s2 = {0.0, 0.0, -9.8};
+  robot.tool_kg = 0.5;
+  robot.segments[1].joint_stiffness_Nm_rad = 2.0;
+  double heaviest = 0.0, tilt_deg = 0.0, off_m = 0.0, stiffest = 0.0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const RobotConfig built = spread_load(robot, seed);
+    for (std::size_t s = 0; s < robot.segments.size(); ++s) {
+      const SegmentConfig &is = built.segments[s], &table = robot.segments[s];
+      heaviest = std::max(heaviest, std::fabs(is.module_mass_kg / table.module_mass_kg - 1.0));
+      off_m = std::max(off_m, std::fabs(is.module_center - table.module_center) * table.module_length_m);
+    }
+    stiffest = std::max(stiffest, std::fabs(built.segments[1].joint_stiffness_Nm_rad / 2.0 - 1.0));
+    EXPECT_NEAR(norm(built.gravity_m_s2), 9.8, 1e-9) << "turned, not changed";
+    tilt_deg =
+        std::max(tilt_deg, std::asin(norm(cross(built.gravity_m_s2, robot.gravity_m_s2)) / 9.8 / 9.8) / kRadPerDeg);
+  }
+  const auto nearly = [](double most, double allowed) { return most > 0.9 * allowed && most <= allowed; };
+  EXPECT_TRUE(nearly(heaviest, 0.05) && nearly(off_m, 0.005) && nearly(stiffest, 0.1) && nearly(tilt_deg, 1.0))
+      << heaviest << ' ' << off_m << ' ' << stiffest << ' ' << tilt_deg;
+}
+
+// The masses of the table hold at the pose where they are taken off the cables; the springs alone would not.
+TEST(BenchPhysics, AHeavyArmWithSpringsStaysWhereItStartsWithBrakesOn) {
+  RobotConfig robot = fixture_robot();
+  robot.gravity_m_s2 = {0.3, 0.0, -0.4};
+  robot.tool_kg = 0.05;
+  for (SegmentConfig& segment : robot.segments) {
+    segment.joint_stiffness_Nm_rad = 5.0;
+    segment.joint_rest_rad = {0.02, -0.01};
+  }
+  TrueParameters truth = table_parameters(robot, "ideal");
+  truth.gravity_m_s2 = robot.gravity_m_s2;
+  ArmPhysics arm(robot, fixture_scene(), truth, start_pose(robot, "prepare", 0.0, 1));
+  const Theta start = arm.theta_rad();
+  run(arm, arm.payouts_m(), 2.0);
+  EXPECT_LT(largest_change_deg(arm.theta_rad(), start), 1e-6);
 }
 
 // Two slots of 4 ms at a time, each in steps as long as the arm allows: what the drums wind up moves it by some

@@ -15,6 +15,7 @@ from message import Messages
 SHIPPED = {
     "three_segment_lab": ("lab_tour", "lab_box", "-6,3,5,-5,8,4"),
     "tdcr_benchmark": ("tdcr_tour", "none", "2,5,-1,4"),
+    "lab_1g": ("lab_tour", "none", "-6,3,5,-5,8,4"),
 }
 MADE_UP = 2
 

@@ -45,6 +45,16 @@ TEST(Robot, IsRefusedWithFileFieldValueRangeAndAdvice) {
       {"/colour", "red", "colour", {"field"}},
       {"/module/radius_m", -0.03, "module.radius_m", {"0.001", "0.5"}},
       {"/module/mass_kg", 1e-300, "module.mass_kg", {"0.001", "100"}},
+      {"/module/center", 1.01, "module.center", {"0", "1"}},
+      {"/gravity_m_s2", {0, 0, -31}, "gravity_m_s2[3]", {"-30", "30"}},
+      {"/gravity_m_s2", {0, -9.81}, "gravity_m_s2", {"2", "3"}},
+      {"/tool", {{"mass_kg", -0.1}, {"center_m", {0, 0, 0}}}, "tool.mass_kg", {"0", "100"}},
+      {"/tool", {{"mass_kg", 1}}, "tool.center_m", {"missing"}},
+      {"/tool", {{"mass_kg", 1}, {"center_m", {0, 0, 1.5}}}, "tool.center_m[3]", {"-1", "1"}},
+      {"/joint/stiffness_Nm_per_rad", -1, "joint.stiffness_Nm_per_rad", {"0", "10000"}},
+      {"/joint/rest_deg", {0, 46}, "joint.rest_deg[2]", {"-45", "45"}},
+      {"/segments/1/module_mass_kg", 0, "segments[2].module_mass_kg", {"0.001", "100"}},
+      {"/segments/1/joint_rest_deg", {1}, "segments[2].joint_rest_deg", {"1", "2"}},
       {"/segments", nine, "segments", {"kMaxSegments"}},  // compiled capacity, by name
       {"/segments/0/modules", 17, "segments[1].modules", {"1", "16"}},
       {"/segments/2/module_length_m", "long", "segments[3].module_length_m", {"number"}},
@@ -80,6 +90,37 @@ TEST(Robot, IsRefusedWithFileFieldValueRangeAndAdvice) {
   for (const Spoiled& spoiled : cases) {
     expect_refused(good, spoiled, [](const std::string& text) { parse_robot(text, "given.json", "nominal", buses()); });
   }
+}
+
+TEST(Robot, SegmentsHaveTheLoadOfAllUnlessTheySayOtherwise) {
+  Json table = good_table("robot", "zhu2022");
+  const RobotConfig weightless = parse_robot(table.dump(), "r", "nominal", buses());
+  EXPECT_EQ(weightless.table.gravity_m_s2, (Vec3{}));
+  EXPECT_EQ(weightless.table.segment[0].module_center, 0.5);
+  table["gravity_m_s2"] = {1, 2, -9};
+  table["tool"] = {{"mass_kg", 0.2}, {"center_m", {0.01, 0, 0.02}}};
+  table["module"]["center"] = 0.4;
+  table["joint"]["stiffness_Nm_per_rad"] = 3;
+  table["joint"]["rest_deg"] = {2, -1};
+  table["segments"][4]["module_mass_kg"] = 0.25;
+  table["segments"][4]["module_center"] = 0.6;
+  table["segments"][4]["joint_stiffness_Nm_per_rad"] = 0;
+  table["segments"][4]["joint_rest_deg"] = {0, 5};
+  const cable::RobotParams robot = parse_robot(table.dump(), "r", "nominal", buses()).table;
+  EXPECT_EQ(robot.gravity_m_s2, (Vec3{1, 2, -9}));
+  EXPECT_EQ(robot.tool.mass_kg, 0.2);
+  EXPECT_EQ(robot.tool.center_in_tip_m, (Vec3{0.01, 0, 0.02}));
+  for (const std::size_t m : {0u, 3u}) {
+    EXPECT_EQ(robot.segment[m].module_mass_kg, 0.3);
+    EXPECT_EQ(robot.segment[m].module_center, 0.4);
+    EXPECT_EQ(robot.segment[m].joint_stiffness_Nm_rad, 3.0);
+    EXPECT_DOUBLE_EQ(robot.segment[m].joint_rest_rad[0], 2 * kDeg);
+    EXPECT_DOUBLE_EQ(robot.segment[m].joint_rest_rad[1], -1 * kDeg);
+  }
+  EXPECT_EQ(robot.segment[4].module_mass_kg, 0.25);
+  EXPECT_EQ(robot.segment[4].module_center, 0.6);
+  EXPECT_EQ(robot.segment[4].joint_stiffness_Nm_rad, 0.0);
+  EXPECT_DOUBLE_EQ(robot.segment[4].joint_rest_rad[1], 5 * kDeg);
 }
 
 TEST(Robot, ATableThatSaysNothingOfTheTipsLagHasThatOfSpeedAndAcceleration) {
