@@ -1,5 +1,5 @@
-// Cable tensions of a pose as the core plans them (firmware_like/cable/arm/static_load.hpp, nothing has slipped yet), with
-// derivatives.
+// Cable tensions of a pose as the core plans them (firmware_like/cable/arm/static_load.hpp, nothing has slipped yet),
+// with derivatives.
 //
 // The core's plan is a sweep over segments by smooth formulas. It is asked, not copied: derivatives are central
 // differences of it. The planner so constrains what the controller will do, whatever the formulas are. Steps are a
