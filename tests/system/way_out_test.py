@@ -14,6 +14,11 @@ from liana.system import System, run, table
 NEAR_DEG = 0.02  # from the pose in which the arm was enabled: what the controller is told is not what it measures
 
 
+def beside(tip, along, by_m):
+    """The pose of the tip, so far along a direction."""
+    return [*(at + by_m * towards for at, towards in zip(tip, along)), *tip[3:]]
+
+
 def apart_deg(a, b):
     return max(abs(x - y) for x, y in zip(a, b))
 
@@ -127,8 +132,8 @@ class TheWayOut(SystemTest):
         rod = json.loads(table("robot", "zhu2022"))["named_poses_deg"]["press_rod"]
         system = AtAPose(rod, seed=2)
         client, start = self.enabled(system)
-        goal = [start[0] - 1.0] + start[1:]
-        client.call("move_jp", goal_deg=goal)
+        across = json.loads(table("scene", "panel_slit"))["slit"]["normal"]
+        client.call("move_cp", goal=beside(client.state["setpoint_cp"], across, -0.015))
         client.until(lambda state: state["refusals"] and state["at_rest"], 60)
         self.assertEqual(client.state["verdict"]["name"], "scene_contact")
         self.stopped_and_enabled(client, 0.1)
@@ -169,7 +174,8 @@ class RemediesOfRefusals(SystemTest):
     def test_a_way_into_the_panel_ends_in_a_hold_and_leads_back(self):
         system, client = self.enabled()
         start = list(client.state["setpoint_js_deg"])
-        client.call("move_jp", goal_deg=[0] * 10)
+        beyond = [2.5, -0.4, 0.0]  # the wall of the slit
+        client.call("move_cp", goal=[*beyond, *client.state["setpoint_cp"][3:]])
         state = client.until(lambda state: state["refusals"] and state["at_rest"], 120)
         self.assertEqual((state["verdict"]["name"], state["state"]), ("scene_contact", "ENABLED"), state["verdict"])
         self.assertIn("retract", state["verdict"]["remedy"].lower())

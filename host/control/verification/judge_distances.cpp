@@ -82,13 +82,14 @@ void judge_distances(const config::SceneConfig& scene, const simulation::Distanc
   const config::SceneMargins& levels = scene.margins;
   const double least_m = distances.scene.distance_m, start_m = distances.scene_at_start_m;
   const double claimed_m = least_m - levels.prediction_m;
+  const double refuse_m = too_near.retracts ? std::min(0.0, levels.refuse_m) : levels.refuse_m;
   const First first = at_scene(scene, distances.scene, link_name);
   verdict.margins.clearance_m =
-      clearance::obstacle_count(scene) > 0 ? claimed_m - levels.refuse_m : margins_unknown().clearance_m;
+      clearance::obstacle_count(scene) > 0 ? claimed_m - refuse_m : margins_unknown().clearance_m;
   verdict.slowly = claimed_m < levels.slow_m;
   verdict.first = first;
   const double left_m = too_near.scene.stands() ? kLeft_m : 0.0;
-  const bool stands_too_near = start_m - levels.prediction_m < levels.refuse_m + left_m;
+  const bool stands_too_near = start_m - levels.prediction_m < refuse_m + left_m;
   stands_too_near ? too_near.scene.stand(start_m) : too_near.scene.forget();
   const double off_itself_m = distances.self_at_start_m;
   off_itself_m > 0.0 ? too_near.itself.forget() : too_near.itself.stand(off_itself_m);
@@ -96,12 +97,12 @@ void judge_distances(const config::SceneConfig& scene, const simulation::Distanc
     too_near.scene.refused();
     refuse(verdict, Refusal::kSceneContact,
            "the arm could touch " + where.body + ": predicted " + in_millimetres(simulated_m) + ", uncertain by " +
-               in_millimetres(levels.prediction_m) + ", allowed " + in_millimetres(levels.refuse_m) +
+               in_millimetres(levels.prediction_m) + ", allowed " + in_millimetres(refuse_m) +
                " for certain; it stands " + in_millimetres(stands_m) + " off",
            where);
   };
   if (!std::isfinite(least_m) ||
-      (claimed_m < levels.refuse_m && !leads_away(distances, travel_m, too_near.scene, too_near.retracts))) {
+      (claimed_m < refuse_m && !leads_away(distances, travel_m, too_near.scene, too_near.retracts))) {
     refuse_contact(least_m, start_m, first);
   } else if (const simulation::BodyBeside* body = entered(distances, levels.prediction_m)) {
     refuse_contact(body->nearest.distance_m, body->at_start_m, at_scene(scene, body->nearest, link_name));

@@ -65,6 +65,17 @@ TEST_F(AnArmBesideABody, ThatIsFarEnoughOffIsNotLetNearerThanItMay) {
   EXPECT_EQ(goes(0.0071, 0.0069, 0.0069), Refusal::kSceneContact);
 }
 
+// The way was free once; with what is known now it may seem to be less so.
+TEST_F(AnArmBesideABody, IsRetractedToWhereItIsCertainlyFreeWhateverTheSceneKeepsBeside) {
+  rules_.scene.margins.refuse_m = 0.003;
+  EXPECT_EQ(goes(0.0120, 0.0101, 0.0101), Refusal::kNone);
+  EXPECT_EQ(goes(0.0120, 0.0099, 0.0099), Refusal::kSceneContact);
+  too_near_.forget();
+  too_near_.retracts = true;
+  EXPECT_EQ(goes(0.0120, 0.0071, 0.0071), Refusal::kNone);
+  EXPECT_EQ(goes(0.0120, 0.0069, 0.0069), Refusal::kSceneContact);
+}
+
 TEST_F(AnArmBesideABody, ThatIsTooNearMayGoAwayAndAlongBesideIt) {
   EXPECT_EQ(goes(0.0050, 0.0049, 0.0060), Refusal::kNone);
   EXPECT_EQ(goes(0.0050, 0.0047, 0.0047), Refusal::kNone) << "measured poses are no better than that";
