@@ -124,8 +124,12 @@ class WhatKilledRunsLeave(SystemTest):
         self.assertEqual((refused.returncode, folders()), (2, left), "one that runs keeps its folder")
         process.kill()
         process.wait()
-        run("liana", "run", "no_such_mission", env=environment)
-        self.assertEqual(folders(), {"liana-run-notours"})
+
+        def swept():  # once the processes that were started are gone, too
+            run("liana", "run", "no_such_mission", env=environment)
+            return folders() == {"liana-run-notours"}
+
+        wait_until(swept, "the folder of the killed run to be swept")
 
 
 if __name__ == "__main__":
