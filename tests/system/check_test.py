@@ -116,13 +116,13 @@ class DryRuns(Checks):
         self.assertEqual(told["outcome"], "refused", told)
         refusal = told["refusals"][0]
         self.assertEqual(set(refusal), REFUSAL_FIELDS)
-        self.assertEqual((refusal["code"], refusal["name"], refusal["action"]), (208, "scene_contact", "hold"))
+        self.assertIsNone(refusal["code"], "the whole way was looked at: no command was made of it")
         self.assertEqual(refusal["step"], "a small move")
         self.assertIn("ball", refusal["text"])
-        self.assertIn("retract", refusal["remedy"].lower())
+        self.assertIn("retract", refusal["text"])
         self.assertEqual(told["refused"], sum(each["count"] for each in told["refusals"]))
         self.assertEqual([step["refused"] for step in told["steps"]], [0, told["refused"]])
-        self.assertGreater(told["min_clearance_m"], 0, "the arm is held before it touches anything")
+        self.assertGreater(told["min_clearance_m"], 0, "the arm does not move towards it")
 
     def test_a_fault_of_a_drive_ends_it_and_is_told(self):
         faults = self.short().parent / "faults.json"

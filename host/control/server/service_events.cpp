@@ -129,6 +129,14 @@ event::Event path_event(const arbiter::PathEvents& news) {
           .text = news.text};
 }
 
+// As that of a request: no command was made of it.
+event::Event path_refusal_event(const std::string& client, const std::string& text) {
+  return {.kind = event::EventKind::kRefusal,
+          .number = event::number_of(event::refusal_event("refused")),
+          .subject = client,
+          .text = text};
+}
+
 event::Event way_event(const arbiter::RetractEvents& news) {
   return {.kind = event::EventKind::kRetract,
           .number = event::number_of(news.what),

@@ -38,6 +38,7 @@ event::Event verdict_event(std::uint64_t command, const verification::Verdict& v
 // A path that begins, has come to an end or is refused.
 event::Event path_event(const arbiter::PathEvents& news);
 // What has become of the way back.
+event::Event path_refusal_event(const std::string& client, const std::string& text);
 event::Event way_event(const arbiter::RetractEvents& news);
 // A request that is answered with this error.
 event::Event refusal_event(const std::string& client, const std::string& op, const std::string& code,
