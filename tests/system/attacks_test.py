@@ -129,7 +129,7 @@ class WhatKilledRunsLeave(SystemTest):
             run("liana", "run", "no_such_mission", env=environment)
             return folders() == {"liana-run-notours"}
 
-        wait_until(swept, "the folder of the killed run to be swept")
+        wait_until(swept, "the sweep")
 
 
 if __name__ == "__main__":
