@@ -16,14 +16,10 @@ namespace {
 constexpr double kGravity_m_s2 = 9.80665;  // standard gravity, ISO 80000-3
 constexpr double kStartSpread_rad = 0.5 / kDegPerRad;
 
-RobotConfig built(const RobotConfig& robot, const ModelOptions& options, std::uint64_t seed) {
-  return options.spread ? spread_load(robot, seed) : robot;
-}
-
 TrueParameters parameters_of(const RobotConfig& robot, const ModelOptions& options, std::uint64_t seed) {
   TrueParameters truth =
       options.spread ? spread_parameters(robot, options.physics, seed) : table_parameters(robot, options.physics);
-  truth.gravity_m_s2 = built(robot, options, seed).gravity_m_s2;
+  truth.gravity_m_s2 = robot.gravity_m_s2;
   truth.gravity_m_s2.z -= kGravity_m_s2 * options.gravity_share;
   truth.linkage = uneven_linkage(robot, options.linkage_error, seed);
   return truth;
@@ -36,7 +32,7 @@ std::unique_ptr<Arm> make_arm(const RobotConfig& robot, const SceneConfig& scene
   if (options.arm == "light") return std::make_unique<KinematicArm>(robot, truth, start);
   if (options.arm != "full")
     throw std::runtime_error("--arm: \"" + options.arm + "\" is no arm model; allowed are full, light");
-  auto arm = std::make_unique<ArmPhysics>(built(robot, options, seed), scene, truth, start);
+  auto arm = std::make_unique<ArmPhysics>(robot, scene, truth, start);
   arm->set_free_step(options.free_step_s);
   arm->set_state(start, Theta{});  // the extremes of slot 0 are those of the laid-out cables
   return arm;
@@ -50,8 +46,9 @@ CablePlant::CablePlant(const RobotConfig& robot, const SceneConfig& scene, const
       links_(robot.link_count()),
       scene_(scene),
       options_(options),
-      truth_(parameters_of(robot, options, seed)),
-      arm_(make_arm(robot, scene, options, seed, truth_)),
+      built_(options.spread ? spread_load(robot, seed) : robot),
+      truth_(parameters_of(built_, options, seed)),
+      arm_(make_arm(built_, scene, options, seed, truth_)),
       drives_(robot, buses, truth_, arm_->payouts_m(), options.spread, seed, options.cross_wired),
       tip_before_m_(arm_->tip().position_m) {
   drives_.measure(motor_tensions_N());

@@ -35,6 +35,7 @@ class CablePlant final : public Plant {
   std::size_t links_;
   SceneConfig scene_;
   ModelOptions options_;
+  RobotConfig built_;  // the arm with its own masses and springs
   TrueParameters truth_;
   std::unique_ptr<Arm> arm_;
   DriveBank drives_;
