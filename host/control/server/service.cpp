@@ -239,7 +239,7 @@ void Service::tell_of_paths() {
   for (const arbiter::PathEvents& news : desk_.take_path_news()) {
     note(path_event(news));
     if (news.what != event::PathEvent::kRefused) continue;
-    if (dispatch_) dispatch_->note_request(tick(), path_refusal_event(owner_.name(), news.text));
+    if (dispatch_) dispatch_->note_request(tick(), refusal_event(owner_.name(), "refused", news.text));
     ++notes_.refusals;
     ++notes_.refused_motions;
     notes_.verdict.released = false;

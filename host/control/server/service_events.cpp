@@ -129,14 +129,6 @@ event::Event path_event(const arbiter::PathEvents& news) {
           .text = news.text};
 }
 
-// As that of a request: no command was made of it.
-event::Event path_refusal_event(const std::string& client, const std::string& text) {
-  return {.kind = event::EventKind::kRefusal,
-          .number = event::number_of(event::refusal_event("refused")),
-          .subject = client,
-          .text = text};
-}
-
 event::Event way_event(const arbiter::RetractEvents& news) {
   return {.kind = event::EventKind::kRetract,
           .number = event::number_of(news.what),
@@ -144,12 +136,16 @@ event::Event way_event(const arbiter::RetractEvents& news) {
           .text = news.text};
 }
 
-event::Event refusal_event(const std::string& client, const std::string& op, const std::string& code,
-                           const std::string& why) {
+event::Event refusal_event(const std::string& client, const std::string& code, const std::string& text) {
   return {.kind = event::EventKind::kRefusal,
           .number = event::number_of(event::refusal_event(code)),
           .subject = client,
-          .text = (op.empty() ? "request" : op) + " refused (" + code + "): " + why};
+          .text = text};
+}
+
+event::Event refusal_event(const std::string& client, const std::string& op, const std::string& code,
+                           const std::string& why) {
+  return refusal_event(client, code, (op.empty() ? "request" : op) + " refused (" + code + "): " + why);
 }
 
 event::Event owner_event(event::OwnerEvent what, const std::string& client) {

@@ -38,9 +38,10 @@ event::Event verdict_event(std::uint64_t command, const verification::Verdict& v
 // A path that begins, has come to an end or is refused.
 event::Event path_event(const arbiter::PathEvents& news);
 // What has become of the way back.
-event::Event path_refusal_event(const std::string& client, const std::string& text);
 event::Event way_event(const arbiter::RetractEvents& news);
 // A request that is answered with this error.
+// Of what a client asked for, in words that say what; and of the request `op`, with why.
+event::Event refusal_event(const std::string& client, const std::string& code, const std::string& text);
 event::Event refusal_event(const std::string& client, const std::string& op, const std::string& code,
                            const std::string& why);
 event::Event owner_event(event::OwnerEvent what, const std::string& client);
