@@ -26,8 +26,8 @@ bool leads_away(const simulation::Distances& distances, double travel_m, const T
   const double start_m = distances.scene_at_start_m, least_m = distances.scene.distance_m;
   const double end_m = distances.scene_at_end_m, allowed_m = too_near.least_m(retracts);
   if (!too_near.stands()) return end_m >= start_m && least_m >= start_m - kGivenAway_m;
-  // A stop takes up to 3 mm more than simulated: nothing but a retract ends nearer from there.
-  const double ends_m = retracts || start_m >= kMostCrept_m ? allowed_m : start_m;
+  // Nothing but a retract ends nearer from where a stop could touch.
+  const double ends_m = retracts || start_m >= kStopBeyond_m ? allowed_m : start_m;
   if (start_m >= allowed_m) return end_m >= ends_m && least_m >= start_m - kGivenAway_m;
   if (!retracts && !too_near.may_be_led(start_m)) return false;
   return end_m >= start_m + kAwayShare * travel_m && least_m >= start_m - kCreptDip_m;

@@ -23,6 +23,9 @@ constexpr double kCreptDip_m = 1e-4;
 // number of refusals.
 constexpr double kMostCrept_m = 3e-3;
 
+// What a stop after a refusal takes more than simulated.
+constexpr double kStopBeyond_m = 3e-3;
+
 // How much farther off than it has to be an arm is where what it came nearer by is forgotten.
 constexpr double kLeft_m = 3e-3;
 
