@@ -21,8 +21,8 @@ function tableRows(file) {
 
 // What faults and refusals mean and what to do: written by the code's own tables into docs/.
 function faultTables() {
-  const faults = tableRows('reference/faults.md').map(([number, name, , , , retreat, text, remedy]) => ({
-    number: Number(number), name, retreat: retreat === 'yes', text, remedy,
+  const faults = tableRows('reference/faults.md').map(([number, name, , , , retract, text, remedy]) => ({
+    number: Number(number), name, retract: retract === 'yes', text, remedy,
   }));
   const refusals = tableRows('reference/refusals.md').map(([number, name, text, , action, remedy]) => ({
     number: Number(number), name, text, action, remedy,

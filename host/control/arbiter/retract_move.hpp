@@ -121,7 +121,7 @@ class RetractMove {
   Goal<Arm> step(const liana::Outputs<Arm>& now) {
     if (join_) return go_on_joining(now);
     pace_ = risen(std::min(is_faulty_ ? kFaultyPace : kWayBackPace, pace_ + kPaceGain));
-    share_ += is_faulty_ ? std::min(pace_, retreat_share()) : pace_;
+    share_ += is_faulty_ ? std::min(pace_, retract_share()) : pace_;
     while (share_ >= 1.0 && ahead() != nullptr && !path_.newest().begins) pass_point();
     const typename Memory::Point* to = ahead();
     if (to == nullptr) {
@@ -146,7 +146,7 @@ class RetractMove {
     return pace;
   }
   // Of the piece to the point ahead, as much as a retract may go in an interval, and some less.
-  double retreat_share() const {
+  double retract_share() const {
     const typename Memory::Point* to = ahead();
     if (to == nullptr) return 1.0;
     double share = 1.0;

@@ -5,7 +5,7 @@ import tables from 'liana:tables';
 export interface FaultRow {
   number: number;
   name: string;
-  retreat: boolean; // retract is let through while it is latched
+  retract: boolean; // is let through while it is latched
   text: string;
   remedy: string;
 }

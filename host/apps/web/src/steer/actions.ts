@@ -29,7 +29,7 @@ function enableBlocked(facts: Facts): string {
 }
 
 function retractBlocked(facts: Facts): string {
-  const worse = (facts.faults ?? []).find((fault) => faultRow(fault.number)?.retreat === false);
+  const worse = (facts.faults ?? []).find((fault) => faultRow(fault.number)?.retract === false);
   if (worse) return `Fault ${worse.number} does not allow it: clear first.`;
   return facts.retracted ? 'It is all the way back.' : enabled(facts);
 }
