@@ -188,20 +188,17 @@ def build_tests(*targets, **options):
 
 
 @contextlib.contextmanager
-def beside(*builds):
-    """Of each build (preset, targets) what comes later is compiled while the block leaves a processor idle. What does not
-    compile is told when its turn comes."""
+def behind():
+    """Gives a function that begins what it is given, one after the other, on what the rest leaves of the processors; what
+    that gives back waits for the end and returns what came out."""
+    with concurrent.futures.ThreadPoolExecutor(1, initializer=os.nice, initargs=(19,)) as pool:
+        yield lambda *work: pool.submit(*work).result
 
-    def compile_all():
-        quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-        for preset, *targets in builds:
-            does("cmake", "--preset", preset, **quiet)
-            does("nice", "-n", "19", *ninja(preset, *targets), **quiet)
 
-    with concurrent.futures.ThreadPoolExecutor(1) as pool:
-        compiled = pool.submit(compile_all)
-        yield
-        compiled.result()
+def compile_quietly(preset, *targets):
+    """What does not compile is told when its turn comes."""
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    return configure(preset) and does(*ninja(preset, *targets), **quiet)
 
 
 def built(make):
@@ -248,17 +245,21 @@ def sanitizers():
     return compiles
 
 
+def targets_of(folders):
+    return [f"tests/{folder}/all" for folder in folders]
+
+
 def threads(folders):
     """Their unit tests with ThreadSanitizer."""
-    compiles = build("tsan", *(f"tests/{folder}/all" for folder in folders))
+    compiles = build("tsan", *targets_of(folders))
     if TALLY.count("what has threads compiles with ThreadSanitizer", compiles):
         for folder in folders:
             run_ctest("tsan", folder, "-L", "unit")
 
 
-def tidy():
+def is_tidy():
     files = [path for path in lint.sources(*TIDIED) if path.endswith(".cpp")]
-    TALLY.count(f"clang-tidy has nothing to say of {' '.join(TIDIED)}", bool(files) and lint.tidy(files))
+    return bool(files) and lint.tidy(files)
 
 
 def fuzz_targets_say(*options):
@@ -323,8 +324,7 @@ def proof():
     """A user's proof: the controller's arithmetic and rules, then whole processes, by the compiler that made the
     programs."""
     install("build", "configure")
-    targets = [*(f"tests/{folder}/all" for folder in PROVED), "tests/system/all"]
-    if not built(lambda: build_tests(*targets, env=keeping_objects())):
+    if not built(lambda: build_tests(*targets_of(PROVED), "tests/system/all", env=keeping_objects())):
         return
     for folder in PROVED:
         with stage(f"tests/{folder}"):
@@ -341,26 +341,31 @@ def deep():
             TALLY.count(name, is_clean())
     if not built(lambda: build_tests("all", *UNSANITIZED, env=keeping_objects())):
         return
-    with stage("page"):
-        page()
-    with stage("tests"):
-        other_tests()
-    threaded = [f"tests/{folder}/all" for folder in THREADED]
-    with stage("vcan"), beside(("checked", "unit_tests", "fuzz_targets"), ("tsan", *threaded)):
-        vcan()
-    with stage("unit tests"):
-        compiles = sanitizers()
-    with stage("bare root"):
-        bare_root(objects())
-    with stage("threads"):
-        threads(THREADED)
-    with stage("clang-tidy"):
-        tidy()
-    with stage("fuzzing"):
-        if compiles:
-            fuzzing()
-    with stage("no-alloc"):
-        no_alloc()
+    with behind() as begin:
+        compiled = begin(compile_quietly, "checked", "unit_tests", "fuzz_targets")
+        threaded = begin(compile_quietly, "tsan", *targets_of(THREADED))
+        tidied = begin(is_tidy)
+        with stage("page"):
+            page()
+        with stage("tests"):
+            other_tests()
+        with stage("vcan"):
+            vcan()
+        with stage("bare root"):
+            bare_root(objects())
+        with stage("no-alloc"):
+            no_alloc()
+        with stage("unit tests"):
+            compiled()
+            compiles = sanitizers()
+        with stage("fuzzing"):
+            if compiles:
+                fuzzing()
+        with stage("threads"):
+            threaded()
+            threads(THREADED)
+        with stage("clang-tidy"):
+            TALLY.count(f"clang-tidy has nothing to say of {' '.join(TIDIED)}", tidied())
 
 
 def only_page():
