@@ -50,10 +50,10 @@ def json_of_refusal(code, error):
 
 def interrupt(process):
     """Sends SIGINT as soon as the program has a handler of it: before that the system's loader is at work, not
-    `liana`.
+    `liana`. One that has ended by then has no handler any more: the caller sees how it ended.
     """
     caught = 0
-    while not caught & 1 << (signal.SIGINT - 1):
+    while process.poll() is None and not caught & 1 << (signal.SIGINT - 1):
         status = pathlib.Path(f"/proc/{process.pid}/status").read_text(encoding="utf-8")
         caught = int(re.search(r"SigCgt:\s*([0-9a-f]+)", status)[1], 16)
     process.send_signal(signal.SIGINT)
