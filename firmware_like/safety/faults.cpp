@@ -18,7 +18,7 @@ constexpr StopCategory kStop = StopCategory::kStop;
 constexpr std::array<FaultInfo, count_enumerators<FaultNumber, 1000>()> kFaultTable{{
     {kNone, "none", StopCategory::kNone, false, true, "No fault.", "Nothing to do."},
     {kCommandInvalid, "command_invalid", kHold, false, true,
-     "A released command held a value that is not finite or out of range.",
+     "An issued command held a value that is not finite or out of range.",
      "Look at the command (liana commands) by its sequence number; correct the client that sent it, then clear."},
     {kTicksLost, "ticks_lost", kStop, true, false,
      "More control deadlines in a row were lost than the drives tolerate.",
@@ -31,13 +31,13 @@ constexpr std::array<FaultInfo, count_enumerators<FaultNumber, 1000>()> kFaultTa
     {kJointJump, "joint_jump", kStop, true, false, "A joint's encoder changed faster than the joint can turn.",
      "Check the encoder and its cable; compare the joint's angle with the arm by eye, then clear and enable again."},
     {kWristSensorLost, "wrist_sensor_lost", kHold, false, true,
-     "In a push the wrist's force sensor was not to be trusted; the detail is 1 silent, 2 saturated, 3 failed, 4 no "
-     "number, 5 not at rest before the push, 6 stuck at the very same numbers.",
-     "The arm gives way where it is pushed; check sensor and cable, then clear, and back off before another push."},
+     "During an insertion the wrist's force sensor was unusable; the detail is 1 no sample, 2 saturated, 3 failed, "
+     "4 no number, 5 not at rest before the insertion, 6 equal samples.",
+     "The arm gives way to forces; check sensor and cable, then clear, and back off before another insertion."},
     {kPushOverload, "insert_overload", kHold, false, true,
-     "A push met more force, or a joint more torque, than it may; the drive is the joint, where it was one, the detail "
-     "is in N or N m.",
-     "Look for what jams; clear, back off along the axis, and push again with less force or better aligned."},
+     "An insertion met more force, or a joint more torque, than allowed; if it was a joint, the drive names it; the "
+     "detail is in N or N m.",
+     "Look for what jams; clear, back off along the axis, and insert again with less force or better aligned."},
     {kDriveMissing, "drive_missing", kStop, true, false, "A drive sent no heartbeat within the allowed time.",
      "Check the drive's supply and its bus connector, then clear, which boots what came back."},
     {kDriveSilent, "drive_silent", kStop, true, false, "A drive sent no feedback for more than two ticks.",
@@ -61,25 +61,24 @@ constexpr std::array<FaultInfo, count_enumerators<FaultNumber, 1000>()> kFaultTa
     {kDriveStopTimeout, "drive_stop_timeout", kStop, true, false, "A drive did not confirm that it is without power.",
      "Use the STO switch; do not approach the arm before the drive shows Switch on disabled, then clear."},
     {kNodeTwice, "duplicate_node_id", kStop, true, false,
-     "Somebody else speaks under the identifiers of a drive: two drives have one node id, or another master commands "
-     "it.",
+     "Another sender uses the identifiers of a drive: two drives have one node id, or another master commands it.",
      "Look for a second drive with this node id, or another program that commands drives; give each drive an id of its "
      "own or end the program, then clear."},
-    {kBusLost, "bus_lost", kStop, true, false, "A drive bus is down, in bus-off, or none of its drives is heard.",
+    {kBusLost, "bus_lost", kStop, true, false, "A drive bus is down, in bus-off, or none of its drives sends.",
      "Check connector, termination and interface state of the bus, then clear."},
     {kCableSlack, "cable_slack", kHold, false, true, "A cable's tension stayed under the floor.",
-     "Retract where the arm is in the way; disable, look at the cable on its drum, then clear and enable: that "
+     "Retract if the arm is in the way; disable, look at the cable on its drum, then clear and enable: enabling "
      "tightens it."},
     {kCableOverload, "cable_overload", StopCategory::kOff, true, false, "A cable's tension went over the hard limit.",
      "Free the arm by hand with the brakes' release procedure, inspect the cable, then clear."},
     {kTensionAlarm, "tension_alarm", kHold, false, true, "A cable's tension stayed over the alarm limit.",
      "Look for contact and retract from it; clear when the tension is under the limit again."},
     {kHomingImplausible, "homing_implausible", kHold, false, true,
-     "The lengths of one segment's cables came to contradict each other; the detail is by how many micrometres.",
+     "The lengths of one segment's cables contradict each other; the detail is by how many micrometres.",
      "Retract, disable and clear; look for a cable of this segment that creeps on its drum, and "
      "measure the zeros again (liana calibrate)."},
     {kCableSlip, "cable_slip", kHold, false, true,
-     "A cable slipped on its drum, or its encoder jumped: length and tension do not agree since; the detail is "
+     "A cable slipped on its drum, or its encoder jumped: length and tension no longer agree; the detail is "
      "micrometres of cable.",
      "Retract, disable and clear; look at the clamp on the drum and at the encoder. The cable's zero is wrong now: "
      "measure it again (liana calibrate)."},
@@ -87,14 +86,14 @@ constexpr std::array<FaultInfo, count_enumerators<FaultNumber, 1000>()> kFaultTa
      "A cable's tension was gone from one moment to the next: it broke or came off its drum, or its reading is lost.",
      "Stay away from the arm; look at the cable and its clamp on the drum, then at the drive's torque reading; then "
      "clear."},
-    {kTensionScatters, "tension_scatters", kHold, false, true, "Readings of a cable jump to and fro.",
+    {kTensionScatters, "tension_scatters", kHold, false, true, "Readings of a cable jump back and forth.",
      "Retract and disable; check the drive's torque and position measurement and its cable, then clear."},
     {kBodyContact, "body_contact", kHold, false, true,
-     "Something pushes the body of the arm: the torques of its cables do not balance; the drive is the first of the "
-     "segment that is touched, where that can be named, the detail is in 0.01 N m.",
+     "A force acts on the arm's body: the torques of its cables do not balance; the drive is the first of the touched "
+     "segment, if that is known; the detail is in 0.01 N m.",
      "Look where the arm touches; retract, or take away what it touches, then clear."},
     {kFrictionNotAsDeclared, "friction_not_as_declared", kHold, false, true,
-     "Friction of the cables is higher than declared, and than tensions can be planned for; the detail is mu in "
+     "Friction of the cables is higher than declared, and higher than plans of tensions allow; the detail is mu in "
      "0.0001.",
      "Retract and disable; look for worn holes or dirt, then measure again (liana calibrate --friction), and clear."},
     {kGateRefused, "gate_refused", kStop, true, false,

@@ -86,7 +86,7 @@ def speeds(truth, limits, slots):
         row = truth.rows[slot]
         allowed_m_s = SLIT_MARGIN * limits.tip_slit_m_s if row[depth] > 0 else FREE_MARGIN * limits.tip_m_s
         if row[speed] > allowed_m_s:
-            return [f"slot {slot}: the tip moves at {row[speed]:.4f} m/s, allowed are {allowed_m_s:.4f}"]
+            return [f"slot {slot}: the tip moves at {row[speed]:.6f} m/s, allowed are {allowed_m_s:.6f}"]
     fastest = RATE_MARGIN * limits.rate_deg_s
     return first_over(truth, "fastest_deg_s", slots, lambda rate: rate > fastest, "an angle turns at {:.2f} deg/s")
 

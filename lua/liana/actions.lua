@@ -32,9 +32,9 @@ function actions.move_cp(fields)
   return giving("move_cp", fields, position(1))
 end
 
--- Steers nodes by null-space targets { { node = 3, position_m = {x, y, z}, weight = 1, threshold_m = 0.01 }, ... } and pushes
--- the arm's middle away from points { { centre_m = {x, y, z}, distance_m = 0.3, weight = 1 }, ... } (optional). With `search` the best of
--- all shapes is looked for and gone to first; the arm has to be at rest.
+-- Moves nodes by null-space targets { { node = 3, position_m = {x, y, z}, weight = 1, threshold_m = 0.01 }, ... } and pushes
+-- the arm's middle away from points { { center_m = {x, y, z}, distance_m = 0.3, weight = 1 }, ... } (optional). With `search` the arm
+-- first moves to the best of all shapes; it has to be at rest.
 function actions.shape(nodes, keep_clear, search)
   check_argument("shape", "nodes", nodes, "table")
   if keep_clear ~= nil then check_argument("shape", "keep_clear", keep_clear, "table") end
@@ -42,7 +42,7 @@ function actions.shape(nodes, keep_clear, search)
   return giving("shape", { nodes = nodes, keep_clear = keep_clear, search = search }, position(1))
 end
 
--- The tip goes to `offset` beside a target that the tip camera sees and stays there for the dwell; fields of
+-- The tip goes to `offset` beside a target that the tip camera sees and stays there for `dwell_s`; fields of
 -- `servo_target` (docs/reference/api.md): { target = "adapter", offset = { x, y, z, qw, qx, qy, qz }, ... }.
 function actions.servo_target(fields)
   check_argument("servo_target", "fields", fields, "table")
@@ -56,7 +56,7 @@ function actions.insert(fields)
   return giving("insert", fields, position(1))
 end
 
--- From rest, the joints give way to what pushes them, until something else is asked for. For serial arms only.
+-- From rest, the joints give way to forces, until the next request. For serial arms only.
 function actions.comply() return giving("comply", {}, position(1)) end
 
 -- What the arm carries from now on; fields of `payload` (docs/reference/api.md): { mass_kg = 500, center_m = {x, y, z},
@@ -66,7 +66,7 @@ function actions.payload(fields)
   return giving("payload", fields, position(1))
 end
 
--- Tells the adapter to "lock" or to "release" the payload. For serial arms only.
+-- Commands the adapter to "lock" or to "release" the payload. For serial arms only.
 function actions.adapter(command)
   check_argument("adapter", "command", command, "string")
   return giving("adapter", { command = command }, position(1))

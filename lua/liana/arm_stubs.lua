@@ -236,7 +236,7 @@ function arm.hold_theta(fields) end
 
 ---@class arm.shape.keep_clear
 ---what to keep away from, in the base frame
----@field centre_m number[]
+---@field center_m number[]
 ---how far away from it the axis should stay
 ---@field distance_m number
 ---of this wish against the others (else 1)

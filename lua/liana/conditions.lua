@@ -138,7 +138,7 @@ end
 
 local kServoFailures = { lost = "target lost", timed_out = "servo timed out" }
 
--- The visual servo has lost its target, or was not there in time; what is told says why.
+-- The visual servo has lost its target, or did not arrive in time; the report says which.
 function conditions.servo_failed()
   local text = "target lost or servo timed out"
   return { text = text, met = function(arm)
@@ -149,7 +149,7 @@ function conditions.servo_failed()
   end }
 end
 
--- Something pushes the tip with at least least_N, which is known to sd_N (default 0.6) along every axis.
+-- The force on the tip is at least least_N, and known to sd_N (default 0.6) along every axis.
 function conditions.tip_force(least_N, sd_N)
   check_argument("tip_force", "least_N", least_N, "number over 0")
   sd_N = sd_N or 0.6
@@ -174,7 +174,7 @@ function conditions.tip_past(u_m)
   return condition_in("slit", position(1), ("tip past u = %g m"):format(u_m), function(arm) return arm.slit_u() >= u_m end)
 end
 
--- The slit asks for at least `count` planar segments: the point to go from 10+0 to 9+1 to 8+2 variables, found from the slit's mouth.
+-- At least the last `count` segments have to be planar (flat) now, as lianad computes from where they are at the slit's mouth.
 function conditions.needs_planar(count)
   check_argument("needs_planar", "count", count, "number")
   return condition_in("slit", position(1), ("slit asks for %d planar segments"):format(count), function(arm)
@@ -190,13 +190,13 @@ function conditions.tip_in_plane(distance_m)
   end)
 end
 
--- The variables this step holds are held and at their targets.
+-- The joints that this step holds are held and at their targets.
 function conditions.held()
   return condition("held variables at their targets", function(arm) return arm.holds_what_it_should() and arm.state.held_at_target end)
 end
 
--- The shape asked for by `shape` has arrived: nothing of it is missing, or it has come no nearer for 4 s. At most missing_m [m] may be
--- missing (any where not given).
+-- The arm has the shape that `shape` requested, or has come no nearer to it for 4 s. Its nodes may be at most missing_m [m] away (any
+-- distance if not given).
 function conditions.shape_settled(missing_m)
   if missing_m ~= nil then check_argument("shape_settled", "missing_m", missing_m, "number") end
   local text = missing_m and ("shape settled with at most %g m missing"):format(missing_m) or "shape settled"
@@ -207,7 +207,7 @@ function conditions.shape_settled(missing_m)
   end)
 end
 
--- The operator engaged the device in this step and has let go of it.
+-- The operator has closed and opened the deadman in this step.
 function conditions.released()
   return condition("device released by the operator", function(arm) return arm.was_engaged and not arm.state.device_engaged end)
 end

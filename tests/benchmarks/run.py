@@ -37,10 +37,9 @@ HEAD = """# Instructions and times beside peers
 Written by `./dev benchmark`; do not edit by hand. {date}, commit {commit}, {compiler} at plain -O2 throughout, {machine},
 took {seconds:.0f} s.
 
-Instructions are counted by callgrind (valgrind) in each call on its own; a row shows the median over all calls. They
-repeat to within a few instructions and are what the tests hold (`tests/benchmarks/gate.py`). Times are those of one run, on
-a machine that does other things as well: an order of magnitude. Before anything is counted, the same program checks
-that ours and the peer agree: poses, Jacobians and cable lengths to 1e-9, solved goals to 1e-5 or better, FCL's
+Callgrind (valgrind) counts the instructions of each call; a row shows the median over all calls. They repeat to within a
+few instructions, and tests hold them below limits (`tests/benchmarks/gate.py`). Times are of one run on a machine with
+other work, so they show an order of magnitude only. First the same program checks that ours and the peer agree: poses, Jacobians and cable lengths to 1e-9, solved goals to 1e-5 or better, FCL's
 distances to 2 mm.
 """
 TAIL = """## What the peers are

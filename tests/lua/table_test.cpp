@@ -288,7 +288,7 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
        "at_rest(), "
        "time_limit_s = 1, on_fail = 'hold' }",
        {"given.lua", "entry 1", "nodes", "wieght", "2", "node", "position_m", "weight", "threshold_m", "unknown"}},
-      {"step 'a' { device = 'none', run = liana.shape({}, { { centre_m = { 1, 0, 0 } } }), exit = at_rest(), "
+      {"step 'a' { device = 'none', run = liana.shape({}, { { center_m = { 1, 0, 0 } } }), exit = at_rest(), "
        "time_limit_s = 1, "
        "on_fail = 'hold' }",
        {"given.lua", "entry 1", "keep_clear", "distance_m", "number"}},

@@ -78,9 +78,9 @@ def row(kind, reports):
 HEAD = [
     "kind",
     "crossed",
-    "ticks with a claim above the truth",
+    "ticks with a bound above the truth",
     "by mm at most",
-    "least claim mm (least / median / most)",
+    "least bound mm (least / median / most)",
     "least true clearance mm",
     "longest s",
     "true tip in the slit mm/s",
@@ -94,8 +94,8 @@ def measure(binaries, count=200):
             reports = list(pool.map(lambda case: run_once(binaries, directory, *case), cases))
     rows = [row(kind, [report for report in reports if report["kind"] == kind]) for kind in KINDS]
     text = (
-        f"Seeds {FIRST_SEED} to {FIRST_SEED + count - 1}, the kinds in turn. A claim is held against the truth of every"
-        " tick until the next one.\n\n"
+        f"Seeds {FIRST_SEED} to {FIRST_SEED + count - 1}, the kinds in turn. Each clearance bound is compared with the truth"
+        " of every tick until the next bound.\n\n"
     )
     whys = [
         f"- {report['kind']} {report['seed']}: {report.get('reason', '')}\n"

@@ -60,8 +60,8 @@ def measure(binaries, count=2):
         groups[trial["kind"], trial["physics"]].append(trial)
     text = table(HEAD, [row(*key, group) for key, group in groups.items()])
     text = (
-        "Sizes grow by 15 % until they are found: the worst of each segment's seeds. False alarms: none in the missions"
-        f" above ([mission](#mission)).\n\n{text}"
+        "The size of a fault grows by 15 % until the fault is found; each row has the worst of a segment's seeds."
+        f" Faults of missions without an injected fault are in [mission](#mission).\n\n{text}"
     )
     return trials, text
 

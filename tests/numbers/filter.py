@@ -8,8 +8,17 @@ from asking import counted
 from page import table
 
 HEAD = ["filter", "lag ms at 30, 100 mm/s", "dB at 8 / 10 / 12 Hz", "most dB in 8-12 Hz", "most dB under 7 Hz"]
-HEAD += ["reach of 60 mm in 2 s: past its end mm", "swing of a 0.6 Hz mode mm", "left of 0.5 mm RMS tremor, um"]
-LED = ["limits", "hand", "lag of the true tip ms", "swing mm", "past the end mm", "least tension N", "faults"]
+HEAD += ["reach of 60 mm in 2 s: past its end mm", "sway of a 0.6 Hz mode mm", "left of 0.5 mm RMS tremor, um"]
+LED = ["limits", "hand", "lag of the true tip ms", "sway mm", "past the end mm", "least tension N", "faults"]
+BESIDE = (
+    "Each filter of Liana is followed by two others with the same lag at 30 mm/s, at 250 Hz. Gains are for 1 mm of tremor."
+    " The last column has tremor of 0.5 mm RMS and 8 to 12 Hz, sampled at 90 Hz and averaged over command intervals."
+)
+LED_BY_A_HAND = (
+    "How the true tip follows a hand. A sample takes 50 ms from the hand until its goal is in force. The lag is that of an"
+    " arm as the table describes it, without friction. The other columns are with friction, the worst of the seeds. Sway is"
+    " the distance from the commanded to the true tip."
+)
 
 
 def row(found):
@@ -40,12 +49,9 @@ def led_row(found):
 
 def measure(binaries, count=3):
     values = counted(binaries / "filter", count)
-    text = (
-        "Every filter of ours is followed by the two that are as late; at 250 Hz, 1 mm of tremor for the gains. Tremor of"
-        " 0.5 mm RMS: 8 to 12 Hz, sampled at 90 Hz and averaged over command intervals as a device's samples are.\n\n"
-    )
+    text = BESIDE + "\n\n"
     text += table(HEAD, [row(found) for found in values["filters"]])
-    text += "\n\nThe true tip after a hand, its samples 50 ms on their way to a goal in force (lag of an arm as the table says, without friction; the rest with friction, the worst of the seeds); swing: away from where it is commanded:\n\n"
+    text += f"\n\n{LED_BY_A_HAND}\n\n"
     text += table(LED, [led_row(found) for found in values["led"]])
     return values, text
 

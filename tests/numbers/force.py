@@ -1,4 +1,4 @@
-"""How well the force at the tip is estimated (docs/explanation/contact-force.md): 20 configurations of 10 pushes on the
+"""How well the force at the tip is estimated (docs/explanation/contact-force.md): 20 configurations of 10 forces on the
 bench's own processes, nominal and worn, and what friction costs in the closed loop.
 
 Alone: force.py [--bin DIR] [--count PUSHES] [--json].
@@ -6,8 +6,10 @@ Alone: force.py [--bin DIR] [--count PUSHES] [--json].
 from asking import ask, counted
 from page import table
 
-HEAD = ["state", "push N", "pushes", "bias N", "RMS N", "largest N", "within 95 %", "axes seen"]
-FRICTION_HEAD = ["friction taken off", "at rest N", "moving N", "after a dither N", "free, moving N"]
+HEAD = ["state", "force N", "forces", "bias N", "RMS N", "largest N", "within 95 %", "axes seen"]
+FRICTION_HEAD = ["subtracted friction", "at rest N", "moving N", "after a dither N", "free, moving N"]
+STATES = {"still": "at rest", "dithered": "after a dither", "resting": "at rest"}
+FRICTIONS = {"as felt": "as measured"}
 CONFIGURATIONS = 20
 SEED = 63001  # nothing was tuned with it
 
@@ -18,7 +20,7 @@ def figure(value, digits=2):
 
 def error_row(row):
     return [
-        row["state"],
+        STATES.get(row["state"], row["state"]),
         "all" if row["size_N"] is None else f"{row['size_N']:.0f}",
         row["count"],
         figure(row["bias_N"]),
@@ -30,27 +32,32 @@ def error_row(row):
 
 
 def text_of(test):
-    lines = [f"{test['physics']}:\n", table(HEAD, [error_row(row) for row in test["errors"]]), ""]
+    found_from = f"A force is found once {test['found_from_N']:.1f} N are published."
+    lines = [f"{test['physics']}. {found_from}\n", table(HEAD, [error_row(row) for row in test["errors"]]), ""]
     for row in test["found"]:
-        lines.append(
-            f"- {row['size_N']:.0f} N, {row['state']}: found from {test['found_from_N']:.1f} N told in"
-            f" {100 * row['found']:.1f} % of {row['count']}, after {row['median_s']:.2f} s (latest"
-            f" {row['latest_s']:.2f} s)"
+        after = (
+            f", after {row['median_s']:.2f} s in the median, {row['latest_s']:.2f} s at most" if row["found"] else ""
         )
+        state = STATES.get(row["state"], row["state"])
+        lines.append(f"- {row['size_N']:.0f} N, {state}: found {100 * row['found']:.1f} % of {row['count']}{after}")
     for how, row in test["free"].items():
         lines.append(
-            f"- free, {how}: told {row['median_N']:.2f} N median, {row['p99_N']:.2f} N 99 %, {row['largest_N']:.2f} N at"
-            f" most; found in {row['found']} of {row['looks']} looks"
+            f"- no force, {STATES.get(how, how)}: {row['median_N']:.2f} N are published in the median, {row['p99_N']:.2f} N at 99 %,"
+            f" {row['largest_N']:.2f} N at most; {row['found']} of {row['looks']} rounds find a force"
         )
     body = test["body"]
-    lines.append(f"- on the body: {body['felt']} felt and {body['right']} named right of {body['count']}")
+    lines.append(
+        f"- forces on the body: {body['count']}, detected {body['felt']}, on the right segment {body['right']}"
+    )
     faults = ", ".join(f"{fault['number']} at {fault['pushed_N']:.1f} N" for fault in test["watchdogs"]) or "none"
-    lines.append(f"- faults: {faults}")
+    lines.append(f"- forces that ended in a fault: {faults}")
     return "\n".join(lines)
 
 
 def friction_row(row):
-    return [row["friction"]] + [figure(row[key]) for key in ("still_N", "moving_N", "dithered_N", "free_moving_N")]
+    return [FRICTIONS.get(row["friction"], row["friction"])] + [
+        figure(row[key]) for key in ("still_N", "moving_N", "dithered_N", "free_moving_N")
+    ]
 
 
 def measure(binaries, count=200):

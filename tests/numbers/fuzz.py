@@ -11,9 +11,11 @@ from page import Page, commit_of, table
 EXECUTIONS = 10_000_000
 HEAD = ["target", "bytes at most", "executions", "s", "executions/s", "again", "crashes", "measured"]
 HOW = (
-    "The build is hardened as what is installed, with the standard library's assertions; every input that reached"
-    " something new then ran again with AddressSanitizer and UndefinedBehaviorSanitizer. Inputs have at most so many"
-    " bytes as the table says, from the corpus in tests/fuzz/corpus, of which none is cut."
+    "The build is hardened as the installed programs, with the standard library's assertions. An input has at most as many"
+    " bytes as the table says, and no input of the corpus (tests/fuzz/corpus) is cut. Afterwards every input that reached"
+    ' something new runs once more, with AddressSanitizer and UndefinedBehaviorSanitizer; column "again" counts these'
+    ' inputs. Older rows differ there. "yes": they ran and were not counted. "all of it": the run itself had the'
+    ' sanitizers. "-": none ran again.'
 )
 
 

@@ -98,7 +98,7 @@ def samples_row(device, of_device):
 def samples_text(runs):
     told = [one["operator_samples"] for name, _, _, _ in CASES[:2] for one in runs[name] if "operator_samples" in one]
     rows = [samples_row(name, [one[name] for one in told if one.get(name)]) for name in ("vr", "hand") if told]
-    return "\n\nSamples in arm time, without a delay; what verification takes is not in it:\n\n" + table(
+    return "\n\nTimes of samples in arm time, without a delay and without the time of verification:\n\n" + table(
         SAMPLES_HEAD, rows
     )
 

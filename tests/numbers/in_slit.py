@@ -36,7 +36,8 @@ def lines(groups, figures):
 
 
 def failures(rows):
-    return "".join(f"\n- {row['name']}: {row['why']}" for row in rows if row["why"])
+    lines_of = [f"- {row['name']}: {row['why']}" for row in rows if row["why"]]
+    return "\n".join(["", "Outside its targets (figures are rounded):", "", *lines_of]) if lines_of else ""
 
 
 def measure(binaries, count=20):
@@ -53,7 +54,7 @@ def measure(binaries, count=20):
     head = ["within its targets", "contact N", "clearance mm", "link mm", "rest s"]
     text = "Least / median / most; targets are in `hil/scenarios/slit/targets.json`.\n\n"
     text += table(["fault", *head], lines(by_kind, FIGURES))
-    text += "\n\n" + table(["killed", *head, "beside its way mm"], lines(by_victim, (*FIGURES, "tube_mm")))
+    text += "\n\n" + table(["killed", *head, "off its path mm"], lines(by_victim, (*FIGURES, "tube_mm")))
     return {"faults": by_kind, "kills": by_victim}, text + "\n" + failures(everything)
 
 

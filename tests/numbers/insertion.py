@@ -13,8 +13,8 @@ from page import table
 PICTURE = ROOT / "docs/pictures/push.svg"
 FORCE_N, APPROACH_SHARE = 30.0, 0.3  # push.hpp
 BASES = {1: "soft", 20: "stiff"}
-HEAD = ["base", "K_D, N s/m", "way in, mm/s", "captured", "after s: median, most", "hardest N", "a ton at a wall, N"]
-HEAD += ["base swings within 5 s, mm: median, most", "20 to 30 s later"]
+HEAD = ["base", "K_D, N s/m", "speed, mm/s", "captured", "after s: median, most", "hardest N", "a ton at a wall, N"]
+HEAD += ["base sways within 5 s, mm: median, most", "20 to 30 s later"]
 
 
 def middle_and_most(values, factor, form):
@@ -45,9 +45,9 @@ def measure(binaries):
     for one in found:
         cases[one["base_share"], one["damping_Ns_m"]].append(one)
     text = (
-        "30 N, a way in that K_D makes slower and slower; payloads, friction, gears and walls drawn, 8 seeds a row. A wall: a ton that"
-        " misses its holes by 1.5 mm, against pins of 200 kN/m, the hardest of four directions. What the base swings is half of what"
-        " is between its ends.\n\n"
+        "Insertions with 30 N, each row with a larger K_D, which makes them slower. Payloads, friction, gears and walls are"
+        ' drawn, 8 seeds a row. "A ton at a wall": a payload of a ton misses its holes by 1.5 mm and meets pins of'
+        " 200 kN/m, the hardest of four directions. Sway is half the distance between its two ends.\n\n"
     )
     return found, text + table(HEAD, [row(*case, ones) for case, ones in cases.items()])
 

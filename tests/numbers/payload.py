@@ -162,14 +162,14 @@ def not_installed(flown):
 def misaligned_text(flown):
     good = [one for one in flown if one["outcome"] == "success"]
     text = (
-        "\n\nThe same mission begun (without the station's steps) with the payload before the adapter, beside its axis by up to 28 mm (20 mm in x and in y)"
-        " and turned by up to 1 deg (scene `payload_misaligned`); a push that jams is given up, backed off from, servoed and"
-        f" begun again. {len(good)} of {len(flown)} installed.\n\n"
+        "\n\nThe same mission without the station's steps. The payload begins before the adapter, off its axis by up to 28 mm"
+        " (20 mm in x and in y) and turned by up to 1 deg (scene `payload_misaligned`). If an insertion jams, the mission backs"
+        f" off, servos and inserts again. {len(good)} of {len(flown)} installed.\n\n"
     )
     for robot, first in FIRST_MISALIGNED.items():
         there = [one for one in good if 0 <= one["seed"] - first < 1000]
         pushes_of = [sum(step["name"] == PUSH for step in one["steps"]) for one in there]
-        counts = ", ".join(f"{pushes_of.count(n)} at push {n}" for n in sorted(set(pushes_of)))
+        counts = ", ".join(f"{pushes_of.count(n)} at insertion {n}" for n in sorted(set(pushes_of)))
         over = sum(one["peak_force_N"] > 60 for one in there)
         text += f"`{robot}`, seeds {first} on: {len(there)}, {counts}; {over} met more than 60 N.\n\n"
         text += table([f"of {len(there)} flights", *HEAD], flight_rows(FROM_ADAPTER_ROWS, there)) + "\n\n"
@@ -188,13 +188,13 @@ def measure(binaries, count=PUSHES, flown=FLIGHTS, misaligned=MISALIGNED, keep=N
     captured = [one for one in pushed if one["captured_s"] > 0]
     rows = [spread(name, asked, [f * one[key] for one in captured]) for name, asked, key, f in PUSH_ROWS]
     text = (
-        f"{len(captured)} of {len(pushed)} pushes captured, {sum(one['faults'] > 0 for one in pushed)} with a fault: payloads of"
-        " 300 to 1000 kg, base and gears of another stiffness, friction, noise and offset of the sensor, and pins from"
-        " soft to hard, all drawn.\n\n"
+        f"{len(captured)} of {len(pushed)} insertions captured, {sum(one['faults'] > 0 for one in pushed)} with a fault. Seeds"
+        f" from {every[0]['seed']} draw the payload (300 to 1000 kg), the stiffness of base and gears, friction, the sensor's"
+        " noise and offset, and the pins' stiffness.\n\n"
     )
-    text += table([f"of {len(captured)} pushes", *HEAD], rows)
-    text += "\n\nBegun beside the axis and turned by up to so much, in any direction, so far before the face that pins are clear of\n"
-    text += "their funnels (30 mm wide, the source's tolerance); 40 s for each:\n\n"
+    text += table([f"of {len(captured)} insertions", *HEAD], rows)
+    text += "\n\nInsertions that begin off the axis and turned, in any direction, by at most the first column. The pins begin"
+    text += " outside of their funnels (30 mm wide, the source's tolerance). Each has 40 s:\n\n"
     text += table(MISALIGNED_HEAD, [misaligned_row(name, group) for name, group in groups.items()])
     good = [one for one in whole if one["outcome"] == "success"]
     text += f"\n\n`liana run payload_install --time fast`, seeds {FIRST_FLIGHT} on: {len(good)} of {len(whole)} installed.\n\n"

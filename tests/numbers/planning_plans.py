@@ -270,7 +270,7 @@ def measure(binaries, count=PROBLEMS):
         f"Random scenes, 20 waypoints, margin {1000 * MARGIN_M:.0f} mm; {found['wrong']} solved plans fail the"
         f" independent check; {found['settled']} settled; starts {found['starts']}.\n\n"
     )
-    text += table(["start", "problems", "solved", "median time", "median iterations", "failures"], rows) + "\n"
+    text += table(["start", "problems", "solved", "median time", "median iterations", "failures"], rows) + "\n\n"
     text += (
         table(
             [
@@ -281,7 +281,7 @@ def measure(binaries, count=PROBLEMS):
             ],
             found["published"],
         )
-        + "\n"
+        + "\n\n"
     )
     return found, text + table(
         ["leg", "outcome", "start", "time", "iterations", "clearance", "from the straight line"], found["legs"]

@@ -9,10 +9,10 @@ from page import table
 HEAD = [
     "hand",
     "motions",
-    "with a broken promise",
-    "most deg of a theta in one tick",
+    "with a failed check",
+    "largest step of a theta, deg a tick",
     "deg per mm",
-    "back after s, mean",
+    "returned after s, mean",
     "most",
 ]
 
@@ -33,7 +33,7 @@ def measure(binaries, count=1000):
     found = ask(binaries / "planning_teleop", "--count", count, "--json")
     causes = collections.Counter(violation["cause"] for violation in found["violations"])
     text = (
-        "Broken promises by cause: "
+        "Failed checks by cause: "
         + (", ".join(f"{cause} {number}" for cause, number in causes.most_common()) or "none")
         + ".\n\n"
     )

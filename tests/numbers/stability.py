@@ -27,8 +27,8 @@ PROTOTYPE = {
 }
 HEAD = ["law", "layer", "unstable", "still moving", "gave over 0.1 J", "least energy J", "fastest mm/s", "drift mm"]
 HEAD += ["still moving by delay 0 / 0.1 / 0.5 / 1 / 2 / 4 s", "by hand 0 / 100 / 300 / 1000 N/m", "prototype"]
-FELT = ["law", "layer", "felt in free motion, by delay 0 / 0.1 / 0.5 / 1 / 2 / 4 s (N)", "felt pressing (N)"]
-FELT += ["the tank took pressing (N)", "and withdrawing (N)"]
+FELT = ["law", "layer", "in free motion, by delay 0 / 0.1 / 0.5 / 1 / 2 / 4 s (N)", "pressing (N)"]
+FELT += ["removed pressing (N)", "removed withdrawing (N)"]
 
 
 def measured(program, count):
@@ -96,7 +96,8 @@ def measure(binaries, count=ALL):
         " the hand more than 0.1 J. Drift, in those 15 s, is not judged. Prototype: cells still moving, least energy.\n\n"
     )
     text += table(HEAD, [row(*of) for of in rows])
-    text += "\n\nA hand of 300 N/m on its way (mean) and pressed 50 mm into the stiffest wall; what the tank took of the force, all hands that press (RMS; mean, worst):\n\n"
+    text += "\n\nForces on a hand of 300 N/m: in free motion (mean), and pressed 50 mm into the stiffest wall. The last two columns"
+    text += " have the force that the tank removed, over all hands that press (RMS; mean, worst):\n\n"
     text += table(FELT, [felt(*of) for of in rows])
     return cells, text
 

@@ -134,15 +134,21 @@ class Requests(SystemTest):
             "weight",
         )
         self.assert_refused(
-            self.client.ask("shape", nodes=[], keep_clear=[{"centre_m": [0, 0, 99], "distance_m": 0.1}]),
+            self.client.ask("shape", nodes=[], keep_clear=[{"center_m": [0, 0, 99], "distance_m": 0.1}]),
             "out_of_range",
+            "center_m",
+        )
+        self.assert_refused(
+            self.client.ask("shape", nodes=[], keep_clear=[{"centre_m": [1, 0, 0], "distance_m": 0.1}]),
+            "bad_request",
             "centre_m",
+            "center_m",
         )
         self.assert_refused(
-            self.client.ask("shape", nodes=[], keep_clear=[{"centre_m": [1, 0, 0]}]), "bad_request", "distance_m"
+            self.client.ask("shape", nodes=[], keep_clear=[{"center_m": [1, 0, 0]}]), "bad_request", "distance_m"
         )
         self.assert_refused(
-            self.client.ask("shape", nodes=[], keep_clear=[{"centre_m": [1, 0, 0], "distance_m": 0.1}] * 5),
+            self.client.ask("shape", nodes=[], keep_clear=[{"center_m": [1, 0, 0], "distance_m": 0.1}] * 5),
             "bad_request",
             "keep_clear",
         )

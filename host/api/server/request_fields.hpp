@@ -169,7 +169,7 @@ constexpr std::array kNode{
     number("threshold_m", 0.0, kReach, "nearer than this nothing is done").otherwise(0.01),
 };
 constexpr std::array kClear{
-    point("centre_m", "what to keep away from, in the base frame"),
+    point("center_m", "what to keep away from, in the base frame"),
     number("distance_m", 0.0, kReach, "how far away from it the axis should stay"),
     number("weight", 0.0, 1000.0, "of this wish against the others").otherwise(1.0),
 };

@@ -175,11 +175,12 @@ constexpr std::array<options::RetiredName, 2> kRetiredOps{{
     {"follow", "comply"},
 }};
 
-constexpr std::array<options::RetiredName, 4> kRetiredFields{{
+constexpr std::array<options::RetiredName, 5> kRetiredFields{{
     {"swing_s", "sway_s"},
     {"quicker_swing_s", "quicker_sway_s"},
     {"swing_off", "sway_tolerance"},
     {"aside_m", "lateral_m"},
+    {"centre_m", "center_m"},
 }};
 
 }  // namespace

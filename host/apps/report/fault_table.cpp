@@ -42,57 +42,59 @@ int ticks_of_cables(const FaultTimes& times) {
 
 // In ascending order, as all_faults(). A new number without a row does not compile.
 constexpr std::array<Detection, count_enumerators<FaultNumber, 1000>() - 1> kDetections{{
-    {kCommandInvalid, "controller: each value of a released command when it takes force", ticks<0>},
-    {kTicksLost, "watchdog: deadlines lost in a row, more than 2", ticks<1>},
+    {kCommandInvalid, "controller: each value of an issued command when it takes force", ticks<0>},
+    {kTicksLost, "drive link monitor: deadlines lost in a row, more than 2", ticks<1>},
     {kJointOutOfRange, "serial arm: encoder more than 1 deg beyond the joint's range, in a row",
      ticks<serial::kRangeDebounceTicks>},
     {kJointJump, "serial arm: encoder against the tick before, over three times the joint's rate", ticks<1>},
     {kWristSensorLost,
-     "push: no new sample of the wrist sensor, or one that is saturated, failed or no number (at once); the very "
-     "same numbers (after wrist_still_samples of the table)",
+     "insertion: no new sample of the wrist sensor, or one that is saturated, failed or no number (at once); equal "
+     "samples (after wrist_still_samples of the table)",
      ticks<serial::kWristSilentTicks + 1>},
-    {kPushOverload, "push: force felt at the wrist or torque of a joint over the most that a push may, in a row",
+    {kPushOverload, "insertion: force at the wrist or torque of a joint over the maximum of an insertion, in a row",
      ticks<serial::kOverloadTicks + 1>},
-    {kDriveMissing, "watchdog: age of the drive's heartbeat, more than 0.3 s",
+    {kDriveMissing, "drive link monitor: age of the drive's heartbeat, more than 0.3 s",
      [](const FaultTimes& times) { return heartbeat_age_ticks(times.tick_s) + heartbeat_period(times); }},
-    {kDriveSilent, "watchdog: age of the drive's report, more than 2 ticks", ticks<kFeedbackAgeTicks + 1>},
-    {kDriveFault, "watchdog: statusword says fault", ticks<1>},
-    {kDriveLeftOperation, "watchdog: statusword of a drive that should be in Operation enabled", ticks<1>},
+    {kDriveSilent, "drive link monitor: age of the drive's report, more than 2 ticks", ticks<kFeedbackAgeTicks + 1>},
+    {kDriveFault, "drive link monitor: statusword reports a fault", ticks<1>},
+    {kDriveLeftOperation, "drive link monitor: statusword of a drive that should be in Operation enabled", ticks<1>},
     {kDriveEnableTimeout, "supervisor: time in a step of enabling (a ramp of tension has 15000 ticks)",
      [](const FaultTimes& times) { return static_cast<int>(patience(times.tick_s).powering) + 1; }},
-    {kFollowingError, "watchdog: sent target less reported place, over the window, in a row",
+    {kFollowingError, "drive link monitor: sent target minus reported position, over the window, in a row",
      ticks<kFollowingDebounceTicks>},
-    {kDriveNotOperational, "watchdog: NMT state in the drive's heartbeat or boot-up", heartbeat_period},
+    {kDriveNotOperational, "drive link monitor: NMT state in the drive's heartbeat or boot-up", heartbeat_period},
     {kDriveStopTimeout, "supervisor: time until every drive confirms that it is off",
      [](const FaultTimes& times) { return static_cast<int>(patience(times.tick_s).off_budget) + 1; }},
     {kNodeTwice, "host: two reports that differ in one tick, or a command that is not ours, in a row",
      ticks<kTwiceTicks>},
-    {kBusLost, "interface down or in bus-off (1 tick), or no drive of the bus is heard", ticks<kFeedbackAgeTicks + 1>},
-    {kCableSlack, "watchdog: motor tension under the floor, in a row", ticks_of_cables<cable::kSlackDebounceTicks>},
-    {kCableOverload, "watchdog: motor tension over the hard limit, in a row",
+    {kBusLost, "interface down or in bus-off (1 tick), or no drive of the bus sends", ticks<kFeedbackAgeTicks + 1>},
+    {kCableSlack, "tension monitor: motor tension under the floor, in a row",
+     ticks_of_cables<cable::kSlackDebounceTicks>},
+    {kCableOverload, "tension monitor: motor tension over the hard limit, in a row",
      ticks_of_cables<cable::kOverloadDebounceTicks>},
-    {kTensionAlarm, "watchdog: motor tension over the alarm limit, in a row",
+    {kTensionAlarm, "tension monitor: motor tension over the alarm limit, in a row",
      ticks_of_cables<cable::kAlarmDebounceTicks>},
     {kHomingImplausible,
-     "cable watch: the part of a segment's lengths that no two angles explain, against its value when the arm was "
+     "cable monitor: the part of a segment's lengths that no two angles explain, against its value when the arm was "
      "enabled, in a row",
      [](const FaultTimes& times) { return times.segments > 0 ? cable::kContradictionTicks + times.segments - 1 : -1; }},
-    {kCableSlip, "cable watch: tension and length of a cable against the tick before, over the limit, and still there",
+    {kCableSlip,
+     "cable monitor: change of a cable's tension and length since the tick before, over the limit, and still there",
      ticks_of_cables<cable::kJumpConfirmTicks>},
-    {kCableBreak, "watchdog: motor tension under the floor while its 20 ms low-pass is not, in a row",
+    {kCableBreak, "tension monitor: motor tension under the floor while its 20 ms low-pass is not, in a row",
      ticks_of_cables<cable::kBreakDebounceTicks>},
-    {kTensionScatters, "cable watch: the same as 5005, but back again, three times (in a row: 4 ticks)",
+    {kTensionScatters, "cable monitor: a change as for 5005 and back, three times (in a row: 4 ticks)",
      ticks_of_cables<cable::kScatterReversals + 1>},
     {kBodyContact,
-     "contact watch: torques that cables, friction, inertia and a push of up to 3 N at the tip do not explain, "
-     "low-passed over 0.6 s and in their own deviations, in a row",
+     "contact detector: torques that cables, friction, inertia and a force of up to 3 N at the tip do not explain, "
+     "low-passed over 0.6 s, relative to their standard deviations, in a row",
      [](const FaultTimes& times) {
        return times.segments > 0
                   ? static_cast<int>(cable::kFrictionTicks) * 2 * times.segments * (cable::kContactSweeps + 1)
                   : -1;
      }},
     {kFrictionNotAsDeclared,
-     "friction watch: mu found from the balance of torques, less twice its uncertainty, over what can be "
+     "friction estimator: mu from the balance of torques, minus twice its uncertainty, over what can be "
      "planned for",
      ticks<-1>},
     {kGateRefused, "gate: every command before it is sent", ticks<0>},

@@ -242,7 +242,7 @@ void CableArmServer::shape(const api::Arguments& fields) {
   cable::KeepClearTargets clear{};
   count = 0;
   for (const api::Arguments& entry : fields.entries("keep_clear"))
-    clear[count++] = {entry.point("centre_m"), entry.number("distance_m"), entry.number("weight")};
+    clear[count++] = {entry.point("center_m"), entry.number("distance_m"), entry.number("weight")};
   arbiter_.shape(outputs(), nodes, clear, fields.flag("search"));
   shape_progress_.restart();
 }
