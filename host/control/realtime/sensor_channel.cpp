@@ -32,9 +32,10 @@ SensorChannel::SensorChannel(const config::BusesConfig& buses) {
 void SensorChannel::begin_tick(std::uint64_t lost) noexcept {
   sensors_.wrist.age_ticks = older(sensors_.wrist.age_ticks, lost);
   sensors_.adapter.age_ticks = older(sensors_.adapter.age_ticks, lost);
-  for (const CellNode& node : cell_nodes_)
+  for (const CellNode& node : cell_nodes_) {
     for (const std::size_t cable : node.cables)
       load_cells_.age_ticks[cable] = older(load_cells_.age_ticks[cable], lost);
+  }
 }
 
 void SensorChannel::on_heartbeat(int bus, const bus::CanFrame& frame, Node& node) noexcept {
