@@ -62,7 +62,7 @@ concept Arm = std::is_trivially_copyable_v<A> && ArmTable<typename A::Table> &&
   { A::planned_permille(table, report, drive) } -> std::same_as<std::int16_t>;
   // Whether the drives follow torques; and the sensors of the next tick, when nothing happens to them.
   { A::is_torque_controlled(table) } -> std::same_as<bool>;
-  { A::imagined(sensors) } -> std::same_as<typename A::Sensors>;
+  { A::imagined(table, report, sensors) } -> std::same_as<typename A::Sensors>;
 };
 
 }  // namespace liana

@@ -52,13 +52,15 @@ LinkLimits CableArm::link_limits() const noexcept { return make_link_limits(tabl
 
 // --- from the drives ---
 
-void CableArm::read(const DriveFeedbacks& drives, const NoSensors&) noexcept {
+void CableArm::read(const DriveFeedbacks& drives, const LoadCells& cells) noexcept {
   feedback_age_ticks_ = 0;
   for (Index c = 0; c < cables(); ++c) {
     const DriveFeedback& drive = drives[c];
     if (drive.feedback_age_ticks > feedback_age_ticks_) feedback_age_ticks_ = drive.feedback_age_ticks;
     payout_measured_m_[c] = payout_at_counts(table_.drive[c], zero_payout_m_[c], drive.position_counts);
     tension_measured_N_[c] = table_.drive[c].newtons_per_permille * drive.torque_permille;
+    if (has_load_cell(table_, c))
+      tension_measured_N_[c] = believed_tension_N(table_, cells, c, tension_measured_N_[c], load_cells_);
   }
   if (feedback_age_ticks_ == 0xFFFF) return;  // a drive was never heard
   estimate(table_, layout_, model_, ratio_, payout_measured_m_, tension_measured_N_, estimator_);
@@ -324,6 +326,7 @@ void CableArm::report(Report& out) const noexcept {
   out.load_Nm = tension_.load_Nm;
   out.tension_plan_N = pull_N_;
   out.tension_measured_N = tension_measured_N_;
+  out.load_cells = load_cells_.believed;
   out.payout_command_m = payout_command_m_;
   out.friction = {friction_.mu, friction_sd(friction_), table_.friction_mu, std::uint8_t{friction_.flagged}};
   out.contact = contact_report(contact_);
@@ -336,6 +339,15 @@ void CableArm::report(Report& out) const noexcept {
 std::int16_t CableArm::planned_permille(const RobotParams& table, const Report& report, std::int32_t drive) noexcept {
   const Index i = as_index(drive);
   return narrow<std::int16_t>(to_counts(report.tension_plan_N[i] / table.drive[i].newtons_per_permille).value);
+}
+
+LoadCells CableArm::imagined(const RobotParams& table, const Report& report, const LoadCells& last) noexcept {
+  LoadCells next = last;
+  for (Index c = 0; c < as_index(table.cable_count()); ++c) {
+    if (has_load_cell(table, c) && last.age_ticks[c] <= kLoadCellAgeTicks)
+      next.steps[c] = steps_of(table, c, report.tension_plan_N[c]), next.age_ticks[c] = 0;
+  }
+  return next;
 }
 
 }  // namespace liana::cable

@@ -12,6 +12,7 @@
 #include "firmware_like/cable/arm/estimator.hpp"
 #include "firmware_like/cable/arm/friction_estimator.hpp"
 #include "firmware_like/cable/arm/let_go.hpp"
+#include "firmware_like/cable/arm/load_cell.hpp"
 #include "firmware_like/cable/arm/setpoint.hpp"
 #include "firmware_like/cable/arm/static_load.hpp"
 #include "firmware_like/cable/arm/tension.hpp"
@@ -40,7 +41,7 @@ class CableArm {
   using Table = RobotParams;
   using Setpoint = cable::Setpoint;
   using Report = cable::Report;
-  using Sensors = NoSensors;
+  using Sensors = LoadCells;
 
   // The table must have passed the loader; no other checks are made here.
   explicit CableArm(const RobotParams& table) noexcept;
@@ -50,12 +51,13 @@ class CableArm {
   LinkLimits link_limits() const noexcept;
 
   // One tick, in the order of these functions; arm.hpp says what each has to do.
-  void read(const DriveFeedbacks& drives, const NoSensors&) noexcept;
+  void read(const DriveFeedbacks& drives, const LoadCells& cells) noexcept;
   void watch_drive(WatchScope scope, bool follows, std::int32_t drive, Watch& out) noexcept {
     const TensionReading now{tension_measured_N_[as_index(drive)], estimator_.tension_N[as_index(drive)], follows};
     const WatchScope looked_for{scope.powered, scope.prepared && !may_be_slack(let_go_, layout_, drive)};
     watch_tension(tension_watch_limits_, looked_for, now, drive, tension_watch_, out);
     if (tension_watch_.slack_ticks[as_index(drive)] != 0 && is_missed(tension_watch_limits_, now)) missed_ = drive;
+    if (has_load_cell(table_, as_index(drive))) watch_load_cell(table_, scope, drive, load_cells_, out);
     if (drive == 0) watch_body(scope, out);
   }
   bool lets_go(std::int32_t) const noexcept { return is_behind(let_go_); }
@@ -78,7 +80,8 @@ class CableArm {
   static std::int16_t planned_permille(const RobotParams& table, const Report& report, std::int32_t drive) noexcept;
 
   static bool is_torque_controlled(const RobotParams&) noexcept { return false; }
-  static NoSensors imagined(const NoSensors& last) noexcept { return last; }
+  // And their load cells: what was usable says the planned tension, what was not goes on being none.
+  static LoadCells imagined(const RobotParams& table, const Report& report, const LoadCells& last) noexcept;
 
   // Motion stage, for the verifier's predictions and for tests.
   const MotionState& motion() const noexcept { return motion_; }
@@ -100,6 +103,7 @@ class CableArm {
   static void visit_members(Self& self, V& v) {
     v("payout_measured_m", self.payout_measured_m_);
     v("tension_measured_N", self.tension_measured_N_);
+    v("load_cells", self.load_cells_);
     v("estimator", self.estimator_);
     v("homing_ticks", self.homing_ticks_);
     v("feedback_age_ticks", self.feedback_age_ticks_);
@@ -177,7 +181,8 @@ class CableArm {
 
   // What the drives say.
   CableVector payout_measured_m_{};
-  CableVector tension_measured_N_{};
+  CableVector tension_measured_N_{};  // by load cell where there is one that is believed, else by torque
+  LoadCellState load_cells_{};
   EstimatorState estimator_{};
   std::uint32_t homing_ticks_ = 0;
   std::uint16_t feedback_age_ticks_ = 0xFFFF;  // of the drive that was heard longest ago

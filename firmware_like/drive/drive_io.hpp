@@ -48,8 +48,4 @@ struct DriveProposal {
 };
 using DriveProposals = std::array<DriveProposal, kMaxDrives>;
 
-// Sensors of an arm that has nothing but its drives. An arm with more (wrist force, joint torque) names a type of its
-// own.
-struct NoSensors {};
-
 }  // namespace liana

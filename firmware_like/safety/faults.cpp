@@ -96,6 +96,14 @@ constexpr std::array<FaultInfo, count_enumerators<FaultNumber, 1000>()> kFaultTa
      "Friction of the cables is higher than declared, and higher than plans of tensions allow; the detail is mu in "
      "0.0001.",
      "Retract and disable; look for worn holes or dirt, then measure again (liana calibrate --friction), and clear."},
+    {kLoadCellLost, "load_cell_lost", kHold, false, true,
+     "A cable's load cell gives no usable reading; tension is taken from the drive's torque since.",
+     "Retract and disable; check the cell, its amplifier and its plug, then clear. With load_cell.when_lost = "
+     "\"torque\" in the bus table the arm goes on without it."},
+    {kLoadCellContradicts, "load_cell_contradicts", kHold, false, true,
+     "A cable's load cell and the torque of its drive do not agree; tension is taken from the torque since.",
+     "Retract and disable; compare both with the cable slack: both should read 0. Set the zero of the one that does "
+     "not, or replace it, then clear."},
     {kGateRefused, "gate_refused", kStop, true, false,
      "The gate saw a command that must not reach a drive; the detail names the check.",
      "This is a defect: keep the recording and report it; the arm stands at its last good target, then clear."},

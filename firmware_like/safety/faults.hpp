@@ -39,6 +39,8 @@ enum class FaultNumber : std::uint16_t {
   kTensionScatters = 5007,        // a cable's readings jump to and fro
   kBodyContact = 5008,            // something pushes the body: torques of a segment's cables do not balance
   kFrictionNotAsDeclared = 5009,  // friction was found that was not declared and that no tension plan carries
+  kLoadCellLost = 5010,           // a load cell gives no usable reading
+  kLoadCellContradicts = 5011,    // a load cell and the torque of its drive do not agree
   kGateRefused = 6001,            // the gate saw a command that must not reach a drive
 };
 

@@ -54,7 +54,9 @@ class SerialArm {
 
   static bool is_torque_controlled(const RobotParams& table) noexcept { return table.torque.is_torque_controlled != 0; }
   // The sensors that the twin imagines for the next tick.
-  static Sensors imagined(const Sensors& last) noexcept { return serial::imagined(last); }
+  static Sensors imagined(const RobotParams&, const Report&, const Sensors& last) noexcept {
+    return serial::imagined(last);
+  }
 
   // Motion stage, for the verifier's predictions and for tests.
   const MotionState& motion() const noexcept { return motion_; }

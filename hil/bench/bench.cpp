@@ -29,7 +29,7 @@ std::unique_ptr<Plant> make_plant(const BenchOptions& options, const SceneConfig
     return std::make_unique<SerialPlant>(*options.serial_robot, scene, options.buses, options, options.faults,
                                          options.seed);
   refuse_payload_faults(options.faults, ", and this is a cable arm");
-  return std::make_unique<CablePlant>(options.robot, scene, options.buses, options, options.seed);
+  return std::make_unique<CablePlant>(options.robot, scene, options.buses, options, options.faults, options.seed);
 }
 
 std::unique_ptr<TipEquipment> make_equipment(const SceneConfig& scene, Plant& plant, std::uint64_t seed) {

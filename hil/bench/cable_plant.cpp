@@ -41,7 +41,7 @@ std::unique_ptr<Arm> make_arm(const RobotConfig& robot, const SceneConfig& scene
 }  // namespace
 
 CablePlant::CablePlant(const RobotConfig& robot, const SceneConfig& scene, const BusesConfig& buses,
-                       const ModelOptions& options, std::uint64_t seed)
+                       const ModelOptions& options, const std::vector<FaultConfig>& faults, std::uint64_t seed)
     : thetas_(robot.theta_count()),
       links_(robot.link_count()),
       scene_(scene),
@@ -50,7 +50,9 @@ CablePlant::CablePlant(const RobotConfig& robot, const SceneConfig& scene, const
       truth_(parameters_of(built_, options, seed)),
       arm_(make_arm(built_, scene, options, seed, truth_)),
       drives_(robot, buses, truth_, arm_->payouts_m(), options.spread, seed, options.cross_wired),
+      load_cells_(buses, options.spread, seed),
       tip_before_m_(arm_->tip().position_m) {
+  load_cells_.refuse_faults_of_others(faults);
   drives_.measure(motor_tensions_N());
 }
 
@@ -62,6 +64,7 @@ CableValues CablePlant::motor_tensions_N() const {
 
 void CablePlant::inject(std::uint32_t slot, FaultInjector& injector) {
   injector.step(slot, {arm_->theta_rad(), arm_->rate_rad_s(), depth_m()}, drives_);
+  load_cells_.suffer(injector.faults(), [&injector](std::size_t fault) { return injector.is_on(fault); });
   arm_->set_pushes(pushes_at(slot, injector, links_));
 }
 
@@ -73,6 +76,7 @@ double CablePlant::fastest_rad_s() const {
 
 void CablePlant::exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out) {
   drives_.exchange(frames, now_us, out);
+  load_cells_.exchange(frames, now_us, motor_tensions_N(), out);
 }
 
 void CablePlant::integrate(double period_s) {

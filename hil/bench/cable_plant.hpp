@@ -5,6 +5,7 @@
 
 #include "hil/arm/arm.hpp"
 #include "hil/bench/drive_bank.hpp"
+#include "hil/bench/load_cells.hpp"
 #include "hil/bench/plant.hpp"
 
 namespace liana::bench {
@@ -13,7 +14,7 @@ class CablePlant final : public Plant {
  public:
   // Throws std::runtime_error for anything that cannot work.
   CablePlant(const RobotConfig& robot, const SceneConfig& scene, const BusesConfig& buses, const ModelOptions& options,
-             std::uint64_t seed);
+             const std::vector<FaultConfig>& faults, std::uint64_t seed);
 
   const Drives& drives() const override { return drives_; }
   void inject(std::uint32_t slot, FaultInjector& injector) override;
@@ -39,6 +40,7 @@ class CablePlant final : public Plant {
   TrueParameters truth_;
   std::unique_ptr<Arm> arm_;
   DriveBank drives_;
+  LoadCells load_cells_;
   Vec3 tip_before_m_;     // when truth was last asked for
   double since_s_ = 0.0;  // how long ago that was
 };

@@ -45,7 +45,11 @@ std::vector<KindOfFault> of_cables() {
            false,
            {{"length_m", &P::length_m, -0.1, 0.1, false, true}, {"slots", &P::slots, 1, 100000, true, false}}},
           {"cable_break", kCableBreak, kOf, false, {}},
-          {"motor_saturation", kMotorSaturation, kOf, true, {{"tension_N", &P::tension_N, 0, 1e4, false, true}}}};
+          {"motor_saturation", kMotorSaturation, kOf, true, {{"tension_N", &P::tension_N, 0, 1e4, false, true}}},
+          {"load_cell_failed", kLoadCellFailed, kOf, true, {}},
+          {"load_cell_stuck", kLoadCellStuck, kOf, true, {}},
+          {"load_cell_silent", kLoadCellSilent, kOf, true, {}},
+          {"load_cell_off", kLoadCellOff, kOf, true, {{"tension_N", &P::tension_N, -1e4, 1e4, false, true}}}};
 }
 
 std::vector<KindOfFault> of_the_tip() {

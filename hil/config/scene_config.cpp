@@ -130,6 +130,25 @@ SceneConfig load_scene(const std::string& path) {
   return scene;
 }
 
+namespace {
+
+void read_load_cells(const JsonFile& file, std::size_t b, BusesConfig& buses) {
+  const std::string list = at("/buses", b) + "/load_cells";
+  if (!file.has(list)) return;
+  for (std::size_t i = 0; i < file.size(list); ++i) {
+    const std::string field = at(list, i);
+    LoadCellNodeConfig node{file.integer(field + "/node", 1, 126), b, {}, {}};
+    for (std::size_t k = 0; k < file.size(field + "/cables"); ++k) {
+      node.cables.push_back(static_cast<std::size_t>(file.integer(at(field + "/cables", k), 1, 32) - 1));
+      node.zero_N.push_back(file.has(field + "/zero_N") ? file.number(at(field + "/zero_N", k), -1000, 1000) : 0.0);
+    }
+    buses.load_cells.push_back(node);
+  }
+  buses.newtons_per_step = file.number("/load_cell/newtons_per_step", 1e-6, 10);
+}
+
+}  // namespace
+
 BusesConfig load_buses(const std::string& path) {
   const JsonFile file(path, "buses");
   BusesConfig buses;
@@ -141,6 +160,7 @@ BusesConfig load_buses(const std::string& path) {
     buses.nodes.emplace_back();
     const std::string nodes = at("/buses", b) + "/nodes";
     for (std::size_t i = 0; i < file.size(nodes); ++i) buses.nodes.back().push_back(file.integer(at(nodes, i), 1, 126));
+    read_load_cells(file, b, buses);
   }
   buses.dictionaries = read_dictionaries(file);
   return buses;

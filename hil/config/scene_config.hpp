@@ -85,11 +85,21 @@ SceneConfig displaced(const SceneConfig& scene, const SceneOffset& offset, std::
 // How far a point in base coordinates is past the mouth of the slit, into it [m]; -1000 without a slit.
 double depth_in_slit_m(const SceneConfig& scene, const Vec3& point_m);
 
+// A node that reads load cells, one channel a cable.
+struct LoadCellNodeConfig {
+  int node = 0;
+  std::size_t bus = 0;
+  std::vector<std::size_t> cables;  // 0-based
+  std::vector<double> zero_N;       // of each
+};
+
 // Which node sits on which bus, and the SYNC period.
 struct BusesConfig {
   std::vector<std::string> names;
   std::vector<std::vector<int>> nodes;
   std::uint32_t period_us = 4000;
+  std::vector<LoadCellNodeConfig> load_cells;
+  double newtons_per_step = 1.0;                 // of load cells
   std::map<int, DictionaryConfig> dictionaries;  // of drives whose dictionary is not the bench's own
   // Bus of a node (0-based); throws std::runtime_error when it is on none.
   std::size_t bus_of(int node) const;

@@ -30,11 +30,15 @@ void AdapterNode::report(const Adapter& adapter, FrameList& out) {
     const bool captured = (adapter.captured() || defects_.early) && !defects_.denied;
     const PinValues& depth_m = adapter.depth_m();
     FrameList made;
-    node_.send(0x180 + kNode,
-               {++sequence_, static_cast<std::uint8_t>(captured ? 1 : 0), static_cast<std::uint8_t>(adapter.latch()),
-                static_cast<std::uint8_t>(adapter.lock()), in_steps(depth_m[0]), in_steps(depth_m[1]),
-                in_steps(depth_m[2]), 0},
-               made);
+    const std::array<std::uint8_t, 8> bytes{++sequence_,
+                                            static_cast<std::uint8_t>(captured ? 1 : 0),
+                                            static_cast<std::uint8_t>(adapter.latch()),
+                                            static_cast<std::uint8_t>(adapter.lock()),
+                                            in_steps(depth_m[0]),
+                                            in_steps(depth_m[1]),
+                                            in_steps(depth_m[2]),
+                                            0};
+    node_.send(0x180 + kNode, bytes, made);
     last_report_ = made.front();
   }
   for (int times = defects_.twice ? 2 : 1; times > 0; --times) out.push_back(*last_report_);

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "hil/payload/self_starting_node.hpp"
+#include "hil/drive/self_starting_node.hpp"
 #include "hil/serial/adapter.hpp"
 
 namespace liana::bench {

@@ -53,8 +53,10 @@ void WristSensor::report(const WristReading& reading, FrameList& out) {
   const auto status = static_cast<std::uint8_t>(reading.status);
   const auto& [fx, fy, fz] = reading.force;
   const auto& [tx, ty, tz] = reading.torque;
-  node_.send(0x180 + kNode, {low(fx), high(fx), low(fy), high(fy), low(fz), high(fz), sequence_, status}, out);
-  node_.send(0x280 + kNode, {low(tx), high(tx), low(ty), high(ty), low(tz), high(tz), sequence_, status}, out);
+  const std::array force{low(fx), high(fx), low(fy), high(fy), low(fz), high(fz), sequence_, status};
+  const std::array torque{low(tx), high(tx), low(ty), high(ty), low(tz), high(tz), sequence_, status};
+  node_.send(0x180 + kNode, force, out);
+  node_.send(0x280 + kNode, torque, out);
 }
 
 void WristSensor::exchange(const FrameList& frames, std::uint64_t now_us, const TipLoad& load, FrameList& out) {

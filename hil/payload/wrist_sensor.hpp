@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdint>
 
+#include "hil/drive/self_starting_node.hpp"
 #include "hil/math/random.hpp"
-#include "hil/payload/self_starting_node.hpp"
 #include "hil/serial/tip_state.hpp"
 
 namespace liana::bench {

@@ -32,6 +32,10 @@ TESTS = {
         "FrictionWatch.ThePlanFollowsSlowlyAndNeverBeyondWhatTensionsCanCarry",
         "tests/firmware_like/friction_estimator_test.cpp",
     ),
+    5010: (
+        "LoadCell.OneThatIsLostIsFault5010AfterTwentyFiveTicksUnlessTheTableGoesOnByTorque",
+        "tests/firmware_like/load_cell_test.cpp",
+    ),
     6001: ("Gate.ARefusalBecomesAFaultThatNamesDriveAndCheck", "tests/firmware_like/gate_test.cpp"),
 }
 

@@ -44,6 +44,8 @@ const std::vector<Published> kPublished{
     {FaultNumber::kTensionScatters, 5007, "tension_scatters"},
     {FaultNumber::kBodyContact, 5008, "body_contact"},
     {FaultNumber::kFrictionNotAsDeclared, 5009, "friction_not_as_declared"},
+    {FaultNumber::kLoadCellLost, 5010, "load_cell_lost"},
+    {FaultNumber::kLoadCellContradicts, 5011, "load_cell_contradicts"},
     {FaultNumber::kGateRefused, 6001, "gate_refused"},
 };
 
@@ -87,7 +89,7 @@ TEST(Faults, EnumeratorsAreCountedAndOtherValuesAreNone) {
   enum class Few : std::uint16_t { kA = 0, kB = 7, kC = 101, kD = 150 };
   static_assert(is_enumerator<Few::kB>() && !is_enumerator<static_cast<Few>(8)>());
   static_assert(count_enumerators<Few, 100>() == 4 && count_enumerators<Few, 1000>() == 2);
-  static_assert(count_enumerators<FaultNumber, 1000>() == 27);
+  static_assert(count_enumerators<FaultNumber, 1000>() == 29);
 }
 
 TEST(Faults, TheSameNumberAndIndexIsLatchedOnceAndKeepsItsFirstTick) {

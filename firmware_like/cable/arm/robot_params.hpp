@@ -67,6 +67,15 @@ struct TorqueZeroTable {
   double drift_N_h = 0.0;  // for every hour since the controller was started
 };
 
+// Load cells between drums and first discs; a cable without one has 0 newtons per step.
+struct LoadCellParams {
+  CableVector newtons_per_step{};  // of a reading
+  CableVector zero_N{};            // what the cell says without tension
+  double range_N = 0.0;            // readings beyond count as none
+  double agree_N = 0.0;            // most by which cell and torque may differ
+  std::uint8_t goes_on = 0;        // 1: an arm whose cell is lost goes on by the drive's torque; 0: fault 5010
+};
+
 // Motion limits; the gate and verification enforce them, the filter and limiter plan with them.
 struct MotionLimits {
   double theta_rate_rad_s = 0.0;
@@ -107,6 +116,7 @@ struct RobotParams {
   TensionLimits tension{};
   CableMonitorParams cable_monitor{};
   TorqueZeroTable torque_zero{};
+  LoadCellParams load_cell{};
   MotionLimits limits{};
   std::array<DriveParams, kMaxCables> drive{};
 

@@ -7,6 +7,7 @@
 #include "firmware_like/cable/arm/cable_monitor.hpp"
 #include "firmware_like/cable/arm/contact_detector.hpp"
 #include "firmware_like/cable/arm/friction_estimator.hpp"
+#include "firmware_like/cable/arm/load_cell.hpp"
 #include "firmware_like/cable/arm/tension_monitor.hpp"
 #include "firmware_like/math/enumerators.hpp"
 #include "firmware_like/safety/drive_link_monitor.hpp"
@@ -97,6 +98,10 @@ constexpr std::array<Detection, count_enumerators<FaultNumber, 1000>() - 1> kDet
      "friction estimator: mu from the balance of torques, minus twice its uncertainty, over what can be "
      "planned for",
      ticks<-1>},
+    {kLoadCellLost, "load cell: no reading for more than 2 ticks, or one out of range, in a row",
+     ticks_of_cables<cable::kLoadCellLostTicks + kFeedbackAgeTicks>},
+    {kLoadCellContradicts, "load cell: further from the drive's torque than load_cell.agree_N, in a row",
+     ticks_of_cables<cable::kLoadCellDoubtTicks>},
     {kGateRefused, "gate: every command before it is sent", ticks<0>},
 }};
 

@@ -11,9 +11,9 @@ namespace liana::event {
 namespace {
 
 constexpr std::array<const char*, kEventKinds> kKindNames{
-    "boot",    "boot_problem", "homing",  "fault",    "emergency", "clear",    "host_warning",
-    "client",  "owner",        "step",    "operator", "device",    "tool",     "refusal",
-    "verdict", "path",         "retract", "friction", "stop",      "shutdown", "left_out"};
+    "boot",    "boot_problem", "homing",    "fault",  "emergency", "clear",   "host_warning", "client",
+    "owner",   "step",         "operator",  "device", "tool",      "refusal", "verdict",      "path",
+    "retract", "friction",     "load_cell", "stop",   "shutdown",  "left_out"};
 static_assert(static_cast<std::size_t>(EventKind::kLeftOut) + 1 == kEventKinds);
 
 constexpr std::array<std::string_view, 9> kCodes{"",     "bad_request",  "not_owner", "not_enabled", "fault",

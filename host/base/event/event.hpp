@@ -30,11 +30,12 @@ enum class EventKind : std::uint8_t {
   kPath,         // number: PathEvent; subject the path's hash; `share` of its time, `duration_s`
   kRetract,      // number: RetractEvent; `points` of the path, `distance_m` of the arm from it
   kFriction,     // number: 5009 where it is not as declared, 0: as declared again; `mu`, `sd`, `declared_mu`
+  kLoadCell,     // number: 5010 where tension is by torque, 0: by the cell again; `cable`
   kStop,         // number: stop category (docs/explanation/fault-detection.md); subject who asked for it
   kShutdown,     // subject who asked for it, or nothing
   kLeftOut,      // subject: a kind of which too many came within one interval; `count` of those without a number
 };
-constexpr std::size_t kEventKinds = 21;
+constexpr std::size_t kEventKinds = 22;
 
 enum class BootEvent : std::uint8_t { kFailed = 0, kDone = 1, kGoesOn = 2 };
 enum class HomingEvent : std::uint8_t { kContradicted = 0, kHomed = 1 };

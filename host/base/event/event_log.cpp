@@ -14,7 +14,8 @@ bool is_shown(const Event& event) {
 // Whether it is something wrong, which stands, rather than something that somebody or something does.
 bool is_condition(EventKind kind) {
   return kind == EventKind::kFault || kind == EventKind::kBootProblem || kind == EventKind::kEmergency ||
-         kind == EventKind::kHostWarning || kind == EventKind::kFriction || kind == EventKind::kLeftOut;
+         kind == EventKind::kHostWarning || kind == EventKind::kFriction || kind == EventKind::kLoadCell ||
+         kind == EventKind::kLeftOut;
 }
 
 // What people or missions say is the same where the words are.

@@ -24,7 +24,7 @@ bool RtCycle<Arm>::run_tick() noexcept {
   bus_.wait_feedback(line_.drive_count());
   times_.heard(bus_.now_us());
   line_.collect(start, report_.inputs);  // TPDOs, heartbeats, emergencies: the inputs of this tick
-  step_sensors(start);                   // wrist sensor and adapter, of an arm that has them
+  step_sensors(start);                   // wrist sensor and adapter, or load cells
   line_.step_master();                   // heartbeat out; while booting, the next SDO requests
   step_core();
   bus_.end_tick();
@@ -36,9 +36,12 @@ bool RtCycle<Arm>::run_tick() noexcept {
 template <class Arm>
 void RtCycle<Arm>::step_sensors(const timing::TickStart& start) noexcept {
   if constexpr (std::is_same_v<typename Arm::Sensors, serial::Sensors>) {
-    report_.inputs.sensors = line_.sensors();
+    report_.inputs.sensors = line_.sensors().sensors();
     const AdapterOrder order = link_.adapter.load(std::memory_order_acquire);
     line_.step_sensors(start.tick, order.command, order.sequence);
+  } else {
+    report_.inputs.sensors = line_.sensors().load_cells();
+    line_.step_sensors(start.tick, {}, 0);
   }
 }
 

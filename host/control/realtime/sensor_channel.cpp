@@ -23,6 +23,8 @@ SensorChannel::SensorChannel(const config::BusesConfig& buses) {
   for (std::size_t b = 0; b < buses.buses.size(); ++b) {
     const config::BusConfig& bus = buses.buses[b];
     if (bus.wrist_sensor != 0) wrist_ = {static_cast<int>(b), static_cast<std::uint8_t>(bus.wrist_sensor), false};
+    for (const config::LoadCellNode& node : bus.load_cells)
+      cell_nodes_.push_back({{static_cast<int>(b), static_cast<std::uint8_t>(node.node), false}, node.cables});
     if (bus.adapter != 0) adapter_ = {static_cast<int>(b), static_cast<std::uint8_t>(bus.adapter), false};
   }
 }
@@ -30,6 +32,10 @@ SensorChannel::SensorChannel(const config::BusesConfig& buses) {
 void SensorChannel::begin_tick(std::uint64_t lost) noexcept {
   sensors_.wrist.age_ticks = older(sensors_.wrist.age_ticks, lost);
   sensors_.adapter.age_ticks = older(sensors_.adapter.age_ticks, lost);
+  for (const CellNode& node : cell_nodes_) {
+    for (const std::size_t cable : node.cables)
+      load_cells_.age_ticks[cable] = older(load_cells_.age_ticks[cable], lost);
+  }
 }
 
 void SensorChannel::on_heartbeat(int bus, const bus::CanFrame& frame, Node& node) noexcept {
@@ -40,6 +46,10 @@ void SensorChannel::on_heartbeat(int bus, const bus::CanFrame& frame, Node& node
 void SensorChannel::on_frame(int bus, const bus::CanFrame& frame) noexcept {
   on_heartbeat(bus, frame, wrist_);
   on_heartbeat(bus, frame, adapter_);
+  for (CellNode& node : cell_nodes_) {
+    on_heartbeat(bus, frame, node);
+    if (bus == node.bus && frame.id == canopen::kTpdo1Base + node.id) take_cells(node, frame);
+  }
   serial::WristHalf half;
   if (bus == wrist_.bus && frame.id == canopen::kTpdo1Base + wrist_.id &&
       serial::decode_wrist_half(data_of(frame), serial::kWristForceStep_N, half)) {
@@ -63,6 +73,16 @@ void SensorChannel::take_halves() noexcept {
   torque_.reset();
 }
 
+// Two bytes a channel, little-endian; a frame of another length says nothing.
+void SensorChannel::take_cells(const CellNode& node, const bus::CanFrame& frame) noexcept {
+  if (frame.length != 2 * node.cables.size()) return;
+  for (std::size_t i = 0; i < node.cables.size(); ++i) {
+    const auto word = static_cast<std::uint16_t>(frame.data[2 * i] | frame.data[2 * i + 1] << 8u);
+    load_cells_.steps[node.cables[i]] = static_cast<cable::CellSteps>(word);
+    load_cells_.age_ticks[node.cables[i]] = 0;
+  }
+}
+
 void SensorChannel::start(bus::DriveBus& bus, Node& node) noexcept {
   if (!node.wants_start) return;
   bus::CanFrame frame;
@@ -78,6 +98,7 @@ void SensorChannel::step(bus::DriveBus& bus, std::uint64_t tick, serial::Adapter
                          std::uint8_t sequence) noexcept {
   start(bus, wrist_);
   start(bus, adapter_);
+  for (CellNode& node : cell_nodes_) start(bus, node);
   if (adapter_.bus < 0 || sequence == 0 || tick % kTicksBetweenCommands != 0) return;
   bus::CanFrame frame;
   frame.id = rpdo1_cob_id(adapter_.id);

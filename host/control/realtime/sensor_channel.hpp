@@ -1,9 +1,12 @@
-// Wrist sensor and adapter of a serial arm on the drives' buses: heard, started, and the adapter told.
+// Nodes on the drives' buses that are no drives: wrist sensor and adapter of a serial arm, load cells of a cable arm.
+// They are heard and started, and the adapter is told.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
+#include "firmware_like/cable/arm/load_cell.hpp"
 #include "firmware_like/serial/sensor_pdo.hpp"
 #include "host/drives/bus/drive_bus.hpp"
 #include "host/model/config/config.hpp"
@@ -24,6 +27,7 @@ class SensorChannel {
 
   // What was heard until now. Halves of a wrist sample count when both have come.
   const serial::Sensors& sensors() const noexcept { return sensors_; }
+  const cable::LoadCells& load_cells() const noexcept { return load_cells_; }
 
  private:
   struct Node {
@@ -32,12 +36,19 @@ class SensorChannel {
     bool wants_start = false;  // a heartbeat said that it is not operational
   };
 
+  struct CellNode : Node {
+    std::vector<std::size_t> cables;  // of its channels
+  };
+
   void on_heartbeat(int bus, const bus::CanFrame& frame, Node& node) noexcept;
   void take_halves() noexcept;
+  void take_cells(const CellNode& node, const bus::CanFrame& frame) noexcept;
   void start(bus::DriveBus& bus, Node& node) noexcept;
 
   Node wrist_;
   Node adapter_;
+  std::vector<CellNode> cell_nodes_;
+  cable::LoadCells load_cells_{};
   serial::Sensors sensors_{};
   std::optional<serial::WristHalf> force_, torque_;  // of the sample that is not whole yet
 };

@@ -82,6 +82,17 @@ event::Event friction_event(const cable::FrictionStatus& friction, double declar
           .text = text};
 }
 
+event::Event load_cell_event(std::size_t cable, bool is_lost) {
+  const auto number = static_cast<double>(cable + 1);
+  char text[120];
+  std::snprintf(text, sizeof text, "load cell of cable %.0f: tension is by %s", number,
+                is_lost ? "the drive's torque; check cell, amplifier and plug" : "the cell again");
+  return {.kind = event::EventKind::kLoadCell,
+          .number = is_lost ? event::number_of(FaultNumber::kLoadCellLost) : 0,
+          .values = {{"cable", number}},
+          .text = text};
+}
+
 }  // namespace
 
 CableArmServer::CableArmServer(const config::RobotConfig& robot, const config::SceneConfig& scene,
@@ -189,11 +200,21 @@ void CableArmServer::drop_motion() {
 std::vector<event::Event> CableArmServer::take_events() {
   std::vector<event::Event> events = devices_.take_events();
   tell_device(events);
+  tell_load_cells(events);
   const cable::FrictionStatus& friction = outputs().friction;
   if ((friction.not_as_declared != 0) == friction_is_off_) return events;
   friction_is_off_ = friction.not_as_declared != 0;
   events.push_back(friction_event(friction, table_.friction_mu));
   return events;
+}
+
+void CableArmServer::tell_load_cells(std::vector<event::Event>& events) {
+  if (outputs().homed == 0) return;  // until then they may still be starting
+  const std::uint32_t lost = cables_with_cells(table_) & ~outputs().load_cells;
+  for (std::size_t c = 0; c < as_index(table_.cable_count()); ++c) {
+    if ((lost ^ load_cells_lost_) >> c & 1u) events.push_back(load_cell_event(c, (lost >> c & 1u) != 0));
+  }
+  load_cells_lost_ = lost;
 }
 
 void CableArmServer::tell_device(std::vector<event::Event>& events) {

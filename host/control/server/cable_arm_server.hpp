@@ -59,6 +59,7 @@ class CableArmServer final : public TypedArmServer<cable::CableArm, arbiter::Cab
   virtual_fixtures::PlaneSlots::Told haptic_planes();
   virtual_fixtures::Choice chosen_fixtures(const api::Arguments& fields) const;
   void tell_device(std::vector<event::Event>& events);
+  void tell_load_cells(std::vector<event::Event>& events);
 
   config::RobotConfig robot_;
   config::SceneConfig scene_;
@@ -72,6 +73,7 @@ class CableArmServer final : public TypedArmServer<cable::CableArm, arbiter::Cab
   virtual_fixtures::HandMap grip_;     // that the device was told the planes of last
   std::optional<Pose> predicted_tip_;  // at the end of the command released last
   bool friction_is_off_ = false;       // as told last
+  std::uint32_t load_cells_lost_ = 0;  // as told last
   bool device_is_slow_ = false;        // as told last
   bool has_fixtures_ = true;
   std::string feedback_ = "aligned";  // law of use_device

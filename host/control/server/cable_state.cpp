@@ -160,6 +160,8 @@ void CableArmServer::add_state(Json& state) const {
   state["held"] = config::theta_numbers(o.held_mask);
   state["held_at_target"] = o.held_at_target != 0;
   state["tension_N"] = first(o.tension_measured_N, table_.cable_count());
+  if (const std::uint32_t cells = cables_with_cells(table_); cells != 0)
+    state["load_cells_lost"] = config::theta_numbers(cells & ~o.load_cells);
   state["friction"] = {{"mu", o.friction.mu},
                        {"sd", o.friction.sd},
                        {"planned_mu", o.friction.planned_mu},

@@ -28,7 +28,7 @@ class NominalDrives {
     liana::Inputs<Arm> inputs;
     inputs.tick = tick;
     inputs.drive = last_;
-    inputs.sensors = sensors_ = Arm::imagined(sensors_);
+    inputs.sensors = sensors_ = Arm::imagined(table_, told, sensors_);
     return inputs;
   }
 

@@ -86,8 +86,8 @@ LoadTerms load_terms(const config::BusesConfig& config, std::size_t bus) {
   terms.rate_hz = config.rate_hz;
   terms.drives = static_cast<int>(config.buses[bus].nodes.size());
   const config::BusConfig& own = config.buses[bus];
-  const int others = (own.wrist_sensor != 0) + (own.adapter != 0);
-  terms.heartbeats_per_s = (terms.drives + others + 1) * 1000.0 / config.heartbeat_ms;
+  terms.heartbeats_per_s =
+      static_cast<double>(static_cast<std::size_t>(terms.drives) + own.sensors() + 1) * 1000.0 / config.heartbeat_ms;
   terms.other_bits_per_s = config::worst_extra_bits_per_s(own, config.rate_hz, config::torque_drives(config, bus));
   return terms;
 }

@@ -14,9 +14,34 @@ constexpr double kMicrosecondsPerSecond = 1e6;
 constexpr std::size_t kMaxBuses = 8;
 constexpr double kSdoPairsPerSecond = 20.0;  // as host/drives/bus/bus_load.hpp has it
 constexpr std::int64_t kMasterNode = 127;    // docs/reference/drives.md
+constexpr std::size_t kMaxCellChannels = 4;  // of a node: 16 bits each in one frame
+
+// Takes a node id, which nobody else has.
+std::int32_t read_node(const Field& field, const std::string& bus, std::map<std::int32_t, std::string>& owner) {
+  const auto node = static_cast<std::int32_t>(field.integer(1, kMasterNode - 1));
+  if (!owner.emplace(node, bus).second)
+    field.refuse("a node id that nobody else has", "it is already on bus " + owner[node]);
+  return node;
+}
+
+LoadCellNode read_load_cells(const Field& field, const std::string& bus, std::map<std::int32_t, std::string>& owner) {
+  field.only({"node", "cables", "zero_N"});
+  LoadCellNode out;
+  out.node = read_node(field.at("node"), bus, owner);
+  const Field cables = field.at("cables");
+  const std::size_t count = cables.size(1, kMaxCellChannels, "one cable for each channel of the node");
+  for (std::size_t i = 0; i < count; ++i)
+    out.cables.push_back(static_cast<std::size_t>(cables.element(i).integer(1, cable::kMaxCables) - 1));
+  out.zero_N.assign(count, 0.0);
+  if (!field.json().contains("zero_N")) return out;
+  const Field zeros = field.at("zero_N");
+  zeros.size(count, count, "one for each of its cables");
+  for (std::size_t i = 0; i < count; ++i) out.zero_N[i] = zeros.element(i).number({-1000, 1000});
+  return out;
+}
 
 BusConfig read_bus(const Field& field, std::map<std::int32_t, std::string>& owner) {
-  field.only({"name", "bitrate", "nodes", "wrist_sensor", "adapter"});
+  field.only({"name", "bitrate", "nodes", "wrist_sensor", "adapter", "load_cells"});
   BusConfig bus;
   bus.name = field.at("name").name(11);  // 12 bytes with the final zero, docs/reference/bus-protocol.md
   bus.bitrate = static_cast<std::int32_t>(field.at("bitrate").integer(10000, 1000000));
@@ -29,11 +54,12 @@ BusConfig read_bus(const Field& field, std::map<std::int32_t, std::string>& owne
     bus.nodes.push_back(node);
   }
   for (const auto& [key, place] : {std::pair{"wrist_sensor", &bus.wrist_sensor}, std::pair{"adapter", &bus.adapter}}) {
-    if (!field.json().contains(key)) continue;
-    *place = static_cast<std::int32_t>(field.at(key).integer(1, kMasterNode - 1));
-    if (!owner.emplace(*place, bus.name).second)
-      field.at(key).refuse("a node id that nobody else has", "it is already on bus " + owner[*place]);
+    if (field.json().contains(key)) *place = read_node(field.at(key), bus.name, owner);
   }
+  if (!field.json().contains("load_cells")) return bus;
+  const Field cells = field.at("load_cells");
+  for (std::size_t i = 0; i < cells.size(1, cable::kMaxCables, "list the nodes that read load cells"); ++i)
+    bus.load_cells.push_back(read_load_cells(cells.element(i), bus.name, owner));
   return bus;
 }
 
@@ -46,6 +72,30 @@ void check_sensors(const Field& table, const BusesConfig& buses) {
   }
   if (wrists > 1 || adapters > 1)
     table.at("buses").refuse("one wrist_sensor and one adapter in all", "leave the others out");
+}
+
+// Each cable has one cell at most, and what they have in common is said once.
+void read_load_cell(const Field& table, BusesConfig& buses) {
+  std::map<std::size_t, std::int32_t> node_of;
+  for (std::size_t b = 0; b < buses.buses.size(); ++b) {
+    for (const LoadCellNode& node : buses.buses[b].load_cells) {
+      for (const std::size_t cable : node.cables) {
+        if (node_of.emplace(cable, node.node).second) continue;
+        table.at("buses")
+            .element(b)
+            .at("load_cells")
+            .refuse("each cable once", "cable " + std::to_string(cable + 1) + " is already read by node " +
+                                           std::to_string(node_of[cable]));
+      }
+    }
+  }
+  if (node_of.empty()) return;
+  const Field cell = table.at("load_cell");
+  cell.only({"newtons_per_step", "range_N", "agree_N", "when_lost"});
+  buses.load_cell.newtons_per_step = cell.at("newtons_per_step").number({1e-6, 10});
+  buses.load_cell.range_N = cell.at("range_N").number({1, 1e5});
+  buses.load_cell.agree_N = cell.at("agree_N").number({0.1, 1e4});
+  buses.load_cell.goes_on = cell.at("when_lost").choice({"hold", "torque"}) == "torque";
 }
 
 void check_timing(const Field& table, const BusesConfig& buses) {
@@ -125,18 +175,20 @@ std::int32_t torque_drives(const BusesConfig& buses, std::size_t bus) {
 }
 
 // A torque drive's command is two bytes longer, and it has a TPDO2. The sensor has two frames a tick, the adapter one
-// every fourth tick, and it is told as often.
+// every fourth tick, and it is told as often; a node with load cells has one a tick.
 double worst_extra_bits_per_s(const BusConfig& bus, double rate_hz, std::int32_t torque_drives) {
   double tick_bits = torque_drives * (worst_frame_bits(8) - worst_frame_bits(6) + worst_frame_bits(4));
   if (bus.wrist_sensor != 0) tick_bits += 2.0 * worst_frame_bits(8);
   if (bus.adapter != 0) tick_bits += (worst_frame_bits(8) + worst_frame_bits(2)) / 4.0;
+  for (const LoadCellNode& node : bus.load_cells)
+    tick_bits += worst_frame_bits(2 * static_cast<int>(node.cables.size()));
   return tick_bits * rate_hz;
 }
 
 double worst_case_load(const BusesConfig& buses, std::size_t bus) {
   const BusConfig& own = buses.buses[bus];
   const auto nodes = static_cast<double>(own.nodes.size());
-  const double others = (own.wrist_sensor != 0) + (own.adapter != 0);
+  const auto others = static_cast<double>(own.sensors());
   const double tick_bits = worst_frame_bits(0) + nodes * (worst_frame_bits(6) + worst_frame_bits(8));
   const double heartbeat_bits = (nodes + others + 1.0) * worst_frame_bits(1);
   const double sdo_bits = 2.0 * worst_frame_bits(8);  // request and response
@@ -151,7 +203,7 @@ BusesConfig parse_buses(const std::string& text, const std::string& file) {
   const Field table(json, file, "");
   check_kind(table, "buses");
   table.only({"format", "kind", "name", "backend", "rate_hz", "command_interval_s", "buses", "heartbeat_ms", "max_load",
-              "machine", "drives", "drive_types"});
+              "machine", "drives", "drive_types", "load_cell"});
   BusesConfig out;
   out.name = table.at("name").name(40);
   out.backend = table.at("backend").choice({"embedded", "socketcan"});
@@ -166,6 +218,7 @@ BusesConfig parse_buses(const std::string& text, const std::string& file) {
   for (std::size_t i = 0; i < count; ++i) out.buses.push_back(read_bus(list.element(i), owner));
   check_drive_types(table, out);
   check_sensors(table, out);
+  read_load_cell(table, out);
   check_timing(table, out);
   out.canonical_json = canonical_json(json);
   check_load(table, out);

@@ -15,6 +15,21 @@
 
 namespace liana::config {
 
+// A node that reads load cells (CiA 404), one channel a cable, in the order of its channels.
+struct LoadCellNode {
+  std::int32_t node = 0;
+  std::vector<std::size_t> cables;  // 0-based
+  std::vector<double> zero_N;       // of each
+};
+
+// What all load cells of the buses have in common.
+struct LoadCells {
+  double newtons_per_step = 0.0;
+  double range_N = 0.0;  // readings beyond count as none
+  double agree_N = 0.0;  // most by which a cell and the torque of its drive may differ
+  bool goes_on = false;  // without a cell that is lost, by torque
+};
+
 // One CAN bus and the drives on it.
 struct BusConfig {
   std::string name;                 // interface name for socketcan
@@ -22,6 +37,10 @@ struct BusConfig {
   std::vector<std::int32_t> nodes;  // CANopen node ids, 1..126
   std::int32_t wrist_sensor = 0;    // node of a serial arm's force sensor (docs/explanation/force-control.md); 0: none
   std::int32_t adapter = 0;         // node of the adapter; 0: none
+  std::vector<LoadCellNode> load_cells{};
+
+  // Nodes that are no drives.
+  std::size_t sensors() const { return (wrist_sensor != 0) + (adapter != 0) + load_cells.size(); }
 };
 
 // Frames of a bus beside commands and TPDO1 of its drives, in bits a second with worst stuffing.
@@ -43,6 +62,7 @@ struct BusesConfig {
   std::int32_t heartbeat_ms = 0;
   double max_load = 0.0;  // highest worst-case load accepted, 0..1
   Machine machine;
+  LoadCells load_cell;
   std::string canonical_json;
 
   // Control period [s].

@@ -27,6 +27,28 @@ RobotConfig read_robot(const Json& json, const std::string& file, const std::str
   return out;
 }
 
+void take_load_cells(const BusesConfig& buses, const std::string& file, RobotConfig& out) {
+  cable::LoadCellParams& cell = out.table.load_cell;
+  const auto cables = static_cast<std::size_t>(out.table.cable_count());
+  for (const BusConfig& bus : buses.buses) {
+    for (const LoadCellNode& node : bus.load_cells) {
+      for (std::size_t i = 0; i < node.cables.size(); ++i) {
+        if (node.cables[i] >= cables) {
+          throw std::runtime_error(file + ": bus table " + buses.name + ": load_cells of node " +
+                                   std::to_string(node.node) + ": cable " + std::to_string(node.cables[i] + 1) +
+                                   ": allowed are the cables 1 to " + std::to_string(cables) + " of " + out.name +
+                                   "; name another cable or use another bus table");
+        }
+        cell.newtons_per_step[node.cables[i]] = buses.load_cell.newtons_per_step;
+        cell.zero_N[node.cables[i]] = node.zero_N[i];
+      }
+    }
+  }
+  cell.range_N = buses.load_cell.range_N;
+  cell.agree_N = buses.load_cell.agree_N;
+  cell.goes_on = buses.load_cell.goes_on ? 1 : 0;
+}
+
 }  // namespace
 
 RobotConfig parse_robot(const std::string& text, const std::string& file, const std::string& physics,
@@ -36,6 +58,7 @@ RobotConfig parse_robot(const std::string& text, const std::string& file, const 
   out.machine = buses.machine;
   out.table.tick_s = buses.tick_s();
   out.table.interval_ticks = buses.interval_ticks();
+  take_load_cells(buses, file, out);
   return out;
 }
 

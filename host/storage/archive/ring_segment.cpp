@@ -16,6 +16,7 @@ Texts texts_of(const RingAbout& about) {
           {"drives", std::to_string(about.counts.drives)},
           {"thetas", std::to_string(about.counts.thetas)},
           {"segments", std::to_string(about.counts.segments)},
+          {"load_cells", std::to_string(about.counts.load_cells)},
           {"inputs_widths", about.widths.inputs},
           {"telecommand_widths", about.widths.telecommand},
           {"outputs_widths", about.widths.outputs}};
@@ -42,7 +43,8 @@ const std::string& widths_in(const Texts& texts, const char* key) {
 
 RingAbout ring_about(const Texts& metadata) {
   return {text_in(metadata, "build_id"),
-          {number_in(metadata, "drives"), number_in(metadata, "thetas"), number_in(metadata, "segments")},
+          {number_in(metadata, "drives"), number_in(metadata, "thetas"), number_in(metadata, "segments"),
+           number_in(metadata, "load_cells")},
           {widths_in(metadata, "inputs_widths"), widths_in(metadata, "telecommand_widths"),
            widths_in(metadata, "outputs_widths")}};
 }

@@ -19,6 +19,7 @@ std::string tick_packet(const TickRecord<Arm>& record, std::uint64_t dropped, co
   writer("drives", counts.drives);
   writer("thetas", counts.thetas);
   writer("segments", counts.segments);
+  writer("load_cells", counts.load_cells);
   writer("inputs_bytes", static_cast<std::uint32_t>(inputs.size()));
   out += inputs;
   append_recorded(out, record.outputs, counts);
@@ -60,9 +61,11 @@ TickParts split_tick_packet(std::string_view packet) {
   reader("drives", parts.counts.drives);
   reader("thetas", parts.counts.thetas);
   reader("segments", parts.counts.segments);
+  reader("load_cells", parts.counts.load_cells);
   reader("inputs_bytes", inputs_bytes);
   const bool fits = parts.counts.drives <= kMaxDrives && parts.counts.thetas <= cable::kMaxTheta &&
-                    parts.counts.segments <= cable::kMaxSegments && inputs_bytes < reader.left();
+                    parts.counts.segments <= cable::kMaxSegments && parts.counts.load_cells <= kMaxDrives &&
+                    inputs_bytes < reader.left();
   if (!fits) {
     throw std::runtime_error("tick packet of " + std::to_string(packet.size()) +
                              " bytes: lianad and archive are of different versions");

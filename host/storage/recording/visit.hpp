@@ -20,16 +20,20 @@ concept Like = std::same_as<std::remove_const_t<T>, Plain>;
 // How many of each a robot has: what is written of arrays with more places. As made: all places.
 struct RecordedCounts {
   std::uint8_t drives = kMaxDrives, thetas = cable::kMaxTheta, segments = cable::kMaxSegments;
+  std::uint8_t load_cells = kMaxDrives;  // cables up to the last one with a load cell
 };
 
 inline RecordedCounts counts_of(const cable::RobotParams& table) {
+  std::uint8_t cells = 0;
+  for (std::int32_t c = 0; c < table.cable_count(); ++c)
+    if (cable::has_load_cell(table, as_index(c))) cells = static_cast<std::uint8_t>(c + 1);
   return {static_cast<std::uint8_t>(table.drive_count()), static_cast<std::uint8_t>(table.theta_count()),
-          static_cast<std::uint8_t>(table.segment_count)};
+          static_cast<std::uint8_t>(table.segment_count), cells};
 }
 
 inline RecordedCounts counts_of(const serial::RobotParams& table) {
   const auto joints = static_cast<std::uint8_t>(table.joint_count);
-  return {joints, joints, 0};
+  return {joints, joints, 0, 0};
 }
 
 // The counts that a visitor goes by; all places when it names none.
@@ -133,7 +137,7 @@ void visit_listed(A& a, T& i) {
   a("twice_mask", i.twice_mask);
   a("request", i.request);
   visit_first(a, "drive", i.drive, counts_of_visitor(a).drives);
-  if constexpr (!std::same_as<std::remove_cvref_t<decltype(i.sensors)>, NoSensors>) a("sensors", i.sensors);
+  a("sensors", i.sensors);
 }
 
 template <class A, Like<Fault> T>
@@ -207,6 +211,7 @@ void visit_listed(A& a, T& o) {
   visit_first(a, "load_Nm", o.load_Nm, counts_of_visitor(a).thetas);
   visit_first(a, "tension_plan_N", o.tension_plan_N, counts_of_visitor(a).drives);
   visit_first(a, "tension_measured_N", o.tension_measured_N, counts_of_visitor(a).drives);
+  if (counts_of_visitor(a).load_cells > 0) a("load_cells", o.load_cells);
   visit_first(a, "payout_command_m", o.payout_command_m, counts_of_visitor(a).drives);
   a("friction", o.friction);
   a("contact", o.contact);
@@ -214,6 +219,12 @@ void visit_listed(A& a, T& o) {
   a("ik_attitude_error_rad", o.ik_attitude_error_rad);
   a("ik_outcome", o.ik_outcome);
   a("ik_residual", o.ik_residual);
+}
+
+template <class A, Like<cable::LoadCells> T>
+void visit_listed(A& a, T& c) {
+  visit_first(a, "steps", c.steps, counts_of_visitor(a).load_cells);
+  visit_first(a, "age_ticks", c.age_ticks, counts_of_visitor(a).load_cells);
 }
 
 template <class A, Like<serial::Wrench> T>

@@ -1,4 +1,4 @@
-// What becomes of the frames of wrist sensor and adapter, and what they are told. req:B19
+// What becomes of the frames of wrist sensor, adapter and load cells, and what they are told. req:B19 req:A10
 #include "host/control/realtime/sensor_channel.hpp"
 
 #include <gtest/gtest.h>
@@ -76,6 +76,29 @@ TEST(SensorChannel, WhatDoesNotComeGrowsOlderByLostTicksToo) {
   line.begin_tick(3);
   EXPECT_EQ(line.sensors().adapter.age_ticks, 5);
   EXPECT_EQ(line.sensors().wrist.age_ticks, serial::kNeverHeard);
+}
+
+// Two nodes: cables 1 and 3 on one bus, cable 32 on the other.
+TEST(SensorChannel, ReadingsOfLoadCellsGoToTheirCablesAndGrowOlder) {
+  config::BusesConfig buses;
+  buses.buses.resize(2);
+  buses.buses[0].load_cells = {{0x28, {0, 2}, {0.0, 0.0}}};
+  buses.buses[1].load_cells = {{0x29, {31}, {0.0}}};
+  SensorChannel line(buses);
+  line.begin_tick(0);
+  EXPECT_EQ(line.load_cells().age_ticks[0], cable::kNeverRead);
+  line.on_frame(0, {0x1A8, 4, {0xD0, 0x07, 0x30, 0xF8}, 0});
+  line.on_frame(0, {0x1A9, 2, {1, 0}, 0});        // on the wrong bus
+  line.on_frame(1, {0x1A9, 4, {1, 0, 0, 0}, 0});  // of a wrong length
+  EXPECT_EQ(line.load_cells().steps[0], 2000);
+  EXPECT_EQ(line.load_cells().steps[2], -2000);
+  EXPECT_EQ(line.load_cells().age_ticks[31], cable::kNeverRead);
+  line.begin_tick(2);
+  line.on_frame(1, {0x1A9, 2, {0xFF, 0x7F}, 0});
+  EXPECT_EQ(line.load_cells().age_ticks[2], 3);
+  EXPECT_EQ(line.load_cells().age_ticks[1], cable::kNeverRead);
+  EXPECT_EQ(line.load_cells().steps[31], cable::kOverRange);
+  EXPECT_EQ(line.load_cells().age_ticks[31], 0);
 }
 
 TEST(SensorChannel, ANodeThatIsNotOperationalIsStartedOncePerHeartbeatAndTheAdapterToldEveryFourthTick) {

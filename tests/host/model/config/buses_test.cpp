@@ -46,6 +46,28 @@ TEST(Buses, ASensorHasANodeOfItsOwnAndThereIsOneOfEach) {
   expect_refused(good, {"/buses/0/adapter", 50, "buses", {"wrist_sensor", "adapter"}}, parse);
 }
 
+// Three nodes with a frame of 6 bytes (115 bits) a tick each, and a heartbeat. req:A10
+TEST(Buses, LoadCellsAreReadWithWhatTheyHaveInCommonAndCountInTheLoad) {
+  const BusesConfig buses = parse_buses(good_table("buses", "embedded_lab_1g").dump(), "b");
+  ASSERT_EQ(buses.buses[0].load_cells.size(), 3U);
+  EXPECT_EQ(buses.buses[0].load_cells[2].node, 34);
+  EXPECT_EQ(buses.buses[0].load_cells[2].cables, (std::vector<std::size_t>{6, 7, 8}));
+  EXPECT_EQ(buses.load_cell.newtons_per_step, 0.02);
+  EXPECT_TRUE(buses.load_cell.goes_on);
+  EXPECT_NEAR(worst_case_load(buses, 0), ((55 + 9 * 250 + 3 * 115) * 200 + 13 * 65 * 10 + 5400) / 1e6, 1e-12);
+}
+
+TEST(Buses, ALoadCellHasANodeOfItsOwnACableOfItsOwnAndARowForAll) {
+  const Json good = good_table("buses", "embedded_lab_1g");
+  const auto parse = [](const std::string& text) { parse_buses(text, "given.json"); };
+  expect_refused(good, {"/buses/0/load_cells/1/node", 9, "buses[1].load_cells[2].node", {"can0"}}, parse);
+  expect_refused(good, {"/buses/0/load_cells/1/node", 32, "buses[1].load_cells[2].node", {"can0"}}, parse);
+  expect_refused(good, {"/buses/0/load_cells/1/cables/0", 3, "buses[1].load_cells", {"cable 3", "32"}}, parse);
+  expect_refused(good, {"/buses/0/load_cells/1/cables/0", 33, "buses[1].load_cells[2].cables[1]", {"32"}}, parse);
+  expect_refused(good, {"/load_cell/when_lost", "stop", "load_cell.when_lost", {"hold", "torque"}}, parse);
+  expect_refused(good, {"/load_cell/agree_N", 0, "load_cell.agree_N", {"0.1"}}, parse);
+}
+
 TEST(Buses, PeriodIsWhatObject60C2Holds) {
   const auto expect = [](std::int32_t period_us, int value, int exponent) {
     const InterpolationPeriod period = interpolation_period(period_us);

@@ -104,7 +104,9 @@ std::size_t visited_fields() {
 }
 
 TEST(Serialise, NoFieldIsForgotten) {
-  EXPECT_EQ(visited_fields<cable::Inputs>(), field_count<CycleInputs>()) << "the telecommand is visited by itself";
+  EXPECT_EQ(visited_fields<cable::Inputs>(), field_count<CycleInputs>() + 1)
+      << "and sensors; the telecommand is visited by itself";
+  EXPECT_EQ(visited_fields<cable::LoadCells>(), field_count<cable::LoadCells>());
   EXPECT_EQ(visited_fields<cable::Outputs>(), field_count<CycleOutputs>() + field_count<cable::Report>());
   EXPECT_EQ(visited_fields<FaultList>(), field_count<FaultList>());
   EXPECT_EQ(visited_fields<Fault>(), field_count<Fault>());

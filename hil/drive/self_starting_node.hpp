@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <initializer_list>
+#include <span>
 
 #include "hil/drive/can_frame.hpp"
 
@@ -20,7 +20,7 @@ class SelfStartingNode {
   // Boot-up and heartbeat when they are due.
   void tick(std::uint64_t now_us, FrameList& out);
   // Puts a frame of these bytes on its bus.
-  void send(std::uint32_t id, std::initializer_list<std::uint8_t> bytes, FrameList& out) const;
+  void send(std::uint32_t id, std::span<const std::uint8_t> bytes, FrameList& out) const;
 
   bool is_operational() const { return state_ == kOperational; }
   std::uint32_t node() const { return node_; }

@@ -1,4 +1,4 @@
-#include "hil/payload/self_starting_node.hpp"
+#include "hil/drive/self_starting_node.hpp"
 
 #include <algorithm>
 
@@ -22,12 +22,12 @@ void SelfStartingNode::command(std::uint8_t command) {
 void SelfStartingNode::tick(std::uint64_t now_us, FrameList& out) {
   const bool boots = state_ == kBooting;
   if (!boots && now_us < next_us_) return;
-  send(0x700 + node_, {state_}, out);
+  send(0x700 + node_, {&state_, 1}, out);
   next_us_ = now_us + kHeartbeat_us;
   if (boots) state_ = kOperational;
 }
 
-void SelfStartingNode::send(std::uint32_t id, std::initializer_list<std::uint8_t> bytes, FrameList& out) const {
+void SelfStartingNode::send(std::uint32_t id, std::span<const std::uint8_t> bytes, FrameList& out) const {
   CanFrame frame;
   frame.bus = bus_;
   frame.id = id;
