@@ -46,9 +46,11 @@ struct ReachOptions {
   std::string samples = "200000";
   std::uint64_t seed = 1;
   std::string svg_file;  // empty: no picture
+  bool carry = false;    // what the cables pull there, for every mounting, in place of the region
   bool json = false;
 };
-// Where the tip or a node of either kind of arm can go, or how well a cable arm is conditioned along a path.
+// Where the tip or a node of either kind of arm can go, how well a cable arm is conditioned along a path, or what its
+// cables pull where.
 int reach_command(const ReachOptions& options);
 
 struct BudgetOptions {
