@@ -8,7 +8,7 @@ namespace liana::closed_loop {
 namespace {
 
 TEST(LoadIdentification, WithTheLoadFoundAnArmThatASeedBuildsExplainsItsTensions) {
-  const Mounting& lying = kMountings.front();
+  const LabMounting& lying = kMountings.front();
   const cable::RobotParams table = lab_arm(lying).table;
   const calibration::LoadResult found = find_load(lying, 1, calibration::load_poses(table, 4));
   measured("torque not explained with the table", found.before.torque_Nm, "N m");

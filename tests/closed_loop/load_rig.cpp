@@ -21,9 +21,9 @@ constexpr double kRate_rad_s = 1.5 * kDegree;
 constexpr double kSettle_s = 1.5;
 constexpr int kReadings = 250;
 
-std::string file_of(const Mounting& mounting) { return CLOSED_LOOP_DATA "/lab_1g_" + mounting.name + ".json"; }
+std::string file_of(const LabMounting& mounting) { return CLOSED_LOOP_DATA "/lab_1g_" + mounting.name + ".json"; }
 
-Json table_of(const Mounting& mounting) {
+Json table_of(const LabMounting& mounting) {
   std::stringstream text;
   text << std::ifstream(CLOSED_LOOP_DATA "/lab_1g.json").rdbuf();
   Json table = Json::parse(text.str());
@@ -64,7 +64,7 @@ calibration::LoadReading come_to(ArmUnderControl& arm, const calibration::LoadPo
   return read(arm);
 }
 
-PlantSetup setup_of(const Mounting& mounting, std::uint64_t seed) {
+PlantSetup setup_of(const LabMounting& mounting, std::uint64_t seed) {
   std::ofstream(file_of(mounting)) << table_of(mounting).dump();
   return {"nominal", seed, true, "park", file_of(mounting)};
 }
@@ -77,15 +77,15 @@ double root_mean(const CableVector& a, const CableVector& b, std::int32_t count)
 
 }  // namespace
 
-const std::vector<Mounting> kMountings{
+const std::vector<LabMounting> kMountings{
     {"lying", {0.0, 0.0, -9.80665}}, {"hanging", {9.80665, 0.0, 0.0}}, {"upside_down", {-9.80665, 0.0, 0.0}}};
 
-config::RobotConfig lab_arm(const Mounting& mounting) {
+config::RobotConfig lab_arm(const LabMounting& mounting) {
   const Json table = table_of(mounting);
   return config::parse_robot(table.dump(), "lab_1g", "nominal", config::parse_buses(config::bench_buses(9), "bench_9"));
 }
 
-calibration::LoadResult find_load(const Mounting& mounting, std::uint64_t seed,
+calibration::LoadResult find_load(const LabMounting& mounting, std::uint64_t seed,
                                   const std::vector<calibration::LoadPose>& poses) {
   const RobotParams table = lab_arm(mounting).table;
   ArmUnderControl arm(setup_of(mounting, seed), table);
@@ -99,7 +99,7 @@ calibration::LoadResult find_load(const Mounting& mounting, std::uint64_t seed,
   return fit.solve();
 }
 
-Standing standing(const Mounting& mounting, std::uint64_t seed, const RobotParams& table,
+Standing standing(const LabMounting& mounting, std::uint64_t seed, const RobotParams& table,
                   const std::vector<calibration::LoadPose>& poses) {
   ArmUnderControl arm(setup_of(mounting, seed), table);
   arm.boot();

@@ -12,17 +12,17 @@
 namespace liana::closed_loop {
 
 // Where gravity points in the base frame, x along the straight arm.
-struct Mounting {
+struct LabMounting {
   std::string name;
   Vec3 gravity_m_s2{};
 };
-extern const std::vector<Mounting> kMountings;  // lying, hanging, upside down
+extern const std::vector<LabMounting> kMountings;  // lying, hanging, upside down
 
 // What the table says of the arm so mounted.
-config::RobotConfig lab_arm(const Mounting& mounting);
+config::RobotConfig lab_arm(const LabMounting& mounting);
 
 // The load found in these poses by an arm of this seed that believes its table.
-calibration::LoadResult find_load(const Mounting& mounting, std::uint64_t seed,
+calibration::LoadResult find_load(const LabMounting& mounting, std::uint64_t seed,
                                   const std::vector<calibration::LoadPose>& poses);
 
 // How an arm of this seed stands in poses that it comes to with this table, from both sides.
@@ -31,7 +31,7 @@ struct Standing {
   std::vector<double> tension_error_N;  // rms over cables, measured less planned, by pose: mean of both sides
   std::vector<double> load_error_Nm;    // rms over angles, of torque that the load does not explain, the same
 };
-Standing standing(const Mounting& mounting, std::uint64_t seed, const cable::RobotParams& table,
+Standing standing(const LabMounting& mounting, std::uint64_t seed, const cable::RobotParams& table,
                   const std::vector<calibration::LoadPose>& poses);
 
 // The table with what was found.

@@ -33,7 +33,7 @@ void print(const char* name, const closed_loop::Standing& all) {
 
 int main(int argc, char** argv) {
   const numbers::Options options = numbers::parse_options(argc, argv, 20);
-  for (const closed_loop::Mounting& mounting : closed_loop::kMountings) {
+  for (const closed_loop::LabMounting& mounting : closed_loop::kMountings) {
     const cable::RobotParams table = closed_loop::lab_arm(mounting).table;
     const std::vector<calibration::LoadPose> poses = calibration::load_poses(table);
     closed_loop::Standing before, after;
