@@ -13,8 +13,22 @@ constexpr double kTorqueNoise = 0.003;                   // of the reading, as t
 constexpr double kStartSpread_rad = 8.7266462599716e-3;  // 0.5 deg (mission, A8)
 
 bench::TrueParameters parameters(const bench::RobotConfig& robot, const PlantSetup& setup) {
-  return setup.spread ? bench::spread_parameters(robot, setup.physics, setup.seed)
-                      : bench::table_parameters(robot, setup.physics);
+  bench::TrueParameters truth = setup.spread ? bench::spread_parameters(robot, setup.physics, setup.seed)
+                                             : bench::table_parameters(robot, setup.physics);
+  truth.gravity_m_s2 = robot.gravity_m_s2;
+  return truth;
+}
+
+bench::RobotConfig built(const PlantSetup& setup) {
+  const std::string data = CLOSED_LOOP_DATA;
+  const bench::RobotConfig table =
+      bench::load_robot(setup.robot_file.empty() ? data + "/robot.json" : setup.robot_file);
+  return setup.spread ? bench::spread_load(table, setup.seed) : table;
+}
+
+bench::SceneConfig scene_of(const PlantSetup& setup) {
+  const std::string data = CLOSED_LOOP_DATA;
+  return bench::load_scene(data + (setup.robot_file.empty() ? "/scene.json" : "/empty.json"));
 }
 
 }  // namespace
@@ -34,7 +48,7 @@ struct Plant::Parts {
   Parts(const bench::RobotConfig& table, const PlantSetup& setup)
       : robot(table),
         truth(parameters(table, setup)),
-        arm(table, bench::load_scene(CLOSED_LOOP_DATA "/scene.json"), truth,
+        arm(table, scene_of(setup), truth,
             bench::start_pose(table, setup.start_pose, setup.spread ? kStartSpread_rad : 0.0, setup.seed)),
         drum_m(arm.payouts_m()),
         noisy(setup.spread),
@@ -42,8 +56,7 @@ struct Plant::Parts {
         fault_noise(setup.seed, "closed loop fault noise") {}
 };
 
-Plant::Plant(const PlantSetup& setup)
-    : parts_(std::make_unique<Parts>(bench::load_robot(CLOSED_LOOP_DATA "/robot.json"), setup)) {}
+Plant::Plant(const PlantSetup& setup) : parts_(std::make_unique<Parts>(built(setup), setup)) {}
 Plant::~Plant() = default;
 
 cable::CableVector Plant::measured_payout_m() const {

@@ -19,6 +19,7 @@ struct PlantSetup {
   bool spread = true;  // true parameters and start pose differ from the table (mission, A9); false: exactly the
                        // table, no noise
   std::string start_pose = "prepare";
+  std::string robot_file{};  // of the bench; empty: the arm of all tests, in its scene
 };
 
 // Extremes since the last take_load().

@@ -76,6 +76,33 @@ class Calibration(Messages, unittest.TestCase):
         self.assertEqual(len(crossed.stdout.strip().splitlines()), 2, crossed.stdout)
         self.assertFalse(out_file.exists())
 
+    def test_the_load_of_an_arm_with_weight_is_added_to_its_calibration_and_a_run_begins_with_it(self):
+        jigs, loaded = self.directory / "lab.json", self.directory / "lab_loaded.json"
+        self.assertEqual(run("liana", "calibrate", "--robot", "lab_1g", "--out", jigs).returncode, 0)
+        words = ["--load", "--poses", "zero,park,look,deep", "--calibration", jigs, "--out", loaded, "--json"]
+        found = run("liana", "calibrate", "--robot", "lab_1g", *words)
+        self.assertEqual(found.returncode, 0, found.stdout + found.stderr)
+        report, content = json.loads(found.stdout), json.loads(loaded.read_text())
+        self.assertEqual(report["load"], content["load"])
+        self.assertIn("segments[0].module_mass_kg", [entry["field"] for entry in content["load"]])
+        self.assertLess(report["after"]["torque_Nm"], report["before"]["torque_Nm"])
+        self.assertEqual(content["cables"], json.loads(jigs.read_text())["cables"])
+        again = run("liana", "calibrate", "--robot", "lab_1g", *words[:2], "zero", "--calibration", loaded)
+        self.assertEqual(
+            (again.returncode, again.stdout), (2, ""), "four poses are the minimum, and the arm stays still"
+        )
+
+    def test_a_load_that_cannot_be_measured_is_refused_before_anything_starts(self):
+        for words, named in (
+            (["--load"], "gravity_m_s2"),
+            (["--load", "--friction"], "--friction"),
+            (["--load", "--robot", "lab_1g", "--out", self.directory / "x.json"], "--calibration"),
+            (["--load", "--robot", "lab_1g", "--poses", "nosuch"], "nosuch"),
+        ):
+            refused = run("liana", "calibrate", *words)
+            self.assertEqual((refused.returncode, refused.stdout), (2, ""), refused.stderr)
+            self.assertIn(named, refused.stderr)
+
     def test_drives_to_exchange_that_are_not_two_of_the_robot_are_refused_before_anything_starts(self):
         for words in (["calibrate"], ["run", MISSIONS / "short.lua"]):
             for drives in ("3,99", "0,3", "3,3", "3", "3,4,", "3,4,5"):

@@ -138,23 +138,84 @@ void show(const calibration::Friction& friction, const calibration::Calibration&
   }
 }
 
-// The arm moves: what was found of its friction is added to what is known of it.
-int measure_friction(const CalibrateOptions& options, bool simulated, const config::RobotConfig& robot) {
+Json json_of(const calibration::LoadError& error) {
+  return {{"torque_Nm", error.torque_Nm}, {"tension_N", error.tension_N}};
+}
+
+void show(const calibration::LoadResult& load, const config::RobotConfig& robot, bool as_json) {
+  if (as_json) {
+    Json report{
+        {"load", Json::array()},        {"not_told_apart", load.not_told_apart},  {"before", json_of(load.before)},
+        {"after", json_of(load.after)}, {"with_gains", json_of(load.with_gains)}, {"problems", load.problems}};
+    for (const calibration::LoadValue& one : load.values)
+      report["load"].push_back({{"field", one.field}, {"value", one.value}, {"sd", one.sd}});
+    std::printf("%s\n", report.dump().c_str());
+    return;
+  }
+  const std::vector<calibration::LoadParameter> parameters = calibration::load_parameters(robot.table);
+  std::printf("%-40s %10s %10s %10s\n", "field", "table", "found", "+-");
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const calibration::LoadValue& one = load.values[i];
+    std::printf("%-40s %10.5g %10.5g %10.2g\n", one.field.c_str(), parameters[i].table_value, one.value, one.sd);
+  }
+  for (const std::vector<std::string>& fields : load.not_told_apart)
+    std::printf("cannot be told apart in these poses: %s\n", list_of(fields).c_str());
+  std::printf(
+      "not explained, rms: %.3f N m and %.2f N with the table, %.3f N m and %.2f N as found, %.3f N m and %.2f N "
+      "with the torque gains of the drives as found, too\n",
+      load.before.torque_Nm, load.before.tension_N, load.after.torque_Nm, load.after.tension_N,
+      load.with_gains.torque_Nm, load.with_gains.tension_N);
+  for (const std::string& problem : load.problems) std::printf("problem: %s\n", problem.c_str());
+}
+
+// Where the load is measured; what is wrong with a pose is said before anything starts.
+std::vector<calibration::LoadPose> load_poses(const CalibrateOptions& options, const config::RobotConfig& robot) {
+  return launcher::checked([&] {
+    if (options.poses.empty()) return calibration::load_poses(robot.table);
+    std::vector<calibration::LoadPose> poses;
+    for (const std::string& name : poses_of(options, robot)) {
+      try {
+        poses.push_back(calibration::load_pose(robot.table, calibration::named_pose_rad(robot, name)));
+      } catch (const std::runtime_error& error) {
+        throw std::runtime_error("--poses: '" + name + "': " + error.what());
+      }
+    }
+    if (poses.size() < calibration::kMinLoadPoses)
+      throw std::runtime_error("--poses: '" + options.poses + "': allowed with --load are at least " +
+                               std::to_string(calibration::kMinLoadPoses) + " poses: name more, or leave it out");
+    return poses;
+  });
+}
+
+// The arm moves: what was found of its friction, or of its weight and springs, is added to what is known of it.
+int measure_moving(const CalibrateOptions& options, bool simulated, const config::RobotConfig& robot) {
+  const std::string flag = options.load ? "--load" : "--friction";
   if (!options.out_file.empty() && options.calibration.empty())
-    throw launcher::BadInput("--out: '" + options.out_file +
-                             "': allowed with --friction only beside --calibration FILE, "
-                             "which friction is added to: run liana calibrate without --friction first");
+    throw launcher::BadInput("--out: '" + options.out_file + "': allowed with " + flag +
+                             " only beside --calibration FILE, which the result is added to: run liana calibrate "
+                             "without " +
+                             flag + " first");
   calibration::Calibration whole;
   if (!options.calibration.empty())
     whole = launcher::checked(
         [&] { return calibration::load_calibration(options.calibration, robot, calibration::today_utc()); });
   launcher::RunOptions run = run_options(options, simulated);
   run.calibration = options.calibration;
+  const std::vector<calibration::LoadPose> poses =
+      options.load ? load_poses(options, robot) : std::vector<calibration::LoadPose>{};
   const launcher::SystemLayout plan = launcher::make_layout(run);
   const launcher::InterruptGuard interrupts;
-  whole.friction = found_with(plan, interrupts,
-                              [&](launcher::CalibrateSession&& session) { return session.measure_friction(robot); });
-  show(*whole.friction, whole, options.json);
+  if (options.load) {
+    const calibration::LoadResult load = found_with(
+        plan, interrupts, [&](launcher::CalibrateSession&& session) { return session.measure_load(robot, poses); });
+    show(load, robot, options.json);
+    if (!load.problems.empty()) return launcher::kExitFailure;
+    whole.load = load.values;
+  } else {
+    whole.friction = found_with(plan, interrupts,
+                                [&](launcher::CalibrateSession&& session) { return session.measure_friction(robot); });
+    show(*whole.friction, whole, options.json);
+  }
   if (!options.out_file.empty()) launcher::write_output(options.out_file, calibration::calibration_json(whole));
   return launcher::kExitOk;
 }
@@ -177,10 +238,10 @@ int calibrate_command(const CalibrateOptions& options) {
       launcher::checked([&] { return config::parse_robot(text, options.robot, options.physics, buses); });
   launcher::check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
   if (!options.out_file.empty()) launcher::check_output("--out", options.out_file);
-  if (options.friction) return measure_friction(options, simulated, robot);
+  if (options.friction || options.load) return measure_moving(options, simulated, robot);
   if (!options.calibration.empty())
     throw launcher::BadInput("--calibration: '" + options.calibration +
-                             "': allowed with --friction only: leave it out");
+                             "': allowed with --friction or --load only: leave it out");
   const std::vector<std::string> poses = poses_of(options, robot);
   std::vector<cable::ThetaVector> thetas_rad;
   try {

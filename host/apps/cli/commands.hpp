@@ -46,9 +46,11 @@ struct ReachOptions {
   std::string samples = "200000";
   std::uint64_t seed = 1;
   std::string svg_file;  // empty: no picture
+  bool carry = false;    // what the cables pull there, for every mounting, in place of the region
   bool json = false;
 };
-// Where the tip or a node of either kind of arm can go, or how well a cable arm is conditioned along a path.
+// Where the tip or a node of either kind of arm can go, how well a cable arm is conditioned along a path, or what its
+// cables pull where.
 int reach_command(const ReachOptions& options);
 
 struct BudgetOptions {
@@ -151,13 +153,15 @@ int view_command(const ViewOptions& options);
 struct CalibrateOptions {
   std::string robot = "zhu2022";
   std::string bus;    // empty: as for a run
-  std::string poses;  // named poses of the fixtures; empty: those of the table, else zero, jig and prepare
+  std::string poses;  // named poses of the fixtures; empty: those of the table, else zero, jig and prepare. With load:
+                      // where it is measured; empty: chosen
   std::string physics = "nominal";
   std::string cross_wired;  // empty, or two drives of the simulated arm whose cables are exchanged
   std::string out_file;     // empty: the calibration is only printed
-  std::string calibration;  // with friction: the file that it is added to
+  std::string calibration;  // with friction or load: the file that it is added to
   std::uint64_t seed = 1;
   bool friction = false;  // move the arm and measure friction, instead of the drives in fixtures
+  bool load = false;      // the same with weight and springs
   bool json = false;
 };
 // Reads the drives with the arm in fixtures, writes a calibration; exit code 1 when something is wired or wound wrong,

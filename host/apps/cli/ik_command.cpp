@@ -8,6 +8,7 @@
 #include "host/apps/launcher/tables.hpp"
 #include "host/base/json/json.hpp"
 #include "host/model/inverse_kinematics/goal_ik.hpp"
+#include "host/planning/planner/check/plan_check.hpp"
 
 namespace liana::cli {
 namespace {
@@ -58,6 +59,7 @@ void print_goal(const Json& answer) {
               answer["position_error_m"].get<double>(), answer["attitude_error_rad"].get<double>());
   for (const Json& angle : answer["theta_deg"]) std::printf(" %.6f", angle.get<double>());
   std::printf("\n");
+  if (!answer["refused"].is_null()) std::printf("refused: %s\n", answer["refused"].get<std::string>().c_str());
 }
 
 }  // namespace
@@ -72,13 +74,20 @@ int ik_command(const IkOptions& options) {
   hold(options.hold, robot, problem);
   aim_nodes(options.control_points, robot, problem);
   const inverse_kinematics::GoalIkResult result = inverse_kinematics::solve_goal(robot, problem);
-  const Json answer = to_json(result, static_cast<std::size_t>(robot.theta_count()), options.control_points.size());
+  planner::PlanCheck check;
+  planner::check_tension(robot, {result.theta_rad}, check);
+  const std::string refused = planner::tension_refusal(robot, check, robot.tension.ceiling_free_N);
+  Json answer = to_json(result, static_cast<std::size_t>(robot.theta_count()), options.control_points.size());
+  answer["min_tension_N"] = check.min_tension_N;
+  answer["max_tension_N"] = check.max_tension_N;
+  answer["refused"] = refused.empty() ? Json() : Json(refused);
   if (options.json) {
     std::puts(answer.dump().c_str());
   } else {
     print_goal(answer);
   }
-  return result.converged ? launcher::kExitOk : launcher::kExitNotConverged;
+  if (!result.converged) return launcher::kExitNotConverged;
+  return refused.empty() ? launcher::kExitOk : launcher::kExitFailure;
 }
 
 }  // namespace liana::cli

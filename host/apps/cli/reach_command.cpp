@@ -3,6 +3,7 @@
 
 #include "firmware_like/math/trig.hpp"
 #include "host/apps/cli/arguments.hpp"
+#include "host/apps/cli/carry_report.hpp"
 #include "host/apps/cli/commands.hpp"
 #include "host/apps/cli/reach_along_path.hpp"
 #include "host/apps/cli/serial_commands.hpp"
@@ -28,6 +29,10 @@ void refuse_contradictions(const ReachOptions& options) {
   if (!options.path.empty() && !options.from_deg.empty())
     refuse("--path: not together with --from-deg; the file's first waypoint is the start");
   if (!options.to_deg.empty() && options.from_deg.empty()) refuse("--to-deg: needs --from-deg, where the path begins");
+  if (options.carry && (is_path(options) || !options.scene.empty() || !options.node.empty() || !options.hold.empty() ||
+                        !options.from_deg.empty()))
+    refuse(
+        "--carry: is about all poses of the tip; leave out --path, --to-deg, --from-deg, --hold, --node and --scene");
   if (!is_path(options)) return;
   if (!options.scene.empty()) refuse("--scene: is drawn with a region only; leave it out for a path");
   if (!options.node.empty()) refuse("--node: a path is examined for the tip; leave it out");
@@ -210,14 +215,32 @@ int reach_region(const ReachOptions& options, const RegionQuestion& asked) {
   return launcher::kExitOk;
 }
 
+int reach_carry(const ReachOptions& options, const config::RobotConfig& robot) {
+  const workspace::RegionRequest request = request_without_node(options);
+  const std::vector<workspace::Carried> carried = all_carried(robot, request.samples, request.seed);
+  if (!options.svg_file.empty()) launcher::write_output(options.svg_file, workspace::carry_picture(robot, carried));
+  const Json report = carry_json(robot, carried);
+  if (options.json) {
+    std::puts(Json{{"robot", robot.name}, {"samples", request.samples}, {"seed", request.seed}, {"carries", report}}
+                  .dump()
+                  .c_str());
+  } else {
+    print_carry(report);
+  }
+  return launcher::kExitOk;
+}
+
 }  // namespace
 
 int reach_command(const ReachOptions& options) {
   refuse_contradictions(options);
   if (!options.svg_file.empty()) launcher::check_output("--svg", options.svg_file);
-  if (const auto serial = launcher::serial_robot_for_kinematics(options.robot))
+  if (const auto serial = launcher::serial_robot_for_kinematics(options.robot)) {
+    if (options.carry) throw launcher::BadInput("--carry: robot " + options.robot + " has no cables; leave it out");
     return reach_region(options, question_of(options, *serial));
+  }
   const config::RobotConfig robot = launcher::robot_for_kinematics(options.robot);
+  if (options.carry) return reach_carry(options, robot);
   return is_path(options) ? reach_along_path(options, robot) : reach_region(options, question_of(options, robot));
 }
 

@@ -2,8 +2,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "firmware_like/cable/arm/static_load.hpp"
+#include "firmware_like/cable/arm/cables.hpp"
 #include "firmware_like/math/trig.hpp"
+#include "host/apps/cli/carry_report.hpp"
 #include "host/apps/cli/commands.hpp"
 #include "host/apps/cli/serial_robot_check.hpp"
 #include "host/apps/launcher/errors.hpp"
@@ -24,7 +25,8 @@ namespace {
 constexpr double kMinHoleDistance_m = 0.001;
 constexpr double kUnknown_m = 0.01e-3;   // of a length, after homing: arms of the bench stay above their floor by it
 constexpr std::int32_t kSamples = 5000;  // of the workspace, whose boundary is then climbed to
-constexpr std::int32_t kTipValues = 6;   // place and attitude
+constexpr std::int32_t kCarrySamples = 2000;
+constexpr std::int32_t kTipValues = 6;  // place and attitude
 
 std::string text(const char* format, auto... values) {
   char line[300];
@@ -42,39 +44,25 @@ Json buses_of(const config::BusesConfig& buses) {
   return {{"name", buses.name}, {"rate_hz", buses.rate_hz}, {"max_load", buses.max_load}, {"buses", list}};
 }
 
-// Least and most tension at the motors as the controller plans them at a pose, nothing having slipped.
-struct Planned {
-  double least_N = 1e9, most_N = 0.0;
-  bool is_balanced = true;
-};
-
-Planned planned_at(const cable::RobotParams& table, const cable::ThetaVector& theta_rad) {
-  const cable::TensionPlan plan = plan_at_rest(table, cable_layout(table), theta_rad);
-  Planned planned{.is_balanced = plan.balanced};
-  for (std::size_t c = 0; c < static_cast<std::size_t>(table.cable_count()); ++c) {
-    planned.least_N = std::min(planned.least_N, plan.motor_N[c]);
-    planned.most_N = std::max(planned.most_N, plan.motor_N[c]);
-  }
-  return planned;
-}
-
 Json poses_of(const config::RobotConfig& robot, Json& problems) {
   const cable::TensionLimits& limits = robot.table.tension;
   Json poses = Json::object();
   for (const auto& [name, angles_deg] : robot.named_poses_deg) {
     cable::ThetaVector theta_rad{};
     for (std::size_t k = 0; k < angles_deg.size(); ++k) theta_rad[k] = kDegree * angles_deg[k];
-    const Planned planned = planned_at(robot.table, theta_rad);
-    poses[name] = {{"least_N", planned.least_N}, {"most_N", planned.most_N}};
+    const workspace::PoseTension planned = workspace::tension_at(robot.table, theta_rad);
+    poses[name] = {{"least_N", planned.min_N}, {"most_N", planned.max_N}};
     const char* pose = name.c_str();
-    if (!planned.is_balanced) {
+    if (!planned.balanced) {
       problems.push_back(
           text("pose %s: the cables of a segment cannot turn both of its angles: change cables.phase_deg", pose));
-    } else if (planned.least_N < limits.floor_motor_N || planned.most_N > limits.ceiling_free_N) {
+    } else if (planned.min_N < limits.floor_motor_N || planned.max_N > limits.ceiling_free_N) {
+      const std::size_t cable = planned.min_N < limits.floor_motor_N ? planned.min_cable : planned.max_cable;
       problems.push_back(
-          text("pose %s: tensions of %.1f to %.1f N are planned: allowed %g to %g N: bend it less, or "
-               "raise tension.ceiling_free_N",
-               pose, planned.least_N, planned.most_N, limits.floor_motor_N, limits.ceiling_free_N));
+          text("pose %s: tensions of %.1f to %.1f N are planned (%s): allowed %g to %g N: bend it less, "
+               "let it carry less, or raise tension.ceiling_free_N",
+               pose, planned.min_N, planned.max_N, config::DriveNames(robot.table).cable(cable).c_str(),
+               limits.floor_motor_N, limits.ceiling_free_N));
     }
   }
   return poses;
@@ -193,7 +181,8 @@ Json checked_cable_robot(const config::RobotConfig& robot) {
                {"most_cables", cable::kMaxCables},
                {"mm_per_count", 1e3 * table.drive[0].metres_per_count},
                {"planned_tension", poses_of(robot, problems)},
-               {"workspace", workspace_of(table)}};
+               {"workspace", workspace_of(table)},
+               {"carries", carry_json(robot, all_carried(robot, kCarrySamples, 1))}};
   look_at_holes(table, problems);
   look_at_fixtures(robot, problems);
   const Json written = Json::parse(robot.canonical_json);
@@ -228,6 +217,7 @@ void print_cable_robot(const Json& checked) {
   for (const auto& [name, planned] : checked["planned_tension"].items())
     std::printf("pose %s: %.1f to %.1f N planned at the motors\n", name.c_str(), planned["least_N"].get<double>(),
                 planned["most_N"].get<double>());
+  print_carry(checked["carries"]);
 }
 
 void print_parts(const Json& checked) {

@@ -42,4 +42,9 @@ calibration::CalibrationReading CalibrateSession::read() {
   return sum;
 }
 
+void CalibrateSession::disable() {
+  session_.ask_and_wait({{"op", "state_command"}, {"command", "disable"}},
+                        [](const Json& s) { return s.value("state", "") == "DISABLED"; });
+}
+
 }  // namespace liana::launcher

@@ -3,6 +3,8 @@
 
 #include "host/apps/launcher/lockstep_session.hpp"
 #include "host/drives/calibration/calibrate.hpp"
+#include "host/drives/calibration/load_fit.hpp"
+#include "host/drives/calibration/load_poses.hpp"
 
 namespace liana::launcher {
 
@@ -23,7 +25,17 @@ class CalibrateSession {
   // was, and disables it: about three minutes of arm time. Throws as read() does, and when a fault comes.
   calibration::Friction measure_friction(const config::RobotConfig& robot);
 
+  // Enables the arm, goes to every pose from both of its sides and back to where it was, and disables it: about 20 s of
+  // arm time a pose. Throws as read() does, when a fault comes, and when lianad refuses a motion.
+  calibration::LoadResult measure_load(const config::RobotConfig& robot,
+                                       const std::vector<calibration::LoadPose>& poses);
+
  private:
+  void go_to(const std::vector<double>& goal_deg, const config::RobotConfig& robot);
+  calibration::LoadReading read_at_rest();
+  void disable();
+
+  std::vector<double> at_deg_;  // where the arm was sent last
   LockstepSession session_;
 };
 

@@ -47,8 +47,7 @@ calibration::Friction CalibrateSession::measure_friction(const config::RobotConf
         {{"op", "move_jp"}, {"goal_deg", goal}, {"rate_deg_s", kFrictionRate_deg_s}},
         [](const Json& s) { return !s.value("is_busy", true); }, [&fit](const Json& s) { add(s, fit); });
   }
-  session_.ask_and_wait({{"op", "state_command"}, {"command", "disable"}},
-                        [](const Json& s) { return s.value("state", "") == "DISABLED"; });
+  disable();
   return fit.solve();
 }
 

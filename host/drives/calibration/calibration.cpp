@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "host/drives/calibration/load_model.hpp"
 #include "host/model/config/canonical.hpp"
 #include "host/model/config/field.hpp"
 #include "host/model/config/sha256.hpp"
@@ -51,6 +52,8 @@ Json content_of(const Calibration& calibration) {
                   {"date", calibration.date},
                   {"cables", cables}};
   if (calibration.friction) content["friction"] = json_of(*calibration.friction);
+  for (const LoadValue& one : calibration.load)
+    content["load"].push_back({{"field", one.field}, {"value", one.value}, {"sd", one.sd}});
   return content;
 }
 
@@ -106,6 +109,22 @@ Friction read_friction(const config::Field& field, const config::RobotConfig& ro
   return out;
 }
 
+std::vector<LoadValue> read_load(const config::Field& list, const config::RobotConfig& robot) {
+  const std::vector<LoadParameter> parameters = load_parameters(robot.table);
+  list.size(parameters.size(), parameters.size(), "one entry for each number of the load that the robot table gives");
+  std::vector<LoadValue> out;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const LoadParameter& known = parameters[i];
+    const config::Field entry = list.element(i);
+    entry.only({"field", "value", "sd"});
+    if (entry.at("field").json() != known.field) entry.at("field").refuse("\"" + known.field + "\"", kAgain);
+    const double off = kPlausibleDeviations * known.prior_sd;
+    out.push_back({known.field, entry.at("value").number({known.table_value - off, known.table_value + off}),
+                   entry.at("sd").number({0, known.prior_sd})});
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string today_utc() {
@@ -133,7 +152,7 @@ Calibration parse_calibration(const std::string& text, const std::string& file, 
     sum.refuse(checksum(content),
                "the file was changed or damaged after it was written; take a good copy, or " + std::string(kAgain));
   }
-  table.only({"format", "kind", "robot", "robot_sha256", "date", "cables", "friction", "sha256"});
+  table.only({"format", "kind", "robot", "robot_sha256", "date", "cables", "friction", "load", "sha256"});
   Calibration out;
   out.robot = table.at("robot").name(40);
   if (out.robot != robot.name)
@@ -151,6 +170,7 @@ Calibration parse_calibration(const std::string& text, const std::string& file, 
   cables.size(count, count, "one entry per cable, those of segment 1 first");
   for (std::size_t i = 0; i < count; ++i) out.cables.push_back(read_cable(cables.element(i), robot));
   if (content.contains("friction")) out.friction = read_friction(table.at("friction"), robot);
+  if (content.contains("load")) out.load = read_load(table.at("load"), robot);
   return out;
 }
 
@@ -160,6 +180,9 @@ Calibration load_calibration(const std::string& path, const config::RobotConfig&
 
 void apply(const Calibration& calibration, config::RobotConfig& robot) {
   if (calibration.friction) robot.table.friction_mu = calibration.friction->arm.mu;
+  const std::vector<LoadParameter> parameters = load_parameters(robot.table);
+  for (std::size_t i = 0; i < calibration.load.size(); ++i)
+    *parameters[i].slot(robot.table, parameters[i].index) = calibration.load[i].value;
   robot.drive_serials.clear();
   for (std::size_t i = 0; i < calibration.cables.size(); ++i) {
     const CableCalibration& cable = calibration.cables[i];

@@ -31,12 +31,20 @@ struct Friction {
   std::vector<std::optional<FrictionOf>> segment;  // nothing where it cannot be told apart
 };
 
+// One number of the load, in place of the robot table's (load_model.hpp), and its standard deviation.
+struct LoadValue {
+  std::string field;
+  double value = 0.0;
+  double sd = 0.0;
+};
+
 struct Calibration {
   std::string robot;         // name
   std::string robot_sha256;  // of the robot's canonical JSON
   std::string date;          // YYYY-MM-DD, UTC
   std::vector<CableCalibration> cables;
   std::optional<Friction> friction{};  // only where it was measured
+  std::vector<LoadValue> load{};       // all that load_parameters() has, or nothing where it was not measured
 };
 
 // Today in UTC as YYYY-MM-DD.
@@ -53,7 +61,7 @@ Calibration parse_calibration(const std::string& text, const std::string& file, 
 Calibration load_calibration(const std::string& path, const config::RobotConfig& robot, const std::string& today);
 
 // The robot with the calibration's drums, directions, zeros and drive serial numbers in place of its table's, and its
-// friction where that was measured.
+// friction and load where those were measured.
 void apply(const Calibration& calibration, config::RobotConfig& robot);
 
 }  // namespace liana::calibration

@@ -11,7 +11,6 @@ constexpr double kTipTolerance = 1e-6;  // m and rad
 }  // namespace
 
 std::optional<PlanRefusal> refusal_of(const PlanRequest& request, const PlanCheck& check) {
-  const TensionLimits& tension = request.robot.table.tension;
   if (check.min_clearance_m < request.margin_m) {
     return PlanRefusal{
         PlanOutcome::limit, "clearance",
@@ -39,11 +38,9 @@ std::optional<PlanRefusal> refusal_of(const PlanRequest& request, const PlanChec
     return PlanRefusal{PlanOutcome::limit, "tip",
                        text("the tip ends %.2g m and %.2g rad off", check.tip_error_m, check.tip_attitude_error_rad)};
   }
-  if (check.min_tension_N < tension.floor_motor_N || check.max_tension_N > tension.ceiling_free_N) {
-    return PlanRefusal{PlanOutcome::infeasible, "tension",
-                       text("cables would be pulled with %.0f to %.0f N; allowed are %.0f to %.0f N",
-                            check.min_tension_N, check.max_tension_N, tension.floor_motor_N, tension.ceiling_free_N)};
-  }
+  const RobotParams& table = request.robot.table;
+  const std::string tension = tension_refusal(table, check, table.tension.ceiling_free_N);
+  if (!tension.empty()) return PlanRefusal{PlanOutcome::infeasible, "tension", tension};
   return {};
 }
 

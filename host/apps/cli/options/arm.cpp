@@ -26,7 +26,7 @@ void add_calibrate(CLI::App& app, Action& action) {
   sub.add_option("--bus", calibrate.bus, "bus table; where not given as for liana run");
   sub.add_option("--poses", calibrate.poses,
                  "named poses of the robot for which there are jigs, two or more; where not given the table's "
-                 "jig_poses, else zero,jig,prepare");
+                 "jig_poses, else zero,jig,prepare; with --load: where it is measured, without jigs");
   add_physics(sub, calibrate.physics);
   add_cross_wired(sub, calibrate.cross_wired);
   sub.add_option("--out", calibrate.out_file,
@@ -35,7 +35,13 @@ void add_calibrate(CLI::App& app, Action& action) {
       "--friction", calibrate.friction,
       "measure the cables' friction instead: the arm is enabled and each segment turned by 3 deg to and fro, for "
       "about three minutes; needs 0.5 m of room around it");
-  sub.add_option("--calibration", calibrate.calibration, "with --friction: the calibration that it is added to");
+  sub.add_flag(
+         "--load", calibrate.load,
+         "measure weight and springs instead: the arm is enabled and goes to twelve poses, or to those of --poses, "
+         "each from two sides, for about five minutes; needs room for all its poses")
+      ->excludes("--friction");
+  sub.add_option("--calibration", calibrate.calibration,
+                 "with --friction or --load: the calibration that it is added to");
   add_seed(sub, calibrate.seed, "of the simulated arm");
   add_json(sub, calibrate.json);
 }

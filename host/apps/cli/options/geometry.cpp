@@ -36,6 +36,9 @@ void add_reach(CLI::App& app, Action& action) {
   sub.add_option("--path", reach.path, "cable arms: JSON file with waypoints_deg, as plan --json prints it");
   sub.add_option("--node", reach.node,
                  "the end of that segment, or of that joint's link, whose region is wanted; the tip where not given");
+  sub.add_flag(
+      "--carry", reach.carry,
+      "cable arms: what the cables pull over the region with gravity from every side, and the largest payload");
   sub.add_option("--samples", reach.samples, "poses drawn")->capture_default_str();
   add_seed(sub, reach.seed, "of the poses drawn");
   sub.add_option("--svg", reach.svg_file, "write the picture to this file");

@@ -5,9 +5,11 @@
 
 #include "firmware_like/cable/arm/static_load.hpp"
 #include "firmware_like/math/trig.hpp"
+#include "host/model/config/drive_names.hpp"
 #include "host/planning/planner/check/convex_check.hpp"
 #include "host/planning/planner/check/path_search.hpp"
 #include "host/planning/planner/check/vectors.hpp"
+#include "host/planning/planner/text.hpp"
 
 namespace liana::planner {
 namespace {
@@ -212,20 +214,31 @@ void check_cables(const RobotParams& table, const std::vector<ThetaVector>& path
   }
 }
 
+}  // namespace
+
 // The tension plan is the core's own: what is asked is whether the arm's controller can hold these poses.
-void check_tension(const RobotParams& table, const std::vector<ThetaVector>& path, PlanCheck& out) {
+void check_tension(const RobotParams& table, const std::vector<ThetaVector>& path_rad, PlanCheck& out) {
   const CableLayout layout = cable_layout(table);
   out.min_tension_N = 1e300;
-  for (const ThetaVector& theta : path) {
-    const TensionPlan plan = plan_at_rest(table, layout, theta);
-    for (Index c = 0; c < static_cast<Index>(table.cable_count()); ++c) {
-      out.min_tension_N = std::min(out.min_tension_N, plan.motor_N[c]);
-      out.max_tension_N = std::max(out.max_tension_N, plan.motor_N[c]);
+  for (const ThetaVector& theta_rad : path_rad) {
+    const TensionPlan plan = plan_at_rest(table, layout, theta_rad);
+    for (std::int32_t c = 0; c < table.cable_count(); ++c) {
+      const double tension_N = plan.motor_N[static_cast<Index>(c)];
+      if (tension_N < out.min_tension_N) out.min_tension_N = tension_N, out.min_tension_cable = c;
+      if (tension_N > out.max_tension_N) out.max_tension_N = tension_N, out.max_tension_cable = c;
     }
   }
 }
 
-}  // namespace
+std::string tension_refusal(const RobotParams& table, const PlanCheck& check, double ceiling_N) {
+  const double floor_N = table.tension.floor_motor_N;
+  const bool is_low = check.min_tension_N < floor_N;
+  if (!is_low && check.max_tension_N <= ceiling_N) return {};
+  const config::DriveNames names(table);
+  return text("%s would be pulled with %.1f N; allowed are %.1f to %.1f N: bend the arm less, or let it carry less",
+              names.cable(static_cast<Index>(is_low ? check.min_tension_cable : check.max_tension_cable)).c_str(),
+              is_low ? check.min_tension_N : check.max_tension_N, floor_N, ceiling_N);
+}
 
 CheckedTip plain_tip(const RobotParams& table, const ThetaVector& theta_rad) {
   const Chain chain = chain_of(table, theta_rad);

@@ -33,6 +33,7 @@ struct PlanCheck {
   double tip_attitude_error_rad = 0.0;
   double min_tension_N = 0.0;  // of the core's tension plan at the motors, at the waypoints, without friction's history
   double max_tension_N = 0.0;
+  std::int32_t min_tension_cable = 0, max_tension_cable = 0;  // 0-based
   double duration_s = 0.0;  // shortest time within the theta rate and cable speed limits
   std::int64_t poses = 0;   // looked at
 };
@@ -43,6 +44,11 @@ struct CheckedTip {
   std::array<double, 3> position_m{};
   std::array<double, 4> quaternion_wxyz{};
 };
+
+// The tensions alone, at the poses of a path.
+void check_tension(const RobotParams& table, const std::vector<ThetaVector>& path_rad, PlanCheck& out);
+// Why the cables must not be pulled so: cable, newtons, what is allowed, what to do. Empty: floor and ceiling are kept.
+std::string tension_refusal(const RobotParams& table, const PlanCheck& check, double ceiling_N);
 
 // Checks waypoints [rad] against the scene. `goal` is where the tip has to end. A path of one waypoint is a single
 // pose.

@@ -21,18 +21,13 @@ struct Allowed {
 std::string refusal(const config::RobotConfig& robot, const config::SceneConfig& scene,
                     const std::vector<ThetaVector>& way, const Allowed& allowed) {
   const PlanCheck check = check_plan(robot, scene, way, plain_tip(robot.table, way.back()));
-  const TensionLimits& tension = robot.table.tension;
   if (check.min_clearance_m < allowed.clearance_m - kRounding_m) {
     return text("link %d %s; at least %.2f mm are needed", static_cast<int>(check.nearest_link),
                 distance_text(check.min_clearance_m, "'" + check.nearest + "'").c_str(), 1000.0 * allowed.clearance_m);
   }
   if (check.self.clearance_m < allowed.self_m - kRounding_m)
     return text("%s; at least %.2f mm are needed", nearest_text(check.self).c_str(), 1000.0 * allowed.self_m);
-  if (check.min_tension_N < tension.floor_motor_N || check.max_tension_N > allowed.ceiling_N) {
-    return text("cables would be pulled with %.1f to %.1f N; allowed are %.1f to %.1f N", check.min_tension_N,
-                check.max_tension_N, tension.floor_motor_N, allowed.ceiling_N);
-  }
-  return {};
+  return tension_refusal(robot.table, check, allowed.ceiling_N);
 }
 
 // Straight in theta, with points enough for tensions, which are looked at there only.

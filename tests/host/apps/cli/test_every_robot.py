@@ -99,6 +99,35 @@ class EveryRobot(Messages, unittest.TestCase):
         code, out, _ = liana("robot", "check", file)
         self.assertEqual((code, out.splitlines()[-1]), (1, "does NOT fit as it is"))
 
+    def test_what_an_arm_can_carry_is_the_same_for_check_and_reach_and_its_picture_is_drawn(self):
+        picture = self.folder / "carry.svg"
+        reach = liana_json("reach", "--robot", "lab_1g", "--carry", "--samples=2000", "--svg", picture)["carries"]
+        self.assertEqual(reach, liana_json("robot", "check", "lab_1g")["carries"])
+        self.assertEqual(len(reach), 7)
+        hanging = reach[1]["payload_named_poses"]
+        self.assertGreater(hanging["mass_kg"], reach[0]["payload_named_poses"]["mass_kg"])
+        self.assertIn(hanging["cable"], range(1, 10))
+        self.assertIn(reach[6]["mounting"], picture.read_text())
+        code, _, error = liana("reach", "--robot", "lab_1g", "--carry", "--node=1")
+        self.assertEqual(code, 2)
+        self.assertIn("--carry", error)
+
+    def test_a_pose_that_the_cables_cannot_hold_is_refused_by_ik_with_its_cable_and_by_plan(self):
+        table = json.loads(liana("robot", "export", "lab_1g")[1])
+        table["tool"]["mass_kg"] = 3.0
+        file = self.folder / "heavy.json"
+        file.write_text(json.dumps(table))
+        straight = joined([0] * 6)
+        answer = liana_json("ik", "--robot", file, f"--from-deg={straight}", "--tip=0.9,0,0,1,0,0,0", expected=(1,))
+        self.assertTrue(answer["converged"])
+        self.assert_names(answer["refused"], "cable", "segment 1", "200.0")
+        self.assertGreater(answer["max_tension_N"], 200)
+        code, out, error = liana(
+            "plan", "--robot", file, "--scene", "none", f"--from-deg={straight}", f"--to-deg={joined([1] * 6)}"
+        )
+        self.assertNotEqual(code, 0)
+        self.assert_names(out + error, "cable", "200")
+
     def new(self, name, *answers):
         """A table that `liana robot new` writes."""
         file = self.folder / f"{name}.lua"

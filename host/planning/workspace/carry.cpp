@@ -1,0 +1,166 @@
+#include "host/planning/workspace/carry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware_like/cable/arm/static_load.hpp"
+#include "firmware_like/math/trig.hpp"
+#include "host/base/random/random.hpp"
+
+namespace liana::workspace {
+
+using namespace cable;
+namespace {
+
+using Index = std::size_t;
+using Poses = std::vector<ThetaVector>;
+
+constexpr double kStandardGravity_m_s2 = 9.80665;
+constexpr double kPayloadStep_kg = 0.001;
+constexpr std::uint64_t kCarryStream = 11;
+constexpr Index kHardest = 8;  // poses that are made harder
+constexpr int kSweeps = 3;
+
+PoseTension tension_at(const RobotParams& table, const CableLayout& layout, const ThetaVector& theta_rad) {
+  const TensionPlan plan = plan_at_rest(table, layout, theta_rad);
+  const auto first = plan.motor_N.begin();
+  const auto [least, most] = std::minmax_element(first, first + table.cable_count());
+  return {*most, *least, static_cast<Index>(most - first), static_cast<Index>(least - first), plan.balanced};
+}
+
+// Above 1 over the ceiling, or below the floor.
+double hardness(const TensionLimits& limits, const PoseTension& tension) {
+  if (!tension.balanced) return 1e9;
+  const double low = tension.min_N < limits.floor_motor_N ? 1.0 + limits.floor_motor_N - tension.min_N : 0.0;
+  return std::max(tension.max_N / limits.ceiling_free_N, low);
+}
+
+Poses drawn(const RobotParams& table, std::int32_t samples, std::uint64_t seed) {
+  simulated::RandomStream random(seed, kCarryStream);
+  Poses out(1);  // the straight arm
+  for (std::int32_t i = 1; i < samples; ++i) {
+    const double factor = i % 2 == 1 ? 1.0 : random.uniform(0.0, 1.0);
+    ThetaVector theta_rad{};
+    for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k)
+      theta_rad[k] = factor * table.segment[k / 2].theta_limit_rad * random.uniform(-1.0, 1.0);
+    out.push_back(theta_rad);
+  }
+  return out;
+}
+
+// One angle after the other to that end of its range, or to 0, where the pose is hardest.
+ThetaVector harder(const RobotParams& table, const CableLayout& layout, ThetaVector theta_rad) {
+  double now = hardness(table.tension, tension_at(table, layout, theta_rad));
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
+      const double limit_rad = table.segment[k / 2].theta_limit_rad;
+      for (const double end_rad : {-limit_rad, 0.0, limit_rad}) {
+        ThetaVector there_rad = theta_rad;
+        there_rad[k] = end_rad;
+        const double then = hardness(table.tension, tension_at(table, layout, there_rad));
+        if (then > now) now = then, theta_rad = there_rad;
+      }
+    }
+  }
+  return theta_rad;
+}
+
+RobotParams with_payload(const RobotParams& table, double mass_kg) {
+  RobotParams out = table;
+  out.tool.mass_kg += mass_kg;
+  if (out.tool.mass_kg > 0.0)
+    out.tool.center_in_tip_m = scale(table.tool.center_in_tip_m, table.tool.mass_kg / out.tool.mass_kg);
+  return out;
+}
+
+Payload payload_of(const RobotParams& table, const CableLayout& layout, const Poses& poses) {
+  const TensionLimits& limits = table.tension;
+  const auto is_held = [&](double mass_kg, const ThetaVector& theta_rad) {
+    return hardness(limits, tension_at(with_payload(table, mass_kg), layout, theta_rad)) <= 1.0;
+  };
+  Payload out;
+  out.mass_kg = kMaxPayload_kg;
+  for (const ThetaVector& theta_rad : poses) {
+    if (is_held(out.mass_kg, theta_rad)) continue;
+    out.theta_rad = theta_rad;
+    if (!is_held(0.0, theta_rad)) {
+      out.mass_kg = 0.0, out.unloaded = false;
+      break;
+    }
+    double held_kg = 0.0;
+    while (out.mass_kg - held_kg > kPayloadStep_kg) {
+      const double middle_kg = 0.5 * (held_kg + out.mass_kg);
+      (is_held(middle_kg, theta_rad) ? held_kg : out.mass_kg) = middle_kg;
+    }
+    out.mass_kg = held_kg;
+  }
+  const double over_kg = out.unloaded ? out.mass_kg + kPayloadStep_kg : 0.0;
+  const PoseTension there = tension_at(with_payload(table, over_kg), layout, out.theta_rad);
+  const bool is_slack = there.min_N < limits.floor_motor_N;
+  out.cable = is_slack ? there.min_cable : there.max_cable;
+  out.tension_N = is_slack ? there.min_N : there.max_N;
+  return out;
+}
+
+}  // namespace
+
+PoseTension tension_at(const RobotParams& table, const ThetaVector& theta_rad) {
+  return tension_at(table, cable_layout(table), theta_rad);
+}
+
+TensionBand band_of(const TensionLimits& limits, const PoseTension& tension) {
+  if (!tension.balanced || tension.min_N < limits.floor_motor_N || tension.max_N > limits.hard_limit_N)
+    return TensionBand::kBeyond;
+  if (tension.max_N > limits.alarm_N) return TensionBand::kOverAlarm;
+  return tension.max_N > limits.ceiling_free_N ? TensionBand::kOverCeiling : TensionBand::kFree;
+}
+
+std::vector<Mounting> mountings(const RobotParams& table) {
+  const double own = norm(table.gravity_m_s2), g = own > 0.0 ? own : kStandardGravity_m_s2;
+  std::vector<Mounting> out{{"as in the table", table.gravity_m_s2}};
+  const std::vector<Mounting> six{{"base up, hanging", {g, 0.0, 0.0}}, {"base down, standing", {-g, 0.0, 0.0}},
+                                  {"lying, z up", {0.0, 0.0, -g}},     {"lying, z down", {0.0, 0.0, g}},
+                                  {"lying, y up", {0.0, -g, 0.0}},     {"lying, y down", {0.0, g, 0.0}}};
+  out.insert(out.end(), six.begin(), six.end());
+  return out;
+}
+
+Carried what_it_carries(const config::RobotConfig& robot, const Mounting& mounting, std::int32_t samples,
+                        std::uint64_t seed) {
+  RobotParams table = robot.table;
+  table.gravity_m_s2 = mounting.gravity_m_s2;
+  const CableLayout layout = cable_layout(table);
+  Carried out;
+  out.mounting = mounting;
+  Poses named;
+  for (const auto& [name, angles_deg] : robot.named_poses_deg) {
+    ThetaVector theta_rad{};
+    for (Index k = 0; k < angles_deg.size(); ++k) theta_rad[k] = kDegree * angles_deg[k];
+    named.push_back(theta_rad);
+  }
+  Poses all = drawn(table, samples, seed);
+  std::vector<std::pair<double, Index>> order;
+  for (Index i = 0; i < all.size(); ++i) {
+    const PoseTension tension = tension_at(table, layout, all[i]);
+    const TensionBand band = band_of(table.tension, tension);
+    out.share[static_cast<Index>(band)] += 1.0 / static_cast<double>(all.size());
+    out.poses.push_back({tip_pose(table, arm_trig(table, all[i])).position_m, band});
+    order.emplace_back(-hardness(table.tension, tension), i);
+  }
+  std::sort(order.begin(), order.end());
+  for (Index i = 0; i < std::min(kHardest, order.size()); ++i)
+    all.push_back(harder(table, layout, all[order[i].second]));
+  all.insert(all.end(), named.begin(), named.end());
+  double most = -1.0;
+  for (const ThetaVector& theta_rad : all) {
+    const PoseTension tension = tension_at(table, layout, theta_rad);
+    if (tension.max_N <= most) continue;
+    most = tension.max_N;
+    out.worst = tension, out.worst_rad = theta_rad;
+  }
+  out.named = payload_of(table, layout, named);
+  out.all = payload_of(table, layout, all);
+  return out;
+}
+
+}  // namespace liana::workspace

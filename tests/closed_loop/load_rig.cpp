@@ -1,0 +1,145 @@
+#include "load_rig.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "arm_under_control.hpp"
+#include "firmware_like/cable/arm/static_load.hpp"
+#include "firmware_like/math/trig.hpp"
+#include "host/base/json/json.hpp"
+#include "host/base/random/random.hpp"
+#include "host/model/config/bench_buses.hpp"
+
+namespace liana::closed_loop {
+
+using namespace cable;
+namespace {
+
+constexpr double kRate_rad_s = 1.5 * kDegree;
+constexpr double kSettle_s = 1.5;
+constexpr int kReadings = 250;
+
+std::string file_of(const LabMounting& mounting) { return CLOSED_LOOP_DATA "/lab_1g_" + mounting.name + ".json"; }
+
+Json table_of(const LabMounting& mounting) {
+  std::stringstream text;
+  text << std::ifstream(CLOSED_LOOP_DATA "/lab_1g.json").rdbuf();
+  Json table = Json::parse(text.str());
+  const Vec3& g = mounting.gravity_m_s2;
+  table["gravity_m_s2"] = {g[0], g[1], g[2]};
+  return table;
+}
+
+void go_to(ArmUnderControl& arm, const ThetaVector& goal_rad) {
+  double max_rad = 0.0;
+  for (std::size_t k = 0; k < goal_rad.size(); ++k)
+    max_rad = std::max(max_rad, std::fabs(goal_rad[k] - arm.outputs().theta_command_rad[k]));
+  arm.move_joints(goal_rad, std::max(0.5, 1.9 * max_rad / kRate_rad_s));
+}
+
+calibration::LoadReading read(ArmUnderControl& arm) {
+  arm.hold(kSettle_s);
+  calibration::LoadReading sum;
+  for (int i = 0; i < kReadings; ++i) {
+    arm.step();
+    for (std::size_t k = 0; k < sum.theta_rad.size(); ++k)
+      sum.theta_rad[k] += arm.outputs().theta_measured_rad[k] / kReadings;
+    for (std::size_t c = 0; c < sum.tension_N.size(); ++c)
+      sum.tension_N[c] += arm.outputs().tension_measured_N[c] / kReadings;
+  }
+  return sum;
+}
+
+ThetaVector moved(const ThetaVector& theta_rad, const ThetaVector& by_rad, double sign) {
+  ThetaVector out = theta_rad;
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] += sign * by_rad[k];
+  return out;
+}
+
+calibration::LoadReading come_to(ArmUnderControl& arm, const calibration::LoadPose& pose, double side) {
+  go_to(arm, moved(pose.theta_rad, pose.approach_rad, side));
+  go_to(arm, pose.theta_rad);
+  return read(arm);
+}
+
+PlantSetup setup_of(const LabMounting& mounting, std::uint64_t seed) {
+  std::ofstream(file_of(mounting)) << table_of(mounting).dump();
+  return {"nominal", seed, true, "park", file_of(mounting)};
+}
+
+double root_mean(const CableVector& a, const CableVector& b, std::int32_t count) {
+  double sum = 0.0;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(count); ++c) sum += (a[c] - b[c]) * (a[c] - b[c]);
+  return std::sqrt(sum / count);
+}
+
+}  // namespace
+
+const std::vector<LabMounting> kMountings{
+    {"lying", {0.0, 0.0, -9.80665}}, {"hanging", {9.80665, 0.0, 0.0}}, {"upside_down", {-9.80665, 0.0, 0.0}}};
+
+config::RobotConfig lab_arm(const LabMounting& mounting) {
+  const Json table = table_of(mounting);
+  return config::parse_robot(table.dump(), "lab_1g", "nominal", config::parse_buses(config::bench_buses(9), "bench_9"));
+}
+
+calibration::LoadResult find_load(const LabMounting& mounting, std::uint64_t seed,
+                                  const std::vector<calibration::LoadPose>& poses) {
+  const RobotParams table = lab_arm(mounting).table;
+  ArmUnderControl arm(setup_of(mounting, seed), table);
+  arm.boot();
+  calibration::LoadFit fit(table);
+  for (const calibration::LoadPose& pose : poses) {
+    std::array<calibration::LoadReading, 2> sides;
+    for (const std::size_t side : {0, 1}) sides[side] = come_to(arm, pose, side == 0 ? -1.0 : 1.0);
+    fit.add(sides);
+  }
+  return fit.solve();
+}
+
+Standing standing(const LabMounting& mounting, std::uint64_t seed, const RobotParams& table,
+                  const std::vector<calibration::LoadPose>& poses) {
+  ArmUnderControl arm(setup_of(mounting, seed), table);
+  arm.boot();
+  Standing out;
+  for (const calibration::LoadPose& pose : poses) {
+    Eigen::VectorXd left_Nm = Eigen::VectorXd::Zero(table.theta_count());
+    CableVector measured_N{}, planned_N{};
+    for (const double side : {-1.0, 1.0}) {
+      const calibration::LoadReading now = come_to(arm, pose, side);
+      out.tip_error_m.push_back(1e-3 * arm.error_against_command().tip_mm);
+      left_Nm += 0.5 * calibration::load_equations(table, {}, now.theta_rad, now.tension_N).left_Nm;
+      for (std::size_t c = 0; c < measured_N.size(); ++c) {
+        measured_N[c] += 0.5 * now.tension_N[c];
+        planned_N[c] += 0.5 * arm.outputs().tension_plan_N[c];
+      }
+    }
+    out.tension_error_N.push_back(root_mean(measured_N, planned_N, table.cable_count()));
+    out.load_error_Nm.push_back(std::sqrt(left_Nm.squaredNorm() / table.theta_count()));
+  }
+  return out;
+}
+
+RobotParams with(const RobotParams& table, const calibration::LoadResult& found) {
+  const std::vector<calibration::LoadParameter> parameters = calibration::load_parameters(table);
+  RobotParams out = table;
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    *parameters[i].slot(out, parameters[i].index) = found.values[i].value;
+  return out;
+}
+
+std::vector<calibration::LoadPose> drawn_poses(const RobotParams& table, std::uint64_t seed, std::size_t count) {
+  simulated::RandomStream random(seed, 77);
+  std::vector<calibration::LoadPose> out;
+  while (out.size() < count) {
+    ThetaVector theta_rad{};
+    for (std::size_t k = 0; k < static_cast<std::size_t>(table.theta_count()); ++k)
+      theta_rad[k] = 0.8 * table.segment[k / 2].theta_limit_rad * random.uniform(-1.0, 1.0);
+    out.push_back(calibration::load_pose(table, theta_rad));
+  }
+  return out;
+}
+
+}  // namespace liana::closed_loop
