@@ -156,7 +156,7 @@ TEST_F(CableWatch, AReadingThatIsNoNumberDoesNotPass) {
   EXPECT_EQ(faults_.count, 0);
 }
 
-TEST(CableWatchLimits, FrictionThatTheCoreIsToldWidensTheContradictionOfLongCablesMost) {
+TEST(CableWatchLimits, FrictionThatTheCoreIsToldHidesMostOfTheStretchOfLongCables) {
   const RobotParams ideal = zhu2022::table(0.0), worn = zhu2022::table(0.1);
   CableVector zero_payout_m{};
   const CableLayout layout = cable_layout(ideal);
@@ -164,10 +164,11 @@ TEST(CableWatchLimits, FrictionThatTheCoreIsToldWidensTheContradictionOfLongCabl
   const CableWatchLimits without = make_cable_watch_limits(ideal, zero_payout_m),
                          with = make_cable_watch_limits(worn, zero_payout_m);
   for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
-    EXPECT_DOUBLE_EQ(without.contradiction_m[c], ideal.cable_monitor.contradiction_m);
-    EXPECT_GT(with.contradiction_m[c], without.contradiction_m[c]);
+    EXPECT_DOUBLE_EQ(with.contradiction_m[c], ideal.cable_monitor.contradiction_m);
+    EXPECT_DOUBLE_EQ(without.hidden_m_N[c], 0.0);
+    EXPECT_GT(with.hidden_m_N[c], 0.0);
   }
-  EXPECT_GT(with.contradiction_m[14], 5.0 * with.contradiction_m[0]);
+  EXPECT_GT(with.hidden_m_N[14], 5.0 * with.hidden_m_N[0]);
 }
 
 TEST(CableWatchLimits, FourCablesInASegmentAreWatchedToo) {
