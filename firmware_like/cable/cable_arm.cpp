@@ -182,10 +182,9 @@ void CableArm::govern() noexcept {
 }
 
 std::uint32_t CableArm::plan_tensions(bool plans_now, bool tensions_valid) noexcept {
-  if (tensions_valid && live_) {  // on the ramp, too: where friction holds the arm nobody knows yet
-    if (ramp_ >= 1.0) keep_min_tension(table_, estimator_.tension_N, lift_N_);
-    wind_in(table_, estimator_.tension_N, taut_N_);
-  }
+  if (ramp_ >= 1.0 && tensions_valid) keep_min_tension(table_, estimator_.tension_N, lift_N_);
+  // On the ramp, too: where friction holds the arm nobody knows yet.
+  if (live_ && winds_in_) wind_in(table_, estimator_.tension_N, taut_N_);
   if (is_let_go(let_go_)) {  // nothing may lag now
     tension_ = is_loose(let_go_)
                    ? plan_without(table_, layout_, model_.geometry, ratio_, let_go_.segment, static_load_Nm_)

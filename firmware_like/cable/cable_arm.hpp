@@ -210,6 +210,7 @@ class CableArm {
   ThetaVector plan_rate_rad_s_{};   // commanded, when tensions were planned last
   SegmentReleaseState let_go_{};    // cables of a segment that has lost one
   std::int32_t missed_ = -1;        // cable, found by watch_drive and judged by watch in the same tick; else -1
+  bool winds_in_ = false;           // loose cables; found by watch in the same tick
   bool lets_out_ = false;           // drums have somewhere to go yet
   TensionPlan tension_{};           // in force
   CableVector tension_change_N_{};  // of it in each tick until the next plan
