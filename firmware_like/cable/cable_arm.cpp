@@ -107,6 +107,19 @@ void CableArm::take_geometry() noexcept {
 
 // --- to the drives ---
 
+// Friction stays as it is while the motors stand: the next enabling knows of it. Where one has turned, nothing is
+// known.
+void CableArm::keep_slip() noexcept {
+  slip_.part_m = model_.geometry.part_m;
+  if (live_) ramp_start_m_ = payout_measured_m_;
+  bool stands = true;
+  for (Index c = 0; c < cables(); ++c)
+    stands = stands && std::fabs(payout_measured_m_[c] - ramp_start_m_[c]) <= kPreslidingDistance_m;
+  if (stands) return;
+  reset_slip(model_.geometry, slip_);
+  ramp_start_m_ = payout_measured_m_;
+}
+
 // Targets are not live: lengths follow the drives, and the next enabling starts anew.
 void CableArm::stop_planning() noexcept {
   live_ = false;
@@ -169,10 +182,9 @@ void CableArm::govern() noexcept {
 }
 
 std::uint32_t CableArm::plan_tensions(bool plans_now, bool tensions_valid) noexcept {
-  if (ramp_ >= 1.0 && tensions_valid) {
-    keep_min_tension(table_, estimator_.tension_N, lift_N_);
-    wind_in(table_, estimator_.tension_N, taut_N_);
-  }
+  if (ramp_ >= 1.0 && tensions_valid) keep_min_tension(table_, estimator_.tension_N, lift_N_);
+  // On the ramp, too: where friction holds the arm nobody knows yet.
+  if (live_ && winds_in_) wind_in(table_, estimator_.tension_N, taut_N_);
   if (is_let_go(let_go_)) {  // nothing may lag now
     tension_ = is_loose(let_go_)
                    ? plan_without(table_, layout_, model_.geometry, ratio_, let_go_.segment, static_load_Nm_)
@@ -200,7 +212,7 @@ std::uint32_t CableArm::propose(const Orders& orders, const DriveCommands& sent,
                                 DriveProposals& out) noexcept {
   take_geometry();
   const bool plans = plans_now();
-  if (!orders.live_targets || !live_) reset_slip(model_.geometry, slip_);
+  if (!orders.live_targets || !live_) keep_slip();
   if (plans) wrap_rad_ = cable_wraps(table_, motion_.trig);
   if (!live_ || !shape_worked()) {  // it looks at the whole way since it was last advanced
     advance_slip(layout_, model_.geometry, slip_);
@@ -224,6 +236,7 @@ std::uint32_t CableArm::propose(const Orders& orders, const DriveCommands& sent,
   } else {
     damp_payouts(tensions_valid, wanted_m);
   }
+  wind_beyond_ceiling(wanted_m);
   if (let_go_.stage == SegmentReleaseStage::kOut) let_out(wanted_m);
   const CableVector asked_m = wanted_m;
   const std::uint32_t limited = limit_payout_speed(wanted_m);
@@ -242,6 +255,14 @@ void CableArm::dither(bool tensions_valid) noexcept {
   for (Index c = 0; c < cables(); ++c)
     pull_N_[c] = smaller(table_.tension.ceiling_free_N, (1.0 + change) * tension_.motor_N[c] + taut_N_[c]);
   if (dither_.share > 0.0) fade_slip(layout_, kDitherFade_1_s * dither_.share * table_.tick_s, slip_);
+}
+
+// What a cable is wound in by is length, not tension: it is loose, and the ceiling of planned ones is no limit to it.
+void CableArm::wind_beyond_ceiling(CableVector& wanted_m) const noexcept {
+  for (Index c = 0; c < cables(); ++c) {
+    const double beyond_N = tension_.motor_N[c] + taut_N_[c] - table_.tension.ceiling_free_N;
+    wanted_m[c] -= larger(0.0, beyond_N) / table_.cable_EA_N * wanted_m[c];
+  }
 }
 
 void CableArm::let_out(CableVector& wanted_m) const noexcept {
@@ -275,7 +296,10 @@ void CableArm::take_told_tensions(const CableVector& asked_m, const CableVector&
 
 void CableArm::ramp_payouts(CableVector& wanted_m) const noexcept {
   const double share = smooth_step(ramp_);
-  for (Index c = 0; c < cables(); ++c) wanted_m[c] = ramp_start_m_[c] + share * (wanted_m[c] - ramp_start_m_[c]);
+  for (Index c = 0; c < cables(); ++c) {
+    const double wound_in_m = wanted_m[c] * taut_N_[c] / table_.cable_EA_N;
+    wanted_m[c] = ramp_start_m_[c] + share * (wanted_m[c] - ramp_start_m_[c]) - (1.0 - share) * wound_in_m;
+  }
 }
 
 // Moves the motors after the swing that the measured tensions show; while a fault makes tensions doubtful the last

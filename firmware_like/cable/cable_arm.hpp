@@ -151,6 +151,7 @@ class CableArm {
   bool are_cables_taut() const noexcept;
   void count_homing() noexcept;
   void take_geometry() noexcept;
+  void keep_slip() noexcept;
   void stop_planning() noexcept;
   void start_ramp(const DriveCommands& sent) noexcept;
   // Dear work is spread over the ticks of the shape's cycle, which has been counted on when they ask.
@@ -165,6 +166,7 @@ class CableArm {
   void dither(bool tensions_valid) noexcept;
   void ramp_payouts(CableVector& wanted_m) const noexcept;
   void damp_payouts(bool tensions_valid, CableVector& wanted_m) noexcept;
+  void wind_beyond_ceiling(CableVector& wanted_m) const noexcept;
   void let_out(CableVector& wanted_m) const noexcept;
   std::uint32_t limit_payout_speed(CableVector& wanted_m) const noexcept;
   void take_told_tensions(const CableVector& asked_m, const CableVector& told_m) noexcept;
@@ -208,6 +210,7 @@ class CableArm {
   ThetaVector plan_rate_rad_s_{};   // commanded, when tensions were planned last
   SegmentReleaseState let_go_{};    // cables of a segment that has lost one
   std::int32_t missed_ = -1;        // cable, found by watch_drive and judged by watch in the same tick; else -1
+  bool winds_in_ = false;           // loose cables; found by watch in the same tick
   bool lets_out_ = false;           // drums have somewhere to go yet
   TensionPlan tension_{};           // in force
   CableVector tension_change_N_{};  // of it in each tick until the next plan
@@ -216,9 +219,9 @@ class CableArm {
   DitherState dither_{};
   CableVector pull_N_{};  // planned, with the dither in it
   CableVector payout_command_m_{};
-  CableVector ramp_start_m_{};
-  double ramp_ = 0.0;  // 0..1 share of the planned pretension
-  bool live_ = false;  // targets were live in the last tick
+  CableVector ramp_start_m_{};  // measured: where the ramp began; while targets are not live, where the motors stand
+  double ramp_ = 0.0;           // 0..1 share of the planned pretension
+  bool live_ = false;           // targets were live in the last tick
 };
 
 static_assert(std::is_trivially_copyable_v<CableArm>);

@@ -27,6 +27,17 @@ bool leaves_balance(FaultNumber number) noexcept {
          number == FaultNumber::kCableSlack || number == FaultNumber::kTensionAlarm;
 }
 
+// It is about torques or about lengths: a cable that is loose by its tension is wound in all the same.
+bool leaves_tensions(const FaultList& faults) noexcept {
+  bool leaves = faults.dropped == 0;
+  for (std::int32_t i = 0; i < faults.count; ++i) {
+    const FaultNumber number = faults.fault[as_index(i)].number;
+    leaves = leaves && (number == FaultNumber::kBodyContact || number == FaultNumber::kFrictionNotAsDeclared ||
+                        number == FaultNumber::kHomingImplausible);
+  }
+  return leaves;
+}
+
 }  // namespace
 
 void CableArm::watch(WatchScope scope, std::uint64_t tick, FaultList& faults) noexcept {
@@ -34,6 +45,7 @@ void CableArm::watch(WatchScope scope, std::uint64_t tick, FaultList& faults) no
   watch_missed(tick, faults);
   const bool retracts = motion_.to.kind == CommandKind::kRetract && !motion_.braking;
   if (retracts && faults.count > 0) spare_cables(table_, layout_, faults, lift_N_);
+  winds_in_ = leaves_tensions(faults) && !is_let_go(let_go_);
   const bool usable = scope.prepared && feedback_age_ticks_ == 0 && faults.count == 0 && !is_let_go(let_go_);
   watch_cables(table_, cable_watch_limits_, cables, usable, tick, cable_watch_, faults);
   if (scope.prepared) {

@@ -99,6 +99,12 @@ void ArmUnderControl::boot() {
   throw std::runtime_error("closed loop: not enabled within 10 s; first fault " + std::to_string(fault));
 }
 
+void ArmUnderControl::disable() {
+  in_.request = Request::kDisable;
+  for (double t = 0.0; t < kBootLimit_s && (t == 0.0 || out_.state != OperatingState::kDisabled); t += table_.tick_s)
+    step();
+}
+
 void ArmUnderControl::interval(const cable::Telecommand& telecommand, const Observer& observer) {
   in_.telecommand = telecommand;
   for (std::int32_t i = 0; i < table_.interval_ticks; ++i) {

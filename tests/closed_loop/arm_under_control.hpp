@@ -32,6 +32,8 @@ class ArmUnderControl {
   // Homing, enable, pretension ramp; throws std::runtime_error with the first fault when the arm is not enabled in 10
   // s.
   void boot();
+  // Off again: brakes closed, drives without power.
+  void disable();
   // One tick.
   void step();
   // Ticks with no new telecommand.

@@ -59,6 +59,21 @@ TEST_P(TensionPlan, WithItTheArmStandsWithinAMillimetre) {
 // The published poses at which nothing touches the arm.
 INSTANTIATE_TEST_SUITE_P(AtPose, TensionPlan, ::testing::Values("prepare", "panel_edge"));
 
+// Every angle at its limit, friction twice what is declared: where it holds the arm the ramp cannot know.
+TEST(Enabling, AnArmInAFullCornerKeepsItsCablesTautOnEveryRamp) {
+  for (const std::uint64_t seed : {1, 6}) {
+    ArmUnderControl arm({"worn", seed, true, "20,20,-20,-20,20,20,-20,-20,20,20"}, "nominal");
+    for (int enabling = 0; enabling < 2; ++enabling) {
+      arm.plant().take_load();
+      arm.boot();
+      arm.wait(0.5);
+      arm.disable();
+      EXPECT_EQ(arm.outputs().state, OperatingState::kDisabled);
+      EXPECT_GE(arm.plant().take_load().min_motor_N, 10.0) << "seed " << seed << ", enabling " << enabling;
+    }
+  }
+}
+
 // The same after a whole motion in between, from prepare to panel edge.
 TEST(TensionPlanInMotion, AFrictionlessArmArrivesWithinAMillimetre) {
   ArmUnderControl arm(exact_plant("prepare"));

@@ -58,7 +58,7 @@ void VerifiedArm::verify_next(const cable::Telecommand& in_force) {
   verification::ExecutionVerdict execution =
       verification::judge_execution<CableArm>(arm_.table(), candidate, prediction_, zone_);
   simulation_ = end_.verdict(verification::kWhenever);
-  verification::judge_model(arm_.table(), arm_.outputs(), execution);
+  verification::judge_model(arm_.table(), arm_.outputs(), prediction_.ticks.back(), false, execution);
   if (const auto released = release_.release(candidate, execution, simulation_)) {
     next_ = *released;
     return;

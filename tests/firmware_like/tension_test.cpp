@@ -318,7 +318,7 @@ TEST(Tension, WhatACableIsWoundInIsBoundedAndGoesWhenItIsTaut) {
   EXPECT_EQ(taut_N[0], kTautLimit_N);
   measured_N.fill(robot.tension.plan_N);
   for (double time_s = 0.0; time_s < kTautLeak_s; time_s += robot.tick_s) wind_in(robot, measured_N, taut_N);
-  EXPECT_NEAR(taut_N[0], kTautLimit_N * std::exp(-1.0), 0.05);
+  EXPECT_NEAR(taut_N[0], kTautLimit_N * std::exp(-1.0), 1e-3 * kTautLimit_N);
 }
 
 }  // namespace

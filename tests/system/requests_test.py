@@ -299,6 +299,24 @@ class TargetsTheArmCannotFollow(SystemTest):
             off = max(row for row, count in enumerate(truth.column("enabled")) if count > 0)
             self.assert_stopped(truth, off, stop_deg=0.5, swing_deg=0.1)
 
+    # req:C12
+    def test_a_stream_into_the_arm_itself_ends_in_a_hold_from_which_the_arm_retracts(self):
+        with System(scene="none", bench=("--start-pose", "panel_edge")) as system:
+            client = system.client()
+            client.enable()
+            goal, node_m = list(client.state["setpoint_cp"]), client.state["node_m"][0]
+            way_m = math.dist(node_m, goal[:3])
+            step_m = [0.0016 * (b - a) / way_m for a, b in zip(goal, node_m)]
+            while not client.state["refusals"]:
+                goal = [*(x + step for x, step in zip(goal, step_m)), *goal[3:]]
+                self.assertEqual(client.ask("servo_cp", goal=goal)["op"], "ok")
+                client.step()
+            self.assertEqual(client.state["verdict"]["name"], "self_contact")
+            client.until(lambda state: state["at_rest"])
+            self.assert_holds(client.state)
+            client.call("retract")
+            client.until(lambda state: state["retract"]["phase"] in ("back", "done"))
+
 
 class Shapes(SystemTest):
     # req:A43

@@ -4,6 +4,7 @@
 
 #include "firmware_like/math/convert.hpp"
 #include "firmware_like/math/pair.hpp"
+#include "firmware_like/math/scalar.hpp"
 
 namespace liana::cable {
 namespace {
@@ -78,12 +79,15 @@ void judge_suspect(const CableWatchLimits& limits, const CableVector& level_N, s
 
 // One segment: its cables' lengths contradict each other by more or less than when the arm was enabled. One that does
 // is stayed with.
-void watch_contradiction(const RobotParams& table, const CableWatchLimits& limits, const CableVector& residual_m,
+void watch_contradiction(const RobotParams& table, const CableWatchLimits& limits, const CableReadings& now,
                          std::uint64_t tick, CableMonitorState& state, FaultList& faults) noexcept {
   const std::int32_t first = state.cable, end = first + table.segment[as_index(state.segment)].cables;
+  double tension_N = table.tension.plan_N;  // one cable that is tighter turns its segment against the others
+  for (Index c = as_index(first); c < as_index(end); ++c) tension_N = larger(tension_N, now.tension_N[c]);
   for (Index c = as_index(first); c < as_index(end); ++c) {
-    const double change_m = residual_m[c] - state.residual_m[c];
-    if (std::fabs(change_m) <= limits.contradiction_m[c]) continue;
+    const double change_m = now.residual_m[c] - state.residual_m[c];
+    if (std::fabs(change_m) <= limits.contradiction_m[c] + tension_N * table.friction_mu * limits.hidden_m_N[c])
+      continue;
     if (++state.contradicts_ticks < kContradictionTicks) return;
     latch(faults, {FaultNumber::kHomingImplausible, narrow<std::int16_t>(first), micrometres(change_m), tick});
     return;
@@ -106,9 +110,8 @@ CableWatchLimits make_cable_watch_limits(const RobotParams& table, const CableVe
     wrap_rad += table.segment[j].modules * table.segment[j].theta_limit_rad;
     for (std::int32_t i = 0; i < table.segment[j].cables; ++i, ++c) {
       limits.stiffness_N_m[c] = table.cable_EA_N / zero_payout_m[c];
-      // Friction that the core is told wrong, at most by itself, hides so much of the planned stretch.
-      limits.contradiction_m[c] = table.cable_monitor.contradiction_m +
-                                  table.tension.plan_N / limits.stiffness_N_m[c] * table.friction_mu * wrap_rad;
+      limits.contradiction_m[c] = table.cable_monitor.contradiction_m;
+      limits.hidden_m_N[c] = wrap_rad / limits.stiffness_N_m[c];
     }
   }
   return limits;
@@ -132,7 +135,7 @@ void watch_cables(const RobotParams& table, const CableWatchLimits& limits, cons
   if (!(squares <= limits.jump_N * limits.jump_N)) note_jump(limits, before_N, level_N, state);
   if (state.suspect >= 0) judge_suspect(limits, level_N, tick, state, faults);
   if (state.reversals > 0 && tick % kScatterForgetTicks == 0) --state.reversals;
-  watch_contradiction(table, limits, now.residual_m, tick, state, faults);
+  watch_contradiction(table, limits, now, tick, state, faults);
 }
 
 }  // namespace liana::cable

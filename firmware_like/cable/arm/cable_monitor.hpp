@@ -20,10 +20,10 @@ constexpr std::uint64_t kScatterForgetTicks = 64;  // one reversal is forgotten 
 // Limits derived once from the robot table.
 struct CableWatchLimits {
   std::int32_t cable_count = 0;
-  double jump_N = 0.0;          // most that tension may change in a tick without length or planned pose to explain it
-  CableVector stiffness_N_m{};  // from drum to anchor; 0 beyond the last cable
-  CableVector
-      contradiction_m{};  // most that the part of a length that no angles explain may change while the arm is enabled
+  double jump_N = 0.0;            // most that tension may change in a tick without length or planned pose to explain it
+  CableVector stiffness_N_m{};    // from drum to anchor; 0 beyond the last cable
+  CableVector contradiction_m{};  // most that the part of a length that no angles explain may change while enabled
+  CableVector hidden_m_N{};  // and more for each newton: stretch that friction hides, told wrong by as much as it is
 };
 
 // Limits of a checked table. `zero_payout_m` per cable: path at the zero pose plus lead.

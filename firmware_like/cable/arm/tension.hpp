@@ -85,7 +85,7 @@ void keep_min_tension(const RobotParams& table, const CableVector& tension_N, Se
 constexpr double kTautBelow_N = 5.0;    // over the floor: under it a cable is wound in
 constexpr double kTautRate_1_s = 10.0;  // share of what is missing, per second; more would oscillate for its own lag
 constexpr double kTautLeak_s = 10.0;
-constexpr double kTautLimit_N = 120.0;
+constexpr double kTautLimit_N = 240.0;
 
 // One tick of what each cable is pulled beyond the plan, from measured tensions at the motor, low-passed.
 void wind_in(const RobotParams& table, const CableVector& tension_N, CableVector& taut_N) noexcept;

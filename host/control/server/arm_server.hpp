@@ -39,6 +39,7 @@ struct LastVerdict {
   verification::SimulationVerdict simulation{};
   std::optional<SourceStamp> source_stamp{};  // released, and made of what a device said
   bool is_news = true;  // false: a hand that is slowed to a stop, or that is refused for the same again; guidance tells
+  bool stops = false;   // an emergency stop: the stop along the path would come to the contact, too
 };
 
 // A request about motion, from the owner, that the table of requests has let through.

@@ -45,7 +45,8 @@ void CommandLog::note(std::uint64_t tick, const std::string& owner, const LastVe
          .tick = tick,
          .command = command,
          .number = event::number_of(verdict.worst.code),
-         .subject = verification::refusal_action_name(verification::row_of(verdict.worst.code).action),
+         .subject = verification::refusal_action_name(verdict.stops ? verification::RefusalAction::kStop
+                                                                    : verification::RefusalAction::kHold),
          .text = verdict.worst.text});
 }
 

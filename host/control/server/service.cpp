@@ -228,10 +228,8 @@ void Service::release_next() {
   ++notes_.refusals;
   if (!verdict->goes_on) ++notes_.refused_motions;
   note(verdict_event(verdict->sequence, verdict->worst));
-  const verification::RefusalRow& row = verification::row_of(verdict->worst.code);
-  // The way back tries again, and so does a hand, which the arm waits for.
-  const bool stops = row.action == verification::RefusalAction::kStop && !verdict->leads_back && !verdict->goes_on;
-  if (stops) order_stop({"lianad", std::string("refused: ") + row.says, tick()});
+  if (verdict->stops)
+    order_stop({"lianad", std::string("refused: ") + verification::row_of(verdict->worst.code).says, tick()});
 }
 
 // A path that does not begin is a refusal as that of a command is: who asked for it looks there.

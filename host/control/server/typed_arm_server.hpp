@@ -232,7 +232,11 @@ LastVerdict TypedArmServer<Arm, Steering>::verify_and_release(const typename Arm
     if (!stands && stop == StopSwings::kUnknown) stop = stop_swings(last);
     asked.is_news = !stands && stop != StopSwings::kPasses;
   }
+  const bool collides = verification::row_of(asked.worst.code).action == verification::RefusalAction::kStop;
+  if (collides && !asked.leads_back && stop == StopSwings::kUnknown) stop = stop_swings(last);
   asked.goes_on = arbiter_.refused(asked.worst.text, verification::may_pass_slower(asked.worst.code));
+  // The way back tries again, and so does a hand, which the arm waits for.
+  asked.stops = collides && stop == StopSwings::kTouches && !asked.leads_back && !asked.goes_on;
   return asked;
 }
 
@@ -253,7 +257,7 @@ LastVerdict TypedArmServer<Arm, Steering>::verified(const verification::Candidat
   simulation_->begin(image, candidate, prediction_, leads_back);
   verification::ExecutionVerdict execution = verification::judge_execution<Arm>(table_, candidate, prediction_, zone_);
   const verification::SimulationVerdict simulation = simulation_->verdict(patience_s(candidate.first_tick()));
-  verification::judge_model(table_, image.last_outputs, execution);
+  verification::judge_model(table_, image.last_outputs, prediction_.ticks.back(), leads_back, execution);
   if (time_mode_ == timing::TimeMode::kReal) {
     link_.report.refresh();
     verification::judge_time(candidate.first_tick(), tick(), execution);

@@ -13,7 +13,7 @@ namespace liana::verification {
 // Besides that the command is not released, which lets the arm come to rest along its path.
 enum class RefusalAction : std::uint8_t {
   kHold,  // nothing: the next command may be better
-  kStop,  // an emergency stop, in force until it is cleared: the reason is a collision
+  kStop,  // the same; an emergency stop, in force until it is cleared, where the stop along the path would collide too
 };
 
 struct RefusalRow {

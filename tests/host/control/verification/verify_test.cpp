@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "host/control/verification/model_watch.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/message.hpp"
 
@@ -44,6 +45,32 @@ Judged judge(const std::function<void(cable::Outputs&)>& change, std::size_t at 
 TEST(Verify, AQuietMotionPasses) {
   const Judged judged = judge([](cable::Outputs&) {});
   EXPECT_EQ(judged.execution, Refusal::kNone);
+}
+
+// A cable of the last segment that is so much tighter than planned.
+Refusal model_refusal(double beyond_N, double bend_rad, double goal_rad, bool leads_back = false) {
+  cable::Outputs now;
+  now.state = OperatingState::kEnabled;
+  now.friction.planned_mu = 0.05;
+  now.tension_plan_N.fill(40.0);
+  now.tension_measured_N = now.tension_plan_N;
+  now.tension_measured_N[14] += beyond_N;
+  now.theta_command_rad.fill(bend_rad);
+  now.theta_measured_rad = now.theta_command_rad;
+  cable::Outputs then = now;
+  then.theta_command_rad.fill(goal_rad);
+  ExecutionVerdict verdict;
+  judge_model(kTable, now, then, leads_back, verdict);
+  return verdict.code;
+}
+
+TEST(Verify, TheModelMayBeOffByTheFrictionOfTheWholeBendAndTheWayBackIsFree) {
+  EXPECT_EQ(model_refusal(49.0, 0.0, 0.0), Refusal::kNone);
+  EXPECT_EQ(model_refusal(51.0, 0.0, 0.0), Refusal::kModel);
+  EXPECT_EQ(model_refusal(51.0, 0.34, 0.34), Refusal::kNone) << "friction may hold it";
+  EXPECT_EQ(model_refusal(111.0, 0.34, 0.34), Refusal::kModel) << "not so much";
+  EXPECT_EQ(model_refusal(111.0, 0.34, 0.33), Refusal::kNone) << "straighter";
+  EXPECT_EQ(model_refusal(111.0, 0.34, 0.34, true), Refusal::kNone) << "back";
 }
 
 // req:C8
