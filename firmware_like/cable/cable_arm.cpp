@@ -35,6 +35,7 @@ CableArm::CableArm(const RobotParams& table) noexcept
     : table_(table),
       declared_mu_(table.friction_mu),
       layout_(cable_layout(table)),
+      cables_with_cells_(cables_with_cells(table)),
       tension_watch_limits_(make_tension_watch_limits(table)) {
   for (Index c = 0; c < cables(); ++c) zero_payout_m_[c] = layout_.zero_length_m[c] + table.lead_m;
   cable_watch_limits_ = make_cable_watch_limits(table, zero_payout_m_);
@@ -59,12 +60,18 @@ void CableArm::read(const DriveFeedbacks& drives, const LoadCells& cells) noexce
     if (drive.feedback_age_ticks > feedback_age_ticks_) feedback_age_ticks_ = drive.feedback_age_ticks;
     payout_measured_m_[c] = payout_at_counts(table_.drive[c], zero_payout_m_[c], drive.position_counts);
     tension_measured_N_[c] = table_.drive[c].newtons_per_permille * drive.torque_permille;
-    if (has_load_cell(table_, c))
-      tension_measured_N_[c] = believed_tension_N(table_, cells, c, tension_measured_N_[c], load_cells_);
   }
+  if (cables_with_cells_ != 0) read_cells(cells);
   if (feedback_age_ticks_ == 0xFFFF) return;  // a drive was never heard
   estimate(table_, layout_, model_, ratio_, payout_measured_m_, tension_measured_N_, estimator_);
   count_homing();
+}
+
+void CableArm::read_cells(const LoadCells& cells) noexcept {
+  for (Index c = 0; c < cables(); ++c) {
+    if (has_load_cell(table_, c))
+      tension_measured_N_[c] = believed_tension_N(table_, cells, c, tension_measured_N_[c], load_cells_);
+  }
 }
 
 void CableArm::count_homing() noexcept {

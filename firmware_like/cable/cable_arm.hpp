@@ -57,7 +57,7 @@ class CableArm {
     const WatchScope looked_for{scope.powered, scope.prepared && !may_be_slack(let_go_, layout_, drive)};
     watch_tension(tension_watch_limits_, looked_for, now, drive, tension_watch_, out);
     if (tension_watch_.slack_ticks[as_index(drive)] != 0 && is_missed(tension_watch_limits_, now)) missed_ = drive;
-    if (has_load_cell(table_, as_index(drive))) watch_load_cell(table_, scope, drive, load_cells_, out);
+    if ((cables_with_cells_ >> as_index(drive) & 1u) != 0) watch_load_cell(table_, scope, drive, load_cells_, out);
     if (drive == 0) watch_body(scope, out);
   }
   bool lets_go(std::int32_t) const noexcept { return is_behind(let_go_); }
@@ -149,6 +149,7 @@ class CableArm {
   void watch_body(WatchScope scope, Watch& out) const noexcept;
   bool is_homed() const noexcept { return homing_ticks_ >= kHomingTicks; }
   bool are_cables_taut() const noexcept;
+  void read_cells(const LoadCells& cells) noexcept;
   void count_homing() noexcept;
   void take_geometry() noexcept;
   void keep_slip() noexcept;
@@ -176,6 +177,7 @@ class CableArm {
   RobotParams table_{};  // as loaded, but for friction_mu: that is what the arm plans with
   double declared_mu_ = 0.0;
   CableLayout layout_{};
+  std::uint32_t cables_with_cells_ = 0;
   TensionWatchLimits tension_watch_limits_{};
   CableWatchLimits cable_watch_limits_{};
   TorqueLimits torque_limits_{};
