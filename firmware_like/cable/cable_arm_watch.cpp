@@ -134,11 +134,12 @@ bool CableArm::is_moving() const noexcept {
   return dot_pairs(rate_rad_s, rate_rad_s, as_index(table_.segment_count)) > kMovingRate_rad_s * kMovingRate_rad_s;
 }
 
-// One sample lets the segment of a missed cable go, two when readings are in doubt already.
+// One sample lets the segment of a missed cable go, two when readings are in doubt already. An arm with weight lets
+// nothing go: its drums stay, and watch_tension names the break.
 void CableArm::watch_missed(std::uint64_t tick, FaultList& faults) noexcept {
   if (is_let_go(let_go_)) {
     judge_missed(tension_watch_.slack_ticks[as_index(let_go_.cable)] != 0, tick, let_go_, faults);
-  } else if (missed_ >= 0 && !scatters(faults, missed_)) {
+  } else if (missed_ >= 0 && may_let_go(table_) && !scatters(faults, missed_)) {
     const bool in_doubt = faults.count > 0 || cable_watch_.reversals > 0;
     if (!in_doubt || tension_watch_.slack_ticks[as_index(missed_)] > 1) let_go(layout_, missed_, let_go_);
   }

@@ -83,7 +83,8 @@ constexpr std::array<FaultInfo, count_enumerators<FaultNumber, 1000>()> kFaultTa
      "Retract, disable and clear; look at the clamp on the drum and at the encoder. The cable's zero is wrong now: "
      "measure it again (liana calibrate)."},
     {kCableBreak, "cable_break", kStop, false, false,
-     "A cable's tension was gone from one moment to the next: it broke or came off its drum, or its reading is lost.",
+     "A cable's tension was gone from one moment to the next: it broke or came off its drum, or its reading is lost. "
+     "An arm with weight keeps all drums where they are: five cables a segment hold it, three or four may let it fall.",
      "Stay away from the arm; look at the cable and its clamp on the drum, then at the drive's torque reading; then "
      "clear."},
     {kTensionScatters, "tension_scatters", kHold, false, true, "Readings of a cable jump back and forth.",

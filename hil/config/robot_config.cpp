@@ -47,7 +47,7 @@ void read_segments(const JsonFile& file, RobotConfig& robot) {
     read_module(file, at("/segments", m), segment);
     const std::string phases = at("/cables/phase_deg", m);
     const std::size_t cables = file.size(phases);
-    if (cables < 3 || cables > 4) file.fail(phases, "has " + std::to_string(cables) + " cables, allowed is 3 to 4");
+    if (cables < 3 || cables > 5) file.fail(phases, "has " + std::to_string(cables) + " cables, allowed is 3 to 5");
     for (const double phase : file.numbers(phases, cables, -360.0, 360.0))
       segment.cable_phase_rad.push_back(kRadPerDeg * phase);
     robot.segments.push_back(segment);

@@ -66,10 +66,19 @@ void ArmUnderControl::read_drives() {
   const cable::CableVector tension = plant_.measured_tension_N();
   for (std::size_t c = 0; c < as_index(table_.cable_count()); ++c) {
     const cable::DriveParams& drive = table_.drive[c];
+    if (gone_[c]) {
+      if (in_.drive[c].feedback_age_ticks < 0xFFFF) ++in_.drive[c].feedback_age_ticks;
+      continue;
+    }
     answer(c, out_.drive[c].controlword);
     in_.drive[c].position_counts = to_counts(counts_at_payout(drive, zero_payout_m_[c], payout[c])).value;
     in_.drive[c].torque_permille = narrow<std::int16_t>(to_counts(tension[c] / drive.newtons_per_permille).value);
   }
+}
+
+void ArmUnderControl::lose_drive(std::size_t drive) {
+  gone_[drive] = true;
+  plant_.stand_still(drive);
 }
 
 void ArmUnderControl::step() {

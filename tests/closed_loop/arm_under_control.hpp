@@ -1,6 +1,7 @@
 // The real core in a loop with the plant: drives answer as CiA 402 wants, and telecommands come every T_c.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -34,6 +35,10 @@ class ArmUnderControl {
   void boot();
   // Off again: brakes closed, drives without power.
   void disable();
+  // Asks for this in the next tick.
+  void ask(Request request) { in_.request = request; }
+  // The drive sends nothing from now on, and its brake has closed.
+  void lose_drive(std::size_t drive);
   // One tick.
   void step();
   // Ticks with no new telecommand.
@@ -66,6 +71,7 @@ class ArmUnderControl {
   cable::Controller controller_;
   cable::Inputs in_{};
   cable::Outputs out_{};
+  std::array<bool, cable::kMaxCables> gone_{};  // drives
   std::uint64_t sequence_ = 0;
 };
 

@@ -114,6 +114,44 @@ TEST(CableFault, ABreakInTheLastSegmentLetsItGoBeforeTheOthersSwingIt) {
   EXPECT_LT(course.travel_deg, 26.0) << "30 deg with drums that stand";
 }
 
+// How far the tip of lab_1g falls along gravity, from the moment a fault begins until its brakes hold it.
+double fall_mm(const Vec3& mounted_m_s2, const std::function<void(Plant&, std::size_t)>& begin) {
+  ArmUnderControl arm({"nominal", 3, true, "park", CLOSED_LOOP_DATA "/lab_1g.json", mounted_m_s2},
+                      lab_table(mounted_m_s2));
+  arm.boot();
+  const Vec3 down = scale(mounted_m_s2, 1.0 / kEarth_m_s2);
+  Vec3 from_m{};
+  double most_mm = 0.0;
+  int tick = 0;
+  arm.move_joints(lab_pose_rad("look"), 6.0, [&](ArmUnderControl& now) {
+    if (++tick == 750) {
+      const cable::CableVector& tension_N = now.outputs().tension_measured_N;
+      begin(now.plant(), static_cast<std::size_t>(std::ranges::max_element(tension_N) - tension_N.begin()));
+      from_m = now.plant().tip_in_base().position_m;
+    }
+    if (tick >= 750)
+      most_mm = std::max(most_mm, 1000.0 * dot(subtract(now.plant().tip_in_base().position_m, from_m), down));
+  });
+  EXPECT_EQ(arm.outputs().faults.fault[0].number, FaultNumber::kCableBreak);
+  EXPECT_EQ(arm.outputs().state, OperatingState::kFault);
+  EXPECT_EQ(arm.outputs().stop_category, StopCategory::kStop);
+  return most_mm;
+}
+
+// req:A26
+TEST(CableFault, AnArmWithWeightDoesNotFallWhenTheCableThatCarriesMostBreaksHoweverItIsMounted) {
+  for (const Vec3& mounted_m_s2 : {kLying_m_s2, kHanging_m_s2, kUpsideDown_m_s2, kStanding_m_s2}) {
+    const double mm = fall_mm(mounted_m_s2, [](Plant& plant, std::size_t cable) { plant.loosen(cable, 1.0); });
+    measured("break with weight: fall", mm, "mm");
+    EXPECT_LT(mm, 30.0) << "400 mm when its segment is let go";
+  }
+}
+
+TEST(CableFault, AnArmWithWeightIsNotLetGoForAReadingThatIsLost) {
+  EXPECT_LT(fall_mm(kLying_m_s2, [](Plant& plant, std::size_t cable) { plant.lose_reading(cable); }), 12.0)
+      << "its stop included; 23 mm when its segment is let go";
+}
+
 TEST(CableFault, AReadingThatIsLostForASampleIsNoFaultAndHardlyMovesTheArm) {
   ArmUnderControl arm({"nominal", 1, true, "prepare"});
   get_under_way(arm);

@@ -22,12 +22,30 @@ const config::RobotConfig& robot(const std::string& physics) {
 
 const cable::RobotParams& robot_table(const std::string& physics) { return robot(physics).table; }
 
-cable::ThetaVector named_pose_rad(const std::string& name) {
+namespace {
+
+cable::ThetaVector pose_rad(const config::RobotConfig& robot, const std::string& name) {
   cable::ThetaVector theta{};
-  std::ranges::transform(robot("nominal").named_poses_deg.at(name), theta.begin(),
-                         [](double deg) { return deg * kDegree; });
+  std::ranges::transform(robot.named_poses_deg.at(name), theta.begin(), [](double deg) { return deg * kDegree; });
   return theta;
 }
+
+const config::RobotConfig& lab() {
+  static const config::RobotConfig loaded = config::load_robot(CLOSED_LOOP_DATA "/lab_1g.json", "nominal",
+                                                               config::load_buses(CLOSED_LOOP_DATA "/buses.json"));
+  return loaded;
+}
+
+}  // namespace
+
+cable::RobotParams lab_table(const Vec3& gravity_m_s2) {
+  cable::RobotParams table = lab().table;
+  table.gravity_m_s2 = gravity_m_s2;
+  return table;
+}
+
+cable::ThetaVector lab_pose_rad(const std::string& name) { return pose_rad(lab(), name); }
+cable::ThetaVector named_pose_rad(const std::string& name) { return pose_rad(robot("nominal"), name); }
 
 Pose tip_at(const std::string& pose_name) {
   return forward_kinematics(robot_table(), named_pose_rad(pose_name)).tip_in_base;

@@ -13,6 +13,14 @@ namespace liana::closed_loop {
 // Read once per process.
 const config::RobotConfig& robot(const std::string& physics = "nominal");
 const cable::RobotParams& robot_table(const std::string& physics = "nominal");
+// lab_1g, mounted so that gravity pulls that way in its base frame. Read once per process.
+cable::RobotParams lab_table(const Vec3& gravity_m_s2);
+// How users mount it: lying, hanging, standing, and lying with its back down.
+inline constexpr double kEarth_m_s2 = 9.80665;
+inline constexpr Vec3 kLying_m_s2{0.0, 0.0, -kEarth_m_s2}, kHanging_m_s2{kEarth_m_s2, 0.0, 0.0},
+    kUpsideDown_m_s2{0.0, 0.0, kEarth_m_s2}, kStanding_m_s2{-kEarth_m_s2, 0.0, 0.0};
+// Angles of one of its named poses [rad].
+cable::ThetaVector lab_pose_rad(const std::string& name);
 // Angles of a named pose of the robot [rad]; throws std::out_of_range for an unknown name.
 cable::ThetaVector named_pose_rad(const std::string& name);
 // Tip pose at a named pose, by the core's kinematics.

@@ -82,7 +82,8 @@ const std::vector<LabMounting> kMountings{
 
 config::RobotConfig lab_arm(const LabMounting& mounting) {
   const Json table = table_of(mounting);
-  return config::parse_robot(table.dump(), "lab_1g", "nominal", config::parse_buses(config::bench_buses(9), "bench_9"));
+  return config::parse_robot(table.dump(), "lab_1g", "nominal",
+                             config::parse_buses(config::bench_buses(15), "bench_15"));
 }
 
 calibration::LoadResult find_load(const LabMounting& mounting, std::uint64_t seed,

@@ -21,8 +21,11 @@ bench::TrueParameters parameters(const bench::RobotConfig& robot, const PlantSet
 
 bench::RobotConfig built(const PlantSetup& setup) {
   const std::string data = CLOSED_LOOP_DATA;
-  const bench::RobotConfig table =
-      bench::load_robot(setup.robot_file.empty() ? data + "/robot.json" : setup.robot_file);
+  bench::RobotConfig table = bench::load_robot(setup.robot_file.empty() ? data + "/robot.json" : setup.robot_file);
+  if (setup.mounted_m_s2) {
+    const Vec3& g_m_s2 = *setup.mounted_m_s2;
+    table.gravity_m_s2 = {g_m_s2[0], g_m_s2[1], g_m_s2[2]};
+  }
   return setup.spread ? bench::spread_load(table, setup.seed) : table;
 }
 
@@ -40,7 +43,7 @@ struct Plant::Parts {
   cable::CableVector drum_m;     // unstretched length that each drum holds
   cable::CableVector loose_m{};  // off the drum, beside what it holds
   cable::CableVector scatter_N{};
-  std::array<bool, cable::kMaxCables> lost{};
+  std::array<bool, cable::kMaxCables> lost{}, stands{};
   bool noisy;
   bench::Random noise;
   bench::Random fault_noise;
@@ -83,6 +86,7 @@ void Plant::advance(double tick_s, const cable::CableVector& target_m, bool powe
   const long steps = std::lround(tick_s / kPhysicsStep_s);
   for (long i = 0; i < steps; ++i) {
     for (std::size_t c = 0; c < parts_->robot.cable_count(); ++c) {
+      if (parts_->stands[c]) continue;
       const double target = target_m[c] + parts_->truth.zero_offset_m[c];
       parts_->drum_m[c] += share * (target - parts_->drum_m[c]);
     }
@@ -126,6 +130,8 @@ void Plant::scatter(std::size_t cable, double deviation_N) { parts_->scatter_N[c
 
 void Plant::lose_reading(std::size_t cable) { parts_->lost[cable] = true; }
 void Plant::find_reading(std::size_t cable) { parts_->lost[cable] = false; }
+
+void Plant::stand_still(std::size_t cable) { parts_->stands[cable] = true; }
 
 void Plant::kick(const cable::ThetaVector& rate_rad_s) { parts_->arm.set_state(parts_->arm.theta_rad(), rate_rad_s); }
 void Plant::push(std::size_t link, const Vec3& force_N) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "firmware_like/cable/arm/robot_params.hpp"
@@ -19,7 +20,8 @@ struct PlantSetup {
   bool spread = true;  // true parameters and start pose differ from the table (mission, A9); false: exactly the
                        // table, no noise
   std::string start_pose = "prepare";
-  std::string robot_file{};  // of the bench; empty: the arm of all tests, in its scene
+  std::string robot_file{};                         // of the bench; empty: the arm of all tests, in its scene
+  std::optional<Vec3> mounted_m_s2 = std::nullopt;  // gravity in the base frame in place of the table's
 };
 
 // Extremes since the last take_load().
@@ -62,6 +64,7 @@ class Plant {
   void scatter(std::size_t cable, double deviation_N);
   void lose_reading(std::size_t cable);
   void find_reading(std::size_t cable);  // again what it is
+  void stand_still(std::size_t cable);   // its brake has closed for good
 
   // Something pushes the start of a link's axis from now on, base frame; the link after the last is the tip.
   void push(std::size_t link, const Vec3& force_N);

@@ -29,6 +29,14 @@ constexpr std::uint16_t kLetGoJudgeTicks = kBreakDebounceTicks - 1;
 // Drives may be far behind their targets for so many ticks: five of their time constants.
 constexpr std::uint16_t kLetGoSettleTicks = 40;
 
+// In more gravity [m/s2] nothing is let go: until the drums are back, half a second later, the segment would have
+// fallen 60 mm. Drums that stand hold it by the cables that are left; without one of five these still surround it,
+// without one of three or four they hold only what pulls to their side.
+constexpr double kLetGoGravity_m_s2 = 0.5;
+inline bool may_let_go(const RobotParams& table) noexcept {
+  return dot(table.gravity_m_s2, table.gravity_m_s2) <= kLetGoGravity_m_s2 * kLetGoGravity_m_s2;
+}
+
 enum class SegmentReleaseStage : std::uint8_t {
   kNone = 0,
   kOut = 1,     // let out; not judged yet

@@ -13,7 +13,7 @@ namespace liana::cable {
 // Compiled capacity. A robot within it needs a new table and no new code.
 constexpr std::int32_t kMaxSegments = 8;
 constexpr std::int32_t kMaxModules = 16;       // per segment
-constexpr std::int32_t kMaxSegmentCables = 4;  // per segment
+constexpr std::int32_t kMaxSegmentCables = 5;  // per segment
 constexpr std::int32_t kMaxTheta = 2 * kMaxSegments;
 constexpr std::int32_t kMaxCables = kMaxDrives;
 

@@ -94,7 +94,8 @@ std::string holes(const Answers& a) {
            "apart.\n" +
            apart + "local hole_deg, turn_deg = { 0, 75, 150, 270 }, 75 / kSegments\n";
   return "-- The holes of a segment's cables are evenly spread.\n" + apart +
-         "local hole_deg, turn_deg = { 0, 120, 240 }, 120 / kSegments\n";
+         (a.cables == 5 ? "local hole_deg, turn_deg = { 0, 72, 144, 216, 288 }, 72 / kSegments\n"
+                        : "local hole_deg, turn_deg = { 0, 120, 240 }, 120 / kSegments\n");
 }
 
 std::string head(const std::string& name, const Answers& a) {

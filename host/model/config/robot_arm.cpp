@@ -69,7 +69,7 @@ bool surround(std::vector<double> phases_deg) {
 }
 
 void read_phases(const Field& field, cable::SegmentParams& segment) {
-  const std::size_t count = field.size(3, cable::kMaxSegmentCables, "a segment needs 3 or 4 cables");
+  const std::size_t count = field.size(3, cable::kMaxSegmentCables, "a segment needs 3 to 5 cables");
   std::vector<double> phases_deg;
   for (std::size_t c = 0; c < count; ++c) {
     phases_deg.push_back(field.element(c).number({-360, 360}));

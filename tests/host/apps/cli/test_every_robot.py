@@ -141,6 +141,7 @@ class EveryRobot(Messages, unittest.TestCase):
             (4, 3, 10, 0.1, 0.05, 20),
             (8, 3, 2, 0.3, 0.1, 30),
             (8, 4, 8, 0.05, 0.02, 8),
+            (3, 5, 5, 0.06, 0.035, 15),
         ):
             words = ("--segments", segments, "--cables", cables, "--modules", modules, "--module-length", length_m)
             file = self.new(f"new_{segments}_{cables}", *words, "--radius", radius_m, "--theta-limit", limit_deg)

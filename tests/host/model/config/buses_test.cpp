@@ -54,13 +54,13 @@ TEST(Buses, LoadCellsAreReadWithWhatTheyHaveInCommonAndCountInTheLoad) {
   EXPECT_EQ(buses.buses[0].load_cells[2].cables, (std::vector<std::size_t>{6, 7, 8}));
   EXPECT_EQ(buses.load_cell.newtons_per_step, 0.02);
   EXPECT_TRUE(buses.load_cell.goes_on);
-  EXPECT_NEAR(worst_case_load(buses, 0), ((55 + 9 * 250 + 3 * 115) * 200 + 13 * 65 * 10 + 5400) / 1e6, 1e-12);
+  EXPECT_NEAR(worst_case_load(buses, 0), ((55 + 8 * 250 + 3 * 115) * 250 + 12 * 65 * 10 + 5400) / 1e6, 1e-12);
 }
 
 TEST(Buses, ALoadCellHasANodeOfItsOwnACableOfItsOwnAndARowForAll) {
   const Json good = good_table("buses", "embedded_lab_1g");
   const auto parse = [](const std::string& text) { parse_buses(text, "given.json"); };
-  expect_refused(good, {"/buses/0/load_cells/1/node", 9, "buses[1].load_cells[2].node", {"can0"}}, parse);
+  expect_refused(good, {"/buses/0/load_cells/1/node", 8, "buses[1].load_cells[2].node", {"can0"}}, parse);
   expect_refused(good, {"/buses/0/load_cells/1/node", 32, "buses[1].load_cells[2].node", {"can0"}}, parse);
   expect_refused(good, {"/buses/0/load_cells/1/cables/0", 3, "buses[1].load_cells", {"cable 3", "32"}}, parse);
   expect_refused(good, {"/buses/0/load_cells/1/cables/0", 33, "buses[1].load_cells[2].cables[1]", {"32"}}, parse);
