@@ -256,7 +256,9 @@ class Rules(unittest.TestCase):
         for number, row in rules.page_of_reactions().items():
             self.assertGreater(len(row["why"]), 20, number)
             self.assertFalse(row["retract"] and row["reaction"] != "hold", number)
-        self.assertEqual(rules.retracts_by_hand(), {1001, 2004, 2005, 5001, 5003, 5004, 5005, 5007, 5008, 5009, 5010, 5011})
+        self.assertEqual(
+            rules.retracts_by_hand(), {1001, 2004, 2005, 5001, 5003, 5004, 5005, 5007, 5008, 5009, 5010, 5011}
+        )
 
     def test_a_way_back_is_no_command_out_of_time_where_all_that_is_latched_allows_it(self):
         held = changed(5, faults=(fault(5001),), active_sequence=7)
