@@ -334,19 +334,20 @@ def proof():
 
 
 def deep():
-    """All the rest. The page comes first: some of the tests are of the page that it builds."""
+    """All the rest. The page comes first: some of the tests are of the page that it builds. Nothing runs behind it: a
+    browser is a session of its own, and would share the processors with that evenly."""
     install(*ALL_PACKAGES)
     with stage("lint"):
         for name, is_clean in lint.CHECKS.items():
             TALLY.count(name, is_clean())
     if not built(lambda: build_tests("all", *UNSANITIZED, env=keeping_objects())):
         return
+    with stage("page"):
+        page()
     with behind() as begin:
         compiled = begin(compile_quietly, "checked", "unit_tests", "fuzz_targets")
         threaded = begin(compile_quietly, "tsan", *targets_of(THREADED))
         tidied = begin(is_tidy)
-        with stage("page"):
-            page()
         with stage("tests"):
             other_tests()
         with stage("vcan"):
