@@ -32,6 +32,7 @@ struct LoadCells {
   }();
 };
 
+// What is remembered of the cells between ticks.
 struct LoadCellState {
   std::uint32_t usable = 0, believed = 0;               // bit i: the reading of cable i, in this tick
   std::uint8_t powered = 0;                             // drives have torque, which says something
