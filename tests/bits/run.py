@@ -56,11 +56,11 @@ WORST_TICK = 1.7
 M7_MEDIAN = 58_979  # where the whole slit crossing is not among them (./dev bits measures it)
 # A serial arm has no such median: its ticks without a tip command solve no IK. So its worst tick is held by itself.
 SERIAL_WORST = 45_000  # instructions on the Cortex-M7; a push of the torque arm takes 41 758
-# 5004 needs a drive of the first segment, 5008 something to touch, 5009 a worn arm, 6001 a long mission, 2002 a joint
-# at the end of its range; 2xxx but 2001 are of a serial arm, 5xxx of a cable arm.
+# 5004 needs a drive of the first segment, 5008 something to touch, 5009 a worn arm, 5010 and 5011 load cells, 6001 a
+# long mission, 2002 a joint at the end of its range; 2xxx but 2001 are of a serial arm, 5xxx of a cable arm.
 NOT_REACHED = {
-    "cable": {2002, 2003, 2004, 2005, 5004, 5008, 5009, 6001},
-    "serial": {2002, *range(5001, 5010), 6001},
+    "cable": {2002, 2003, 2004, 2005, 5004, 5008, 5009, 5010, 5011, 6001},
+    "serial": {2002, *range(5001, 5012), 6001},
 }
 OF_A_PUSH = {2004, 2005}  # not in the quick tapes, which have none
 PATIENCE_S = 900  # wall clock after which a program counts as hung; nothing is measured by it

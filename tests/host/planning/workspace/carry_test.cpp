@@ -17,7 +17,7 @@ constexpr std::int32_t kFew = 300;
 config::RobotConfig lab_1g(double ceiling_N = 200.0) {
   Json table = config::good_table("robot", "lab_1g");
   table["tension"]["ceiling_free_N"] = ceiling_N;
-  return config::parse_robot(table.dump(), "r", "nominal", config::parse_buses(config::bench_buses(9), "b"));
+  return config::parse_robot(table.dump(), "r", "nominal", config::parse_buses(config::bench_buses(15), "b"));
 }
 
 Carried carried(const config::RobotConfig& robot, std::size_t mounting) {
