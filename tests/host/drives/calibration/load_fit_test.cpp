@@ -24,7 +24,7 @@ namespace {
 config::RobotConfig lab_1g(double stiffness_Nm_per_rad = 0.0) {
   Json table = config::good_table("robot", "lab_1g");
   if (stiffness_Nm_per_rad > 0.0) table["joint"]["stiffness_Nm_per_rad"] = stiffness_Nm_per_rad;
-  return config::parse_robot(table.dump(), "r", "nominal", config::parse_buses(config::bench_buses(9), "b"));
+  return config::parse_robot(table.dump(), "r", "nominal", config::parse_buses(config::bench_buses(15), "b"));
 }
 
 // An arm whose load is one prior deviation off the table's, up and down by turns.
@@ -46,7 +46,7 @@ LoadResult found(const RobotParams& table, const RobotParams& truth, const std::
   for (const LoadPose& pose : poses) {
     std::array<LoadReading, 2> sides{LoadReading{pose.theta_rad, {}}, LoadReading{pose.theta_rad, {}}};
     const CableVector tension_N = plan_at_rest(truth, cable_layout(truth), pose.theta_rad).motor_N;
-    for (std::size_t c = 0; c < 9; ++c) {
+    for (std::size_t c = 0; c < static_cast<std::size_t>(table.cable_count()); ++c) {
       const double gained_N = tension_N[c] * (1.0 + 0.01 * std::sin(7.0 * static_cast<double>(c)));
       const double friction = 0.03 * random.uniform(-1.0, 1.0);
       sides[0].tension_N[c] = gained_N * (1.0 + friction);
@@ -130,7 +130,7 @@ TEST(LoadFit, ACalibrationKeepsTheLoadTheArmIsGivenItAndAnImplausibleOneIsRefuse
   config::RobotConfig arm = lab_1g(2.0);
   const RobotParams table = arm.table, truth = off_by_one_deviation(table);
   Calibration calibration{arm.name, config::sha256_hex(arm.canonical_json), kDay, {}};
-  for (std::size_t i = 0; i < 9; ++i)
+  for (std::size_t i = 0; i < static_cast<std::size_t>(arm.table.cable_count()); ++i)
     calibration.cables.push_back({static_cast<std::uint32_t>(i + 1), 1, 500000, arm.drum_radius_m, 30.0, 0.0});
   calibration.load = found(table, truth, load_poses(table)).values;
   const Calibration read = parse_calibration(calibration_json(calibration), "arm.json", arm, kDay);
