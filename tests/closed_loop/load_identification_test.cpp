@@ -12,7 +12,7 @@ TEST(LoadIdentification, WithTheLoadFoundArmsThatSeedsBuildExplainTheirTensions)
   const LabMounting& lying = kMountings.front();
   const std::vector<calibration::LoadPose> poses = calibration::load_poses(lab_arm(lying).table, 6);
   double before_Nm = 0.0, after_Nm = 0.0;
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const calibration::LoadResult found = find_load(lying, seed, poses);
     before_Nm += found.before.torque_Nm;
     after_Nm += found.after.torque_Nm;

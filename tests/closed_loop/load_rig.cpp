@@ -94,7 +94,7 @@ calibration::LoadResult find_load(const LabMounting& mounting, std::uint64_t see
   calibration::LoadFit fit(table);
   for (const calibration::LoadPose& pose : poses) {
     std::array<calibration::LoadReading, 2> sides;
-    for (const std::size_t side : {0, 1}) sides[side] = come_to(arm, pose, side == 0 ? -1.0 : 1.0);
+    for (const std::size_t side : {0U, 1U}) sides[side] = come_to(arm, pose, side == 0 ? -1.0 : 1.0);
     fit.add(sides);
   }
   return fit.solve();

@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(AtPose, TensionPlan, ::testing::Values("prepare", "pane
 
 // Every angle at its limit, friction twice what is declared: where it holds the arm the ramp cannot know.
 TEST(Enabling, AnArmInAFullCornerKeepsItsCablesTautOnEveryRamp) {
-  for (const std::uint64_t seed : {1, 6}) {
+  for (const std::uint64_t seed : {1U, 6U}) {
     ArmUnderControl arm({"worn", seed, true, "20,20,-20,-20,20,20,-20,-20,20,20"}, "nominal");
     for (int enabling = 0; enabling < 2; ++enabling) {
       arm.plant().take_load();

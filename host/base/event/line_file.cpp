@@ -112,13 +112,23 @@ void LineFile::work() {
   for (;;) {
     wake_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
     if (waiting_.empty()) return;
-    const std::string text = std::exchange(waiting_, {});
+    const std::string text = next_lines();
     lock.unlock();
     int reason = 0;
     const std::size_t done = write_all(text, reason);
     lock.lock();
     take_result(text, done, reason);
   }
+}
+
+// What waits, in whole lines: no more than a part holds.
+std::string LineFile::next_lines() {
+  if (waiting_.size() <= part_bytes_) return std::exchange(waiting_, {});
+  const std::size_t last = waiting_.rfind('\n', part_bytes_ - 1);
+  const std::size_t bytes = 1 + (last != std::string::npos ? last : waiting_.find('\n'));
+  std::string text = waiting_.substr(0, bytes);
+  waiting_.erase(0, bytes);
+  return text;
 }
 
 std::string LineFile::beginning() {

@@ -41,6 +41,7 @@ class LineFile {
 
  private:
   void work();
+  std::string next_lines();
   std::size_t write_all(std::string_view text, int& reason);
   void take_result(std::string_view text, std::size_t done, int reason);
   void say_missing();
