@@ -132,7 +132,7 @@ TEST(Image, ATableThatWouldLeadTheCoreOutOfItsArraysIsRefused) {
   };
   EXPECT_EQ(said([](cable::RobotParams&) {}), "");
   EXPECT_NE(said([](cable::RobotParams& t) { t.segment_count = 9; }).find("segment_count: 9"), std::string::npos);
-  EXPECT_NE(said([](cable::RobotParams& t) { t.segment[2].cables = 5; }), "");
+  EXPECT_NE(said([](cable::RobotParams& t) { t.segment[2].cables = cable::kMaxSegmentCables + 1; }), "");
   EXPECT_NE(said([](cable::RobotParams& t) { t.segment[0].modules = 17; }), "");
   EXPECT_NE(said([](cable::RobotParams& t) { t.interval_ticks = 0; }), "");
   EXPECT_NE(said([](cable::RobotParams& t) { t.tick_s = -0.0; }), "");
