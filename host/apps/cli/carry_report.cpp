@@ -2,23 +2,16 @@
 
 #include <cstdio>
 
-#include "firmware_like/math/trig.hpp"
+#include "host/apps/cli/pose_json.hpp"
 #include "host/model/config/drive_names.hpp"
 
 namespace liana::cli {
 namespace {
 
-Json degrees(const cable::RobotParams& table, const cable::ThetaVector& theta_rad) {
-  Json list = Json::array();
-  for (std::size_t k = 0; k < static_cast<std::size_t>(table.theta_count()); ++k)
-    list.push_back(theta_rad[k] / kDegree);
-  return list;
-}
-
 Json json_of(const config::RobotConfig& robot, const workspace::Payload& payload) {
   return {{"mass_kg", payload.mass_kg},     {"unloaded", payload.unloaded},
           {"cable", payload.cable + 1},     {"cable_name", config::DriveNames(robot.table).cable(payload.cable)},
-          {"tension_N", payload.tension_N}, {"theta_deg", degrees(robot.table, payload.theta_rad)}};
+          {"tension_N", payload.tension_N}, {"theta_deg", degrees_json(payload.theta_rad, robot.table.theta_count())}};
 }
 
 void print_payload(const char* poses, const Json& payload) {
@@ -59,7 +52,7 @@ Json carry_json(const config::RobotConfig& robot, const std::vector<workspace::C
                      {{"tension_N", one.worst.max_N},
                       {"cable", one.worst.max_cable + 1},
                       {"cable_name", names.cable(one.worst.max_cable)},
-                      {"theta_deg", degrees(robot.table, one.worst_rad)}}},
+                      {"theta_deg", degrees_json(one.worst_rad, robot.table.theta_count())}}},
                     {"payload_named_poses", has_weight ? json_of(robot, one.named) : Json()},
                     {"payload_all_poses", has_weight ? json_of(robot, one.all) : Json()}});
   }

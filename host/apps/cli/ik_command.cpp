@@ -3,6 +3,7 @@
 #include "firmware_like/math/trig.hpp"
 #include "host/apps/cli/arguments.hpp"
 #include "host/apps/cli/commands.hpp"
+#include "host/apps/cli/pose_json.hpp"
 #include "host/apps/cli/serial_commands.hpp"
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/tables.hpp"
@@ -37,8 +38,7 @@ void aim_nodes(const std::vector<std::string>& texts, const cable::RobotParams& 
 }
 
 Json to_json(const inverse_kinematics::GoalIkResult& result, std::size_t theta_count, std::size_t node_count) {
-  Json theta = Json::array();
-  for (std::size_t i = 0; i < theta_count; ++i) theta.push_back(result.theta_rad[i] / kDegree);
+  const Json theta = degrees_json(result.theta_rad, static_cast<std::int32_t>(theta_count));
   Json distances = Json::array(), reaches = Json::array();
   for (std::size_t i = 0; i < node_count; ++i) {
     distances.push_back(result.node_distance_m[i]);

@@ -7,6 +7,7 @@
 #include "host/apps/cli/arguments.hpp"
 #include "host/apps/cli/commands.hpp"
 #include "host/apps/cli/curve_file.hpp"
+#include "host/apps/cli/pose_json.hpp"
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/interrupt.hpp"
 #include "host/apps/launcher/output.hpp"
@@ -152,12 +153,8 @@ planner::PlanRequest request_of(const PlanOptions& options) {
 
 Json to_json(const planner::PlanRequest& request, const planner::PlanResult& result, double time_s) {
   Json waypoints = Json::array();
-  for (const cable::ThetaVector& theta : result.waypoints_rad) {
-    Json row = Json::array();
-    for (std::int32_t k = 0; k < request.robot.table.theta_count(); ++k)
-      row.push_back(theta[static_cast<std::size_t>(k)] / kDegree);
-    waypoints.push_back(row);
-  }
+  for (const cable::ThetaVector& theta_rad : result.waypoints_rad)
+    waypoints.push_back(degrees_json(theta_rad, request.robot.table.theta_count()));
   Json answer{{"outcome", planner::name_of(result.outcome)},
               {"waypoints_deg", waypoints},
               {"objective", result.objective},

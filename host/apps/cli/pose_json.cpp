@@ -1,6 +1,15 @@
 #include "host/apps/cli/pose_json.hpp"
 
+#include "firmware_like/math/convert.hpp"
+#include "firmware_like/math/trig.hpp"
+
 namespace liana::cli {
+
+Json degrees_json(std::span<const double> angle_rad, std::int32_t count) {
+  Json list = Json::array();
+  for (const double each_rad : angle_rad.first(as_index(count))) list.push_back(each_rad / kDegree);
+  return list;
+}
 
 Json homogeneous(const Pose& pose) {
   Json rows = Json::array();

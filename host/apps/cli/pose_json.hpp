@@ -1,4 +1,4 @@
-// Poses and Jacobians as commands print them, whatever arm they are of.
+// Angles, poses and Jacobians as commands print them, whatever arm they are of.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,9 @@
 #include "host/base/json/json.hpp"
 
 namespace liana::cli {
+
+// The first `count` angles, in degrees.
+Json degrees_json(std::span<const double> angle_rad, std::int32_t count);
 
 // The 4 x 4 matrix of a pose, row by row.
 Json homogeneous(const Pose& pose);

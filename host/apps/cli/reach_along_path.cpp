@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "firmware_like/math/trig.hpp"
+#include "host/apps/cli/pose_json.hpp"
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/output.hpp"
 #include "host/apps/launcher/tables.hpp"
@@ -49,17 +50,10 @@ std::vector<cable::ThetaVector> read_waypoints(const std::string& path, const ca
   return waypoints;
 }
 
-Json theta_degrees(const cable::ThetaVector& theta_rad, const cable::RobotParams& robot) {
-  Json list = Json::array();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i)
-    list.push_back(theta_rad[i] / kDegree);
-  return list;
-}
-
 Json point_json(const workspace::PathPoint& point, const cable::RobotParams& robot) {
   const double condition = workspace::condition_number(point);
   return {{"way", point.way},
-          {"theta_deg", theta_degrees(point.theta_rad, robot)},
+          {"theta_deg", degrees_json(point.theta_rad, robot.theta_count())},
           {"tip_m", point.tip_in_base_m},
           {"least_singular_value", point.least_singular_value},
           {"condition", std::isfinite(condition) ? Json(condition) : Json()},

@@ -5,6 +5,7 @@
 #include "host/apps/cli/arguments.hpp"
 #include "host/apps/cli/carry_report.hpp"
 #include "host/apps/cli/commands.hpp"
+#include "host/apps/cli/pose_json.hpp"
 #include "host/apps/cli/reach_along_path.hpp"
 #include "host/apps/cli/serial_commands.hpp"
 #include "host/apps/launcher/errors.hpp"
@@ -97,12 +98,6 @@ RegionQuestion question_of(const ReachOptions& options, const config::SerialRobo
 
 // --- what is answered ---
 
-Json degrees(const workspace::AngleVector& angle_rad, const workspace::ReachArm& arm) {
-  Json list = Json::array();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(arm.angle_count); ++i) list.push_back(angle_rad[i] / kDegree);
-  return list;
-}
-
 Json held_json(const RegionQuestion& asked) {
   Json held = Json::object();
   for (std::size_t i = 0; i < static_cast<std::size_t>(asked.arm.angle_count); ++i) {
@@ -114,7 +109,7 @@ Json held_json(const RegionQuestion& asked) {
 Json end_json(const workspace::BoundaryPoint& end, const workspace::ReachArm& arm) {
   return {{"distance_m", end.distance_m},
           {"point_m", end.point_in_base_m},
-          {"theta_deg", degrees(end.angle_rad, arm)},
+          {"theta_deg", degrees_json(end.angle_rad, arm.angle_count)},
           {"binding_theta", config::theta_numbers(end.binding)}};
 }
 

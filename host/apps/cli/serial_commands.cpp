@@ -28,9 +28,7 @@ void print_pose(const Json& pose) {
 }
 
 Json to_json(const inverse_kinematics::SerialGoalResult& result, std::size_t joints) {
-  Json theta_deg = Json::array();
-  for (std::size_t i = 0; i < joints; ++i) theta_deg.push_back(result.joint_rad[i] / kDegree);
-  return {{"theta_deg", theta_deg},
+  return {{"theta_deg", degrees_json(result.joint_rad, static_cast<std::int32_t>(joints))},
           {"converged", result.converged},
           {"iterations", result.iterations},
           {"position_error_m", result.position_error_m},
