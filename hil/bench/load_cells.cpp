@@ -24,6 +24,15 @@ LoadCells::LoadCells(const BusesConfig& buses, bool spread, std::uint64_t seed, 
   }
 }
 
+namespace {
+
+bool is_of_load_cells(FaultKind kind) {
+  return kind == FaultKind::kLoadCellFailed || kind == FaultKind::kLoadCellStuck ||
+         kind == FaultKind::kLoadCellSilent || kind == FaultKind::kLoadCellOff;
+}
+
+}  // namespace
+
 bool LoadCells::has(std::size_t cable) const {
   return std::any_of(nodes_.begin(), nodes_.end(), [cable](const Node& node) {
     return std::any_of(node.channels.begin(), node.channels.end(),
@@ -33,7 +42,7 @@ bool LoadCells::has(std::size_t cable) const {
 
 void LoadCells::refuse_faults_of_others(const std::vector<FaultConfig>& faults) const {
   for (const FaultConfig& fault : faults) {
-    if (fault.name.rfind("load_cell", 0) != 0) continue;
+    if (!is_of_load_cells(fault.kind)) continue;
     for (const std::size_t cable : fault.drives) {
       if (has(cable)) continue;
       throw std::runtime_error("fault " + fault.name + ": cable " + std::to_string(cable + 1) +

@@ -37,7 +37,7 @@ class DriveChannel {
   // Everything that came in since the last tick, into the inputs of this one; what did not come grows older.
   void collect(const timing::TickStart& start, CycleInputs& inputs) noexcept;
   // What nodes that are no drives have said until now.
-  const SensorChannel& sensors() const noexcept { return sensor_line_; }
+  const SensorChannel& sensor_channel() const noexcept { return sensor_line_; }
   // Starts sensors that are not operational, and tells the adapter what it was asked for last.
   void step_sensors(std::uint64_t tick, serial::AdapterCommand command, std::uint8_t sequence) noexcept {
     sensor_line_.step(bus_, tick, command, sequence);

@@ -36,11 +36,11 @@ bool RtCycle<Arm>::run_tick() noexcept {
 template <class Arm>
 void RtCycle<Arm>::step_sensors(const timing::TickStart& start) noexcept {
   if constexpr (std::is_same_v<typename Arm::Sensors, serial::Sensors>) {
-    report_.inputs.sensors = line_.sensors().sensors();
+    report_.inputs.sensors = line_.sensor_channel().sensors();
     const AdapterOrder order = link_.adapter.load(std::memory_order_acquire);
     line_.step_sensors(start.tick, order.command, order.sequence);
   } else {
-    report_.inputs.sensors = line_.sensors().load_cells();
+    report_.inputs.sensors = line_.sensor_channel().load_cells();
     line_.step_sensors(start.tick, {}, 0);
   }
 }
