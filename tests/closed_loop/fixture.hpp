@@ -19,6 +19,14 @@ cable::RobotParams lab_table(const Vec3& gravity_m_s2);
 inline constexpr double kEarth_m_s2 = 9.80665;
 inline constexpr Vec3 kLying_m_s2{0.0, 0.0, -kEarth_m_s2}, kHanging_m_s2{kEarth_m_s2, 0.0, 0.0},
     kUpsideDown_m_s2{0.0, 0.0, kEarth_m_s2}, kStanding_m_s2{-kEarth_m_s2, 0.0, 0.0};
+struct LabMounting {
+  const char* name;
+  Vec3 gravity_m_s2;
+};
+inline constexpr LabMounting kLabMountings[] = {{"lying", kLying_m_s2},
+                                                {"hanging", kHanging_m_s2},
+                                                {"upside down", kUpsideDown_m_s2},
+                                                {"standing", kStanding_m_s2}};
 // Angles of one of its named poses [rad].
 cable::ThetaVector lab_pose_rad(const std::string& name);
 // Angles of a named pose of the robot [rad]; throws std::out_of_range for an unknown name.

@@ -9,8 +9,8 @@ namespace {
 
 // The errors of a single arm may be as small as what its cables hide: three arms together show it.
 TEST(LoadIdentification, WithTheLoadFoundArmsThatSeedsBuildExplainTheirTensions) {
-  const LabMounting& lying = kMountings.front();
-  const std::vector<calibration::LoadPose> poses = calibration::load_poses(lab_arm(lying).table, 6);
+  const LabMounting& lying = kLabMountings[0];
+  const std::vector<calibration::LoadPose> poses = calibration::load_poses(lab_table(lying.gravity_m_s2), 6);
   double before_Nm = 0.0, after_Nm = 0.0;
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const calibration::LoadResult found = find_load(lying, seed, poses);

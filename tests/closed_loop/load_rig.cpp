@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "arm_under_control.hpp"
 #include "firmware_like/cable/arm/static_load.hpp"
 #include "firmware_like/math/trig.hpp"
-#include "host/base/json/json.hpp"
 #include "host/base/random/random.hpp"
-#include "host/model/config/bench_buses.hpp"
 
 namespace liana::closed_loop {
 
@@ -20,17 +16,6 @@ namespace {
 constexpr double kRate_rad_s = 1.5 * kDegree;
 constexpr double kSettle_s = 1.5;
 constexpr int kReadings = 250;
-
-std::string file_of(const LabMounting& mounting) { return CLOSED_LOOP_DATA "/lab_1g_" + mounting.name + ".json"; }
-
-Json table_of(const LabMounting& mounting) {
-  std::stringstream text;
-  text << std::ifstream(CLOSED_LOOP_DATA "/lab_1g.json").rdbuf();
-  Json table = Json::parse(text.str());
-  const Vec3& g = mounting.gravity_m_s2;
-  table["gravity_m_s2"] = {g[0], g[1], g[2]};
-  return table;
-}
 
 void go_to(ArmUnderControl& arm, const ThetaVector& goal_rad) {
   double max_rad = 0.0;
@@ -52,21 +37,14 @@ calibration::LoadReading read(ArmUnderControl& arm) {
   return sum;
 }
 
-ThetaVector moved(const ThetaVector& theta_rad, const ThetaVector& by_rad, double sign) {
-  ThetaVector out = theta_rad;
-  for (std::size_t k = 0; k < out.size(); ++k) out[k] += sign * by_rad[k];
-  return out;
-}
-
 calibration::LoadReading come_to(ArmUnderControl& arm, const calibration::LoadPose& pose, double side) {
-  go_to(arm, moved(pose.theta_rad, pose.approach_rad, side));
+  go_to(arm, pose.beside_rad(side));
   go_to(arm, pose.theta_rad);
   return read(arm);
 }
 
 PlantSetup setup_of(const LabMounting& mounting, std::uint64_t seed) {
-  std::ofstream(file_of(mounting)) << table_of(mounting).dump();
-  return {"nominal", seed, true, "park", file_of(mounting)};
+  return {"nominal", seed, true, "park", CLOSED_LOOP_DATA "/lab_1g.json", mounting.gravity_m_s2};
 }
 
 double root_mean(const CableVector& a, const CableVector& b, std::int32_t count) {
@@ -77,18 +55,9 @@ double root_mean(const CableVector& a, const CableVector& b, std::int32_t count)
 
 }  // namespace
 
-const std::vector<LabMounting> kMountings{
-    {"lying", {0.0, 0.0, -9.80665}}, {"hanging", {9.80665, 0.0, 0.0}}, {"upside_down", {-9.80665, 0.0, 0.0}}};
-
-config::RobotConfig lab_arm(const LabMounting& mounting) {
-  const Json table = table_of(mounting);
-  return config::parse_robot(table.dump(), "lab_1g", "nominal",
-                             config::parse_buses(config::bench_buses(15), "bench_15"));
-}
-
 calibration::LoadResult find_load(const LabMounting& mounting, std::uint64_t seed,
                                   const std::vector<calibration::LoadPose>& poses) {
-  const RobotParams table = lab_arm(mounting).table;
+  const RobotParams table = lab_table(mounting.gravity_m_s2);
   ArmUnderControl arm(setup_of(mounting, seed), table);
   arm.boot();
   calibration::LoadFit fit(table);

@@ -3,23 +3,13 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
+#include "fixture.hpp"
 #include "host/drives/calibration/load_fit.hpp"
 #include "host/drives/calibration/load_poses.hpp"
 
 namespace liana::closed_loop {
-
-// Where gravity points in the base frame, x along the straight arm.
-struct LabMounting {
-  std::string name;
-  Vec3 gravity_m_s2{};
-};
-extern const std::vector<LabMounting> kMountings;  // lying, hanging, upside down
-
-// What the table says of the arm so mounted.
-config::RobotConfig lab_arm(const LabMounting& mounting);
 
 // The load found in these poses by an arm of this seed that believes its table.
 calibration::LoadResult find_load(const LabMounting& mounting, std::uint64_t seed,

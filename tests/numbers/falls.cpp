@@ -21,15 +21,6 @@ using closed_loop::ArmUnderControl;
 
 constexpr double kAfter_s = 3.0;  // watched
 
-struct Mounting {
-  const char* name;
-  Vec3 gravity_m_s2;
-};
-constexpr Mounting kMountings[] = {{"lying", closed_loop::kLying_m_s2},
-                                   {"hanging", closed_loop::kHanging_m_s2},
-                                   {"upside down", closed_loop::kUpsideDown_m_s2},
-                                   {"standing", closed_loop::kStanding_m_s2}};
-
 struct Kind {
   const char* name;
   void (*begin)(ArmUnderControl& arm, std::size_t cable);
@@ -103,7 +94,7 @@ struct Worst {
   int over = 0, cases = 0;
 };
 
-void try_all(ArmUnderControl& arm, const Mounting& mounting, const Options& options,
+void try_all(ArmUnderControl& arm, const closed_loop::LabMounting& mounting, const Options& options,
              Worst (&worst)[std::size(kKinds)]) {
   for (std::size_t k = 0; k < std::size(kKinds); ++k) {
     if (options.only != nullptr && std::strcmp(options.only, kKinds[k].name) != 0) continue;
@@ -119,7 +110,8 @@ void try_all(ArmUnderControl& arm, const Mounting& mounting, const Options& opti
   }
 }
 
-void run(const Mounting& mounting, int seed, const Options& options, Worst (&worst)[std::size(kKinds)]) {
+void run(const closed_loop::LabMounting& mounting, int seed, const Options& options,
+         Worst (&worst)[std::size(kKinds)]) {
   std::mt19937 random(static_cast<unsigned>(seed));
   constexpr double kLeg_s = 8.0;
   const char* const legs[] = {"look", "zero", "deep", "park"};
@@ -146,7 +138,7 @@ int main(int argc, char** argv) {
   const bool each = argc > 1 && std::strcmp(argv[1], "--each") == 0;
   const bool chosen = argc > 2 && std::strcmp(argv[1], "--only") == 0;
   const Options options{each, chosen ? argv[2] : nullptr};
-  for (const Mounting& mounting : kMountings) {
+  for (const liana::closed_loop::LabMounting& mounting : liana::closed_loop::kLabMountings) {
     Worst worst[std::size(kKinds)]{};
     for (int i = chosen ? 3 : each ? 2 : 1; i < argc; ++i) run(mounting, std::atoi(argv[i]), options, worst);
     for (std::size_t k = 0; k < std::size(kKinds); ++k)

@@ -33,8 +33,8 @@ void print(const char* name, const closed_loop::Standing& all) {
 
 int main(int argc, char** argv) {
   const numbers::Options options = numbers::parse_options(argc, argv, 20);
-  for (const closed_loop::LabMounting& mounting : closed_loop::kMountings) {
-    const cable::RobotParams table = closed_loop::lab_arm(mounting).table;
+  for (const closed_loop::LabMounting& mounting : closed_loop::kLabMountings) {
+    const cable::RobotParams table = closed_loop::lab_table(mounting.gravity_m_s2);
     const std::vector<calibration::LoadPose> poses = calibration::load_poses(table);
     closed_loop::Standing before, after;
     for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(options.count); ++seed) {
@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
         gather(all->load_error_Nm, one.load_error_Nm);
       }
     }
-    std::printf("%s, %d arms\n", mounting.name.c_str(), options.count);
+    std::printf("%s, %d arms\n", mounting.name, options.count);
     print("before", before);
     print("after", after);
     std::fflush(stdout);

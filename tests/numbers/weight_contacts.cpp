@@ -20,15 +20,6 @@ using closed_loop::ArmUnderControl;
 
 constexpr double kMoves_s = 180.0, kRise_N_s = 0.2, kMax_N = 30.0, kLeg_s = 9.0;
 
-struct Mounting {
-  const char* name;
-  Vec3 gravity_m_s2;
-};
-constexpr Mounting kMountings[] = {{"lying", closed_loop::kLying_m_s2},
-                                   {"hanging", closed_loop::kHanging_m_s2},
-                                   {"upside down", closed_loop::kUpsideDown_m_s2},
-                                   {"standing", closed_loop::kStanding_m_s2}};
-
 struct Told {
   int fault = 0;
   double force_N = 0.0, after_s = 0.0;
@@ -36,7 +27,7 @@ struct Told {
 
 // Moves between poses that the seed draws, `push_N` (from the time) at a link, until a fault or the end.
 template <class Push>
-Told move(const Mounting& mounting, int seed, double seconds, Push push) {
+Told move(const closed_loop::LabMounting& mounting, int seed, double seconds, Push push) {
   std::mt19937 random(static_cast<unsigned>(seed));
   ArmUnderControl arm({"nominal", static_cast<std::uint64_t>(seed), true, "park", CLOSED_LOOP_DATA "/lab_1g.json",
                        mounting.gravity_m_s2},
@@ -56,7 +47,7 @@ Told move(const Mounting& mounting, int seed, double seconds, Push push) {
   return told;
 }
 
-void moves(const Mounting& mounting, const std::vector<int>& seeds) {
+void moves(const closed_loop::LabMounting& mounting, const std::vector<int>& seeds) {
   int faults = 0, contacts = 0;
   double moved_s = 0.0;
   for (const int seed : seeds) {
@@ -72,7 +63,7 @@ void moves(const Mounting& mounting, const std::vector<int>& seeds) {
   std::fflush(stdout);
 }
 
-void pushes(const Mounting& mounting, const std::vector<int>& seeds) {
+void pushes(const closed_loop::LabMounting& mounting, const std::vector<int>& seeds) {
   for (std::size_t segment = 0; segment < 3; ++segment) {
     std::vector<double> told_N;
     int other = 0;
@@ -104,5 +95,6 @@ int main(int argc, char** argv) {
   const bool only_moves = argc > 1 && std::strcmp(argv[1], "--moves") == 0;
   std::vector<int> seeds;
   for (int i = only_moves ? 2 : 1; i < argc; ++i) seeds.push_back(std::atoi(argv[i]));
-  for (const Mounting& mounting : kMountings) only_moves ? moves(mounting, seeds) : pushes(mounting, seeds);
+  for (const liana::closed_loop::LabMounting& mounting : liana::closed_loop::kLabMountings)
+    only_moves ? moves(mounting, seeds) : pushes(mounting, seeds);
 }

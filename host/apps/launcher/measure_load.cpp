@@ -17,9 +17,9 @@ constexpr int kReadings = 50;        // states that are averaged
 constexpr double kRateShare = 0.5;   // of the table's
 constexpr double kLongest_s = 40.0;  // of one motion, where the table's rate allows that
 
-Degrees degrees(const cable::ThetaVector& theta_rad, const cable::ThetaVector& by_rad, double sign, std::size_t count) {
+Degrees degrees(const cable::ThetaVector& theta_rad, std::size_t count) {
   Degrees out;
-  for (std::size_t k = 0; k < count; ++k) out.push_back((theta_rad[k] + sign * by_rad[k]) / kDegree);
+  for (std::size_t k = 0; k < count; ++k) out.push_back(theta_rad[k] / kDegree);
   return out;
 }
 
@@ -61,8 +61,8 @@ calibration::LoadResult CalibrateSession::measure_load(const config::RobotConfig
   for (const calibration::LoadPose& pose : poses) {
     std::array<calibration::LoadReading, 2> sides;
     for (const int side : {0, 1}) {
-      go_to(degrees(pose.theta_rad, pose.approach_rad, side == 0 ? -1.0 : 1.0, angles), robot);
-      go_to(degrees(pose.theta_rad, pose.approach_rad, 0.0, angles), robot);
+      go_to(degrees(pose.beside_rad(side == 0 ? -1.0 : 1.0), angles), robot);
+      go_to(degrees(pose.theta_rad, angles), robot);
       sides[static_cast<std::size_t>(side)] = read_at_rest();
     }
     fit.add(sides);

@@ -23,12 +23,6 @@ constexpr int kTried = 400;                                           // candida
 constexpr int kDirectionsTried = 32;                                  // of an approach
 constexpr double kPoseShare = 0.8, kApproachShare = 1.0 / 7.0;        // of the limit
 
-ThetaVector moved(const ThetaVector& theta_rad, const ThetaVector& by_rad, double sign) {
-  ThetaVector out = theta_rad;
-  for (Index k = 0; k < out.size(); ++k) out[k] += sign * by_rad[k];
-  return out;
-}
-
 // Planned tensions are between the motors' floor and the ceiling.
 bool is_borne(const RobotParams& table, const CableLayout& layout, const ThetaVector& theta_rad) {
   const TensionPlan plan = plan_at_rest(table, layout, theta_rad);
@@ -62,22 +56,22 @@ LoadPose with_approach(const RobotParams& table, const CableLayout& layout, cons
   LoadPose best{theta_rad, {}};
   double best_m = -1.0;
   for (int i = 0; i < kDirectionsTried; ++i) {
-    ThetaVector approach{};
+    LoadPose tried{theta_rad, {}};
     for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k)
-      approach[k] = approach_rad(table, k) * random.uniform(0.3, 1.0) * (random.uniform(-1.0, 1.0) < 0.0 ? -1.0 : 1.0);
-    const double slide_m = std::min(least_slide_m(table, layout, there, moved(theta_rad, approach, -1.0)),
-                                    least_slide_m(table, layout, there, moved(theta_rad, approach, 1.0)));
+      tried.approach_rad[k] =
+          approach_rad(table, k) * random.uniform(0.3, 1.0) * (random.uniform(-1.0, 1.0) < 0.0 ? -1.0 : 1.0);
+    const double slide_m = std::min(least_slide_m(table, layout, there, tried.beside_rad(-1.0)),
+                                    least_slide_m(table, layout, there, tried.beside_rad(1.0)));
     if (slide_m <= best_m) continue;
     best_m = slide_m;
-    best.approach_rad = approach;
+    best = tried;
   }
   return best;
 }
 
 bool is_borne(const RobotParams& table, const CableLayout& layout, const LoadPose& pose) {
-  return is_borne(table, layout, pose.theta_rad) &&
-         is_borne(table, layout, moved(pose.theta_rad, pose.approach_rad, -1.0)) &&
-         is_borne(table, layout, moved(pose.theta_rad, pose.approach_rad, 1.0));
+  return is_borne(table, layout, pose.theta_rad) && is_borne(table, layout, pose.beside_rad(-1.0)) &&
+         is_borne(table, layout, pose.beside_rad(1.0));
 }
 
 // What a reading in this pose adds, every row in units of its noise and every column of what is known before.
@@ -95,6 +89,12 @@ double log_volume(const Eigen::MatrixXd& known) {
 }
 
 }  // namespace
+
+ThetaVector LoadPose::beside_rad(double side) const {
+  ThetaVector out = theta_rad;
+  for (Index k = 0; k < out.size(); ++k) out[k] += side * approach_rad[k];
+  return out;
+}
 
 std::vector<LoadPose> load_poses(const RobotParams& table, Index count) {
   const std::vector<LoadParameter> parameters = load_parameters(table);

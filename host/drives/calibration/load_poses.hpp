@@ -21,6 +21,9 @@ constexpr double kApproach_rad = 2.0 * 3.14159265358979323846 / 180.0;  // large
 struct LoadPose {
   cable::ThetaVector theta_rad{};
   cable::ThetaVector approach_rad{};
+
+  // Where the arm is beside it: on the side of -1 or 1, and 0 at the pose.
+  cable::ThetaVector beside_rad(double side) const;
 };
 
 // `count` poses within 0.8 of the limits of every angle whose planned tensions keep floor and ceiling, on both sides,

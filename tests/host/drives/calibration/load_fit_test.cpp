@@ -105,13 +105,11 @@ TEST(LoadFit, ChosenPosesKeepLimitsAndTensionsOnTheirWayFromBothSides) {
   const CableLayout layout = cable_layout(table);
   for (const LoadPose& pose : poses) {
     for (const double side : {-1.0, 0.0, 1.0}) {
-      ThetaVector theta_rad = pose.theta_rad;
-      for (std::size_t k = 0; k < 6; ++k) {
-        theta_rad[k] += side * pose.approach_rad[k];
-        EXPECT_LT(std::fabs(theta_rad[k]), table.segment[k / 2].theta_limit_rad);
-      }
+      const ThetaVector theta_rad = pose.beside_rad(side);
+      for (std::size_t k = 0; k < 6; ++k) EXPECT_LT(std::fabs(theta_rad[k]), table.segment[k / 2].theta_limit_rad);
       const CableVector tension_N = plan_at_rest(table, layout, theta_rad).motor_N;
-      EXPECT_LE(*std::max_element(tension_N.begin(), tension_N.begin() + 9), table.tension.ceiling_free_N);
+      EXPECT_LE(*std::max_element(tension_N.begin(), tension_N.begin() + table.cable_count()),
+                table.tension.ceiling_free_N);
     }
   }
 }
