@@ -34,6 +34,7 @@ ContactStatus contact_report(const ContactDetectorState& contact) noexcept {
 CableArm::CableArm(const RobotParams& table) noexcept
     : table_(table),
       declared_mu_(table.friction_mu),
+      declared_tool_(table.tool),
       layout_(cable_layout(table)),
       cables_with_cells_(cables_with_cells(table)),
       tension_watch_limits_(make_tension_watch_limits(table)) {
@@ -183,6 +184,15 @@ ThetaVector CableArm::inertia_load_Nm() noexcept {
   return load_Nm;
 }
 
+// Tensions never jump: what is told is on the arm a little later.
+void CableArm::follow_payload() noexcept {
+  const TipLoad goal = joined(declared_tool_, payload_);
+  TipLoad& now = table_.tool;
+  const double share = smaller(1.0, kPlanTicks * table_.tick_s / kPayload_s);
+  now.mass_kg += share * (goal.mass_kg - now.mass_kg);
+  for (Index i = 0; i < 3; ++i) now.center_in_tip_m[i] += share * (goal.center_in_tip_m[i] - now.center_in_tip_m[i]);
+}
+
 void CableArm::govern() noexcept {
   if (plans_now()) take_room(table_, tension_, motion_.governor);
   look_at_load(table_, model_.geometry, ratio_, motion_.arm, motion_.held_mask, motion_.shape.tick, motion_.governor);
@@ -200,6 +210,7 @@ std::uint32_t CableArm::plan_tensions(bool plans_now, bool tensions_valid) noexc
     planned_Nm_ = load_change_Nm_ = ThetaVector{};
     tension_change_N_ = CableVector{};
   } else if (plans_now) {
+    follow_payload();
     if (has_static_load(table_))
       static_load_Nm_ = cable::static_load_Nm(table_, motion_.limiter.theta_rad, motion_.trig, motion_.arm);
     aim_tensions(plan_tension(table_, model_.geometry, ratio_, lift_N_, {static_load_Nm_, inertia_load_Nm()}));

@@ -30,6 +30,7 @@ namespace liana::cable {
 constexpr double kPretensionRamp_s = 3.0;     // from the tensions found to the planned ones
 constexpr std::uint32_t kPlanTicks = 5;       // tensions are planned anew, and reached evenly until then
 constexpr std::uint32_t kPlanTick = 2;        // of them: one that has nothing to do with the shape
+constexpr double kPayload_s = 0.4;            // time constant with which a payload that was told comes into force
 constexpr double kAheadOver_N = 8.0;          // over the floor, of an arm that plans 40 N: below, nothing is foreseen
 constexpr double kSlackCheckShare = 0.5;      // of the tension floor: every cable must reach it before the arm may move
 constexpr std::uint32_t kHomingTicks = 25;    // the estimate has to stand still this long
@@ -67,7 +68,10 @@ class CableArm {
     return is_usable(table_, setpoint) &&
            (setpoint.dither_share == 0.0 || dither_fits(table_, tension_.motor_N, setpoint.dither_share));
   }
-  void take(const Setpoint& setpoint) noexcept { accept_setpoint(table_, setpoint, motion_); }
+  void take(const Setpoint& setpoint) noexcept {
+    if (is_motion(setpoint.kind)) payload_ = setpoint.payload;
+    accept_setpoint(table_, setpoint, motion_);
+  }
   void brake() noexcept { motion_.braking = true; }
   bool is_braking() const noexcept { return motion_.braking; }
   void stand() noexcept;
@@ -114,6 +118,8 @@ class CableArm {
     v("balance", self.balance_);
     v("contact", self.contact_);
     v("planned_mu", self.table_.friction_mu);
+    v("tip_load", self.table_.tool);
+    v("payload", self.payload_);
     v("motion", self.motion_);
     v("slip", self.slip_);
     v("model", self.model_);
@@ -162,6 +168,7 @@ class CableArm {
   bool plans_now() const noexcept { return !live_ || motion_.shape.tick % kPlanTicks == kPlanTick; }
   void aim_tensions(const TensionPlan& plan) noexcept;
   ThetaVector inertia_load_Nm() noexcept;
+  void follow_payload() noexcept;
   void govern() noexcept;
   std::uint32_t plan_tensions(bool plans_now, bool tensions_valid) noexcept;
   void dither(bool tensions_valid) noexcept;
@@ -174,8 +181,10 @@ class CableArm {
   void propose_payouts(DriveProposals& out) const noexcept;
   Index cables() const noexcept { return static_cast<Index>(layout_.cable_count); }
 
-  RobotParams table_{};  // as loaded, but for friction_mu: that is what the arm plans with
+  // As loaded, but for friction_mu, which the arm plans with, and the tool, which is all that hangs at the tip now.
+  RobotParams table_{};
   double declared_mu_ = 0.0;
+  TipLoad declared_tool_{};
   CableLayout layout_{};
   std::uint32_t cables_with_cells_ = 0;
   TensionWatchLimits tension_watch_limits_{};
@@ -197,8 +206,9 @@ class CableArm {
   TorqueBalance balance_{};
   ContactDetectorState contact_{};
 
-  // Where the arm is told to go.
+  // Where the arm is told to go, and what it carries there.
   MotionState motion_{};
+  TipLoad payload_{};
 
   // How the cables take it there.
   SlipState slip_{};

@@ -59,8 +59,8 @@ end
 -- From rest, the joints give way to forces, until the next request. For serial arms only.
 function actions.comply() return giving("comply", {}, position(1)) end
 
--- What the arm carries from now on; fields of `payload` (docs/reference/api.md): { mass_kg = 500, center_m = {x, y, z},
--- inertia_kgm2 = {...} }. For serial arms only.
+-- What the arm carries beside its tool from now on; fields of `payload` (docs/reference/api.md): { mass_kg = 0.2, center_m =
+-- {x, y, z} }, of serial arms with inertia_kgm2 = {...}. A cable arm has to be at rest.
 function actions.payload(fields)
   check_argument("payload", "fields", fields, "table")
   return giving("payload", fields, position(1))

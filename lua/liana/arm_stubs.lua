@@ -351,11 +351,11 @@ function arm.comply() end
 ---centre of mass, in the frame of the tip; left out: the tip's origin
 ---@field center_m? number[]
 ---xx, yy, zz, xy, xz, yz about the centre of mass, along the axes of the tip's frame; all six, or left out of
----nothing
+---nothing and of a cable arm, which takes a payload as a point mass
 ---@field inertia_kgm2? number
 
----What the arm carries from now on, until another is told: drives that follow torques get what moving it
----takes. For serial arms only.
+---What the arm carries beside its tool from now on, until another is told. Drives that follow torques get
+---what moving it takes; a cable arm, at rest, holds its weight by its tensions.
 ---@param fields arm.payload
 ---@return integer id
 function arm.payload(fields) end

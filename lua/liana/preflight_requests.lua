@@ -9,7 +9,7 @@ local asked = {}
 local kGoalOf = { move_jp = "goal_deg", move_cp = "goal" } -- command -> its field
 local kBeside = { insert = true, comply = true, payload = true, adapter = true } -- no goals, but looked at like them
 -- Without these a script does not know yet what it will ask for.
-local kKnownBy = { payload = "inertia_kgm2", adapter = "command" }
+local kKnownBy = { payload = "mass_kg", adapter = "command" }
 
 local function is_goal_known(fields, field)
   return type(fields) == "table" and type(fields[field]) == "table" and fields[field][1] ~= nil

@@ -15,6 +15,8 @@ NodeVectors forces(const RobotParams& table, Index first, const NodeVectors& acc
     force[j] = add(force[j], scale(add(scale(accel[j], 2.0), accel[j + 1]), sixth_kg));
     force[j + 1] = scale(add(accel[j], scale(accel[j + 1], 2.0)), sixth_kg);
   }
+  const Index tip = static_cast<Index>(table.segment_count);
+  if (table.tool.mass_kg > 0.0) force[tip] = add(force[tip], scale(accel[tip], table.tool.mass_kg));
   return force;
 }
 

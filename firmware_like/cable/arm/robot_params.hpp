@@ -47,7 +47,9 @@ struct TensionLimits {
   double scale() const noexcept { return plan_N / 40.0; }
 };
 
-// A point mass: the tool, and what it carries.
+// A point mass at the tip: the tool, or what it carries.
+constexpr double kMaxTipLoad_kg = 100.0;
+constexpr double kMaxTipLoad_m = 1.0;  // of its centre from the tip, along each axis
 struct TipLoad {
   double mass_kg = 0.0;
   Vec3 center_in_tip_m{};

@@ -31,10 +31,18 @@ bool is_usable(const KeepClear& target) noexcept {
 
 }  // namespace
 
+bool is_usable(const TipLoad& load) noexcept {
+  if (!(load.mass_kg >= 0.0 && load.mass_kg <= kMaxTipLoad_kg)) return false;
+  for (const double center_m : load.center_in_tip_m) {
+    if (!(std::fabs(center_m) <= kMaxTipLoad_m)) return false;
+  }
+  return true;
+}
+
 bool is_usable(const RobotParams& table, const Setpoint& setpoint) noexcept {
   if (!is_motion(setpoint.kind)) return true;
   if (is_force(setpoint.kind)) return false;  // cables have no force control
-  if (!angles_in_limits(table, setpoint)) return false;
+  if (!angles_in_limits(table, setpoint) || !is_usable(setpoint.payload)) return false;
   if (!(setpoint.dither_share >= 0.0 && setpoint.dither_share <= kDitherMost)) return false;
   if (is_joint(setpoint.kind)) return true;
   for (const NodeTarget& target : setpoint.node) {

@@ -45,12 +45,16 @@ struct Setpoint {
   KeepClearTargets clear{};     // kTip
   ThetaVector joint_rad{};      // kJoint, kRetract
   double tip_speed_m_s = 0.0;   // kTip: limit for this motion, > 0, at most the robot's
+  TipLoad payload{};            // all that move: what the arm carries beside its tool
   double dither_share = 0.0;    // while the arm is at rest: share by which all tensions go up and down (dither.hpp)
 };
 
 // An arm may be enabled where it stands a little beyond a limit, and moves from there: 0.75 deg. The motion stage leads
 // no angle further out.
 constexpr double kStandsBeyond_rad = 0.0131;
+
+// Finite, with mass and centre within the constants of TipLoad.
+bool is_usable(const TipLoad& load) noexcept;
 
 // A setpoint the arm can use: finite, poses valid, angles inside the limits, those of joints but for kStandsBeyond_rad
 // (the release step has checked the same; this is the second lock). Hold and stop always are.

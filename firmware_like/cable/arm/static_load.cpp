@@ -65,6 +65,13 @@ void add_weight(const RobotParams& table, const ArmTrig& trig, const ArmKinemati
 
 }  // namespace
 
+TipLoad joined(const TipLoad& a, const TipLoad& b) noexcept {
+  const double mass_kg = a.mass_kg + b.mass_kg;
+  if (!(mass_kg > 0.0)) return {0.0, a.center_in_tip_m};
+  const Vec3 moment_kg_m = add(scale(a.center_in_tip_m, a.mass_kg), scale(b.center_in_tip_m, b.mass_kg));
+  return {mass_kg, scale(moment_kg_m, 1.0 / mass_kg)};
+}
+
 bool has_static_load(const RobotParams& table) noexcept {
   bool has_springs = false;
   for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j)

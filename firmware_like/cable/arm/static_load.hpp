@@ -12,6 +12,9 @@
 
 namespace liana::cable {
 
+// Both as one point mass, at their common centre.
+TipLoad joined(const TipLoad& a, const TipLoad& b) noexcept;
+
 // False where nothing loads the arm at rest: static_load_Nm is zero everywhere.
 bool has_static_load(const RobotParams& table) noexcept;
 

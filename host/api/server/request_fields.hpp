@@ -231,7 +231,7 @@ constexpr std::array kPayload{
     number(
         "inertia_kgm2", -1e6, 1e6,
         "xx, yy, zz, xy, xz, yz about the centre of mass, along the axes of the tip's frame; all six, or left out of "
-        "nothing")
+        "nothing and of a cable arm, which takes a payload as a point mass")
         .optional()
         .list(6),
 };

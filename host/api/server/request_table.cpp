@@ -107,11 +107,10 @@ constexpr std::array kTable{
                .in_missions = true,
                .motion = Motion::kReplaces},
     RequestRow{.op = "payload",
-               .doc = "What the arm carries from now on, until another is told: drives that follow torques get what "
-                      "moving it takes.",
+               .doc = "What the arm carries beside its tool from now on, until another is told. Drives that follow "
+                      "torques get what moving it takes; a cable arm, at rest, holds its weight by its tensions.",
                .fields = kPayload,
                .owner_only = true,
-               .arms = kSerialArm,
                .in_missions = true},
     RequestRow{.op = "adapter",
                .doc = "Tells the adapter to lock or to release the payload; how it goes is `adapter` of the state.",

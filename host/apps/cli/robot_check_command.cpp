@@ -45,25 +45,11 @@ Json buses_of(const config::BusesConfig& buses) {
 }
 
 Json poses_of(const config::RobotConfig& robot, Json& problems) {
-  const cable::TensionLimits& limits = robot.table.tension;
   Json poses = Json::object();
   for (const auto& [name, angles_deg] : robot.named_poses_deg) {
-    cable::ThetaVector theta_rad{};
-    for (std::size_t k = 0; k < angles_deg.size(); ++k) theta_rad[k] = kDegree * angles_deg[k];
-    const workspace::PoseTension planned = workspace::tension_at(robot.table, theta_rad);
+    const workspace::PoseTension planned = workspace::tension_at(robot, name);
     poses[name] = {{"least_N", planned.min_N}, {"most_N", planned.max_N}};
-    const char* pose = name.c_str();
-    if (!planned.balanced) {
-      problems.push_back(
-          text("pose %s: the cables of a segment cannot turn both of its angles: change cables.phase_deg", pose));
-    } else if (planned.min_N < limits.floor_motor_N || planned.max_N > limits.ceiling_free_N) {
-      const std::size_t cable = planned.min_N < limits.floor_motor_N ? planned.min_cable : planned.max_cable;
-      problems.push_back(
-          text("pose %s: tensions of %.1f to %.1f N are planned (%s): allowed %g to %g N: bend it less, "
-               "let it carry less, or raise tension.ceiling_free_N",
-               pose, planned.min_N, planned.max_N, config::DriveNames(robot.table).cable(cable).c_str(),
-               limits.floor_motor_N, limits.ceiling_free_N));
-    }
+    if (const std::string why = workspace::refusal_of_pose(robot, name); !why.empty()) problems.push_back(why);
   }
   return poses;
 }

@@ -15,6 +15,7 @@
 #include <optional>
 #include <string_view>
 
+#include "firmware_like/cable/arm/static_load.hpp"
 #include "host/api/server/welcome_size.hpp"
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/mission_faults.hpp"
@@ -31,6 +32,7 @@
 #include "host/drives/calibration/jig.hpp"
 #include "host/model/config/field.hpp"
 #include "host/model/config/serial_robot.hpp"
+#include "host/planning/workspace/carry.hpp"
 
 namespace liana::launcher {
 namespace {
@@ -264,11 +266,22 @@ void check_payload_is_simulated(const RunOptions& options, const config::SceneCo
       "scene without a payload");
 }
 
+// Poses of jigs are those of an arm that something else holds.
+void check_poses_are_held(const std::string& name, const config::RobotConfig& robot) {
+  if (!has_static_load(robot.table)) return;
+  for (const auto& [pose, angles_deg] : robot.named_poses_deg) {
+    if (std::find(robot.jig_poses.begin(), robot.jig_poses.end(), pose) != robot.jig_poses.end()) continue;
+    if (const std::string why = workspace::refusal_of_pose(robot, pose); !why.empty())
+      throw BadInput("--robot: " + name + ": " + why);
+  }
+}
+
 // The start pose, too, is looked at: a robot that begins inside a body fails much later, and for no visible reason.
 std::string check_options_of_cable_robot(const RunOptions& options, const std::string& text, const SystemLayout& plan) {
   const config::RobotConfig robot =
       checked([&] { return config::parse_robot(text, options.robot, options.physics, plan.buses); });
   check_payload_is_simulated(options, plan.scene, false);
+  check_poses_are_held(options.robot, robot);
   if (!options.calibration.empty())
     checked([&] { return calibration::load_calibration(options.calibration, robot, calibration::today_utc()); });
   if (!options.in_pose.empty()) check_in_pose(robot, options.in_pose);

@@ -110,6 +110,8 @@ class Arbiter {
   // Of `limit_m_s`, what a tip that is led along `way_m` may have now.
   virtual double speed_left_m_s(const Vec3& way_m, double limit_m_s);
   void limit_tip_speed(double speed_m_s) { tip_speed_m_s_ = speed_m_s; }
+  // In place of the one that the arbiter was made with.
+  void check_paths_by(PathCheck<Arm> check) { path_check_ = std::move(check); }
   const Table& table() const { return table_; }
   const SpeedZone& zone() const { return zone_; }
 

@@ -135,6 +135,15 @@ void CableArbiter::dither(const cable::Outputs& now, double share, double durati
   dithered_at_rad_ = now.theta_command_rad;
 }
 
+void CableArbiter::carry(const cable::Outputs& now, const cable::TipLoad& payload, PathCheck<cable::CableArm> check) {
+  require_free(now);
+  if (now.at_rest == 0)
+    throw api::RequestError("busy", "a payload is taken over by an arm at rest: wait for it or send hold");
+  payload_ = payload;
+  check_paths_by(std::move(check));
+  ask_objectives_anew(now);
+}
+
 void CableArbiter::cap_tip_speed(double speed_m_s) {
   cap_m_s_ = speed_m_s;
   ask_speed();
@@ -187,10 +196,18 @@ std::optional<cable::Setpoint> CableArbiter::slower(const cable::Outputs& now, c
   const double share = kSlowerWays[slower_ways_++];
   refusal_wait_.slow(share, limit);
   ease_ = {share * asked_share_, virtual_fixtures::SlowdownCause::kRefused, 0, limit};
-  return led_setpoint(now);
+  cable::Setpoint setpoint = led_setpoint(now);
+  setpoint.payload = payload_;
+  return setpoint;
 }
 
 std::optional<cable::Setpoint> CableArbiter::next_setpoint(std::uint64_t tick, const cable::Outputs& now) {
+  std::optional<cable::Setpoint> setpoint = wished_setpoint(tick, now);
+  if (setpoint) setpoint->payload = payload_;
+  return setpoint;
+}
+
+std::optional<cable::Setpoint> CableArbiter::wished_setpoint(std::uint64_t tick, const cable::Outputs& now) {
   std::optional<TeleopGoal> steer = device_.finish_interval(now, interval_s_);
   if (steer && is_vr_in_slit(now, device_.in_use())) {
     device_.leave_slit();

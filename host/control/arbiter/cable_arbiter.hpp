@@ -47,6 +47,10 @@ class CableArbiter final : public Arbiter<cable::CableArm> {
   // An arm at rest is dithered (firmware_like/cable/arm/dither.hpp): refused where a tension would leave floor or
   // ceiling.
   void dither(const cable::Outputs& now, double share, double duration_s);
+  // An arm at rest is told what it carries beside its tool from now on, and stays where it is; `check` looks at the
+  // ways of an arm that carries it.
+  void carry(const cable::Outputs& now, const cable::TipLoad& payload, PathCheck<cable::CableArm> check);
+  const cable::TipLoad& carried() const { return payload_; }
   // Besides what device and robot allow: the tip is asked to go no faster than this, from the next setpoint on; planned
   // lines from the next one on.
   void cap_tip_speed(double speed_m_s);
@@ -83,6 +87,7 @@ class CableArbiter final : public Arbiter<cable::CableArm> {
 
  private:
   void require_free(const cable::Outputs& now) const override;
+  std::optional<cable::Setpoint> wished_setpoint(std::uint64_t tick, const cable::Outputs& now);
   void ask_objectives_anew(const cable::Outputs& now);
   void take_device_away();
   void require_open_clutch(const DeviceUse& use) const;
@@ -104,6 +109,7 @@ class CableArbiter final : public Arbiter<cable::CableArm> {
   cable::NodeTargets nodes_{};
   DitherOrder dither_;
   cable::ThetaVector dithered_at_rad_{};
+  cable::TipLoad payload_{};  // in every setpoint
   TeleopInput device_;
   cable::NodeTarget device_node_{};
   bool was_engaged_ = false;

@@ -6,6 +6,7 @@
 
 #include "firmware_like/math/trig.hpp"
 #include "host/model/config/slit_mouth.hpp"
+#include "host/planning/planner/check/plan_check.hpp"
 #include "host/planning/planner/check/way_check.hpp"
 
 namespace liana::server {
@@ -109,6 +110,7 @@ CableArmServer::CableArmServer(const config::RobotConfig& robot, const config::S
       device_state_(robot.table.interval_ticks * robot.table.tick_s) {
   handlers_["move_cp"] = [this](const MotionRequest& r) { move_line(r.fields); };
   handlers_["hold_theta"] = [this](const MotionRequest& r) { hold_theta(r.fields.entries("held")); };
+  handlers_["payload"] = [this](const MotionRequest& r) { carry(r.fields); };
   handlers_["shape"] = [this](const MotionRequest& r) { shape(r.fields); };
   handlers_["dither"] = [this](const MotionRequest& r) {
     arbiter_.dither(outputs(), r.fields.number("share"), r.fields.number("duration_s"));
@@ -266,6 +268,29 @@ void CableArmServer::shape(const api::Arguments& fields) {
     clear[count++] = {entry.point("center_m"), entry.number("distance_m"), entry.number("weight")};
   arbiter_.shape(outputs(), nodes, clear, fields.flag("search"));
   shape_progress_.restart();
+}
+
+void CableArmServer::carry(const api::Arguments& fields) {
+  if (fields.has("inertia_kgm2"))
+    throw api::RequestError("bad_request",
+                            "inertia_kgm2: a cable arm takes a payload as a point mass: leave inertia_kgm2 out");
+  const cable::TipLoad payload{fields.number("mass_kg"), fields.has("center_m") ? fields.point("center_m") : Vec3{}};
+  if (!is_usable(payload)) {
+    char text[160];
+    std::snprintf(
+        text, sizeof text,
+        "mass_kg = %.4g, center_m: a cable arm carries up to %.0f kg within %.0f m of its tip along each axis",
+        payload.mass_kg, cable::kMaxTipLoad_kg, cable::kMaxTipLoad_m);
+    throw api::RequestError("out_of_range", text);
+  }
+  config::RobotConfig loaded = robot_;
+  loaded.table.tool = joined(robot_.table.tool, payload);
+  planner::PlanCheck check;
+  planner::check_tension(loaded.table, {outputs().theta_command_rad}, check);
+  const std::string why = planner::tension_refusal(loaded.table, check, loaded.table.tension.ceiling_free_N);
+  if (!why.empty()) throw api::RequestError("refused", "with this payload " + why);
+  arbiter_.carry(outputs(), payload, path_check(loaded, scene_));
+  simulation_->carry(loaded.table.tool);
 }
 
 void CableArmServer::use_device(const api::Arguments& fields) {

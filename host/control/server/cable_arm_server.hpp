@@ -54,6 +54,7 @@ class CableArmServer final : public TypedArmServer<cable::CableArm, arbiter::Cab
   void move_line(const api::Arguments& fields);
   void hold_theta(const std::vector<api::Arguments>& held);
   void shape(const api::Arguments& fields);
+  void carry(const api::Arguments& fields);
   void use_device(const api::Arguments& fields);
   void note_grip();
   virtual_fixtures::PlaneSlots::Told haptic_planes();

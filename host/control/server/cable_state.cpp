@@ -168,6 +168,7 @@ void CableArmServer::add_state(Json& state) const {
                        {"declared_mu", table_.friction_mu},
                        {"not_as_declared", o.friction.not_as_declared != 0}};
   state["contact"] = contact_json(o.contact);
+  state["payload"] = payload_json(arbiter_.carried().mass_kg, arbiter_.carried().center_in_tip_m);
   add_tip(state, o);
 }
 

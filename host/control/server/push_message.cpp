@@ -33,10 +33,6 @@ Json age_json(std::uint16_t age_ticks, double tick_s) {
 
 }  // namespace
 
-Json payload_json(const serial::LinkMass& payload_at_tip) {
-  return {{"mass_kg", payload_at_tip.mass_kg}, {"center_m", payload_at_tip.center_m}};
-}
-
 Json push_json(const serial::InsertStatus& push, double tick_s) {
   const bool was_asked = push.number > 0;
   const auto of_push = [&](Json value) { return was_asked ? std::move(value) : Json(); };

@@ -6,9 +6,8 @@
 
 namespace liana::server {
 
-// `push`, `adapter` and `payload` of the state.
+// `insert` and `adapter` of the state.
 Json push_json(const serial::InsertStatus& push, double tick_s);
-Json payload_json(const serial::LinkMass& payload_at_tip);
 Json adapter_json(const serial::InsertStatus& push, double tick_s);
 
 }  // namespace liana::server

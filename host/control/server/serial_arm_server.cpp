@@ -95,7 +95,7 @@ void SerialArmServer::add_state(Json& state) const {
   Json told_Nm = Json::array();
   for (std::size_t i = 0; i < table_.joints(); ++i) told_Nm.push_back(o.torque_told_Nm[i]);
   state["torque_commanded_Nm"] = told_Nm;
-  state["payload"] = payload_json(arbiter_.carried());
+  state["payload"] = payload_json(arbiter_.carried().mass_kg, arbiter_.carried().center_m);
   state["insert"] = push_json(o.push, table_.tick_s);
   state["adapter"] = adapter_json(o.push, table_.tick_s);
   add_tip(state, o);

@@ -16,6 +16,11 @@ inline Json pose_json(const Pose& p) {
           p.quaternion[1], p.quaternion[2], p.quaternion[3]};
 }
 
+// What the arm carries, as it was told last.
+inline Json payload_json(double mass_kg, const Vec3& center_m) {
+  return {{"mass_kg", mass_kg}, {"center_m", center_m}};
+}
+
 // The retract under way, or how the last one went.
 inline void add_retract(Json& state, const arbiter::RetractState& retract) {
   state["retracted"] = retract.phase == arbiter::RetractPhase::kDone;

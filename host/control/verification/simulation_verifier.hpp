@@ -48,6 +48,8 @@ class SimulationVerifier<cable::CableArm> {
   // From now on: what is known of arm and scene beside the measured angles and the drawing. `prediction_m` takes the
   // place of the scene's own; angles and placement are those of a StartState.
   void believe(const cable::ThetaVector& theta_off_rad, const Pose& drawing_in_base, double prediction_m);
+  // From now on tool and payload weigh so much; other swings are estimated anew.
+  void carry(const cable::TipLoad& tip_load) { observer_.carry(tip_load); }
   // Begins with what the candidate makes the controller tell its drives, from where the arm is measured to be;
   // `retracts`: on its way back.
   void begin(const TwinSnapshot<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction,

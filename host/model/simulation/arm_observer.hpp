@@ -22,6 +22,11 @@ class ArmObserver {
   // are taken as they are, the rest is estimated. The first call, and one after a gap, begins anew, at rest.
   void watch(const ThetaVector& measured_rad, const CableVector& tension_N, const ToldNow& told, double since_s);
   void forget() { begun_ = false; }
+  // From the next beginning on: tool and payload.
+  void carry(const TipLoad& tip_load) {
+    now_.tip_load = tip_load;
+    forget();
+  }
 
   const StartState& now() const { return now_; }
 

@@ -53,6 +53,11 @@ LinkRows link_rows(const ArmModel& model, const SegmentParams& segment, const Jo
   return rows;
 }
 
+Vector3d tool_centre_m(const ArmModel& model, const Chain& chain) {
+  return chain.tip_m() +
+         chain.rotation[static_cast<Index>(chain.links)] * Vector3d(model.table.tool.center_in_tip_m.data());
+}
+
 }  // namespace
 
 void place(const ArmModel& model, const ThetaVector& theta_rad, Chain& chain) {
@@ -89,6 +94,12 @@ eigen::ThetaMatrix mass_matrix(const ArmModel& model, const Chain& chain) {
       mass.topLeftCorner(moved, moved) += rows.transpose().lazyProduct(rows);
     }
   }
+  if (const double tool_kg = model.table.tool.mass_kg; tool_kg > 0.0) {
+    const Vector3d tool_m = tool_centre_m(model, chain);
+    eigen::SpaceColumns moves(3, thetas);
+    for (Eigen::Index i = 0; i < thetas; ++i) moves.col(i) = sums.axes.col(i).cross(tool_m) - sums.moments.col(i);
+    mass += tool_kg * moves.transpose().lazyProduct(moves);
+  }
   return mass;
 }
 
@@ -117,7 +128,7 @@ eigen::ThetaColumn static_load(const ArmModel& model, const ThetaVector& theta_r
       load(pitch + static_cast<Eigen::Index>(axis)) +=
           segment.modules * segment.joint_stiffness_Nm_rad * (theta_rad[2 * m + axis] - segment.joint_rest_rad[axis]);
   }
-  weigh(table.tool.mass_kg, chain.tip_m() + chain.rotation[link] * Vector3d(table.tool.center_in_tip_m.data()));
+  weigh(table.tool.mass_kg, tool_centre_m(model, chain));
   return load;
 }
 

@@ -24,7 +24,8 @@ struct Chain {
 // Places the links at these angles. About 4,000 instructions for 40 links.
 void place(const ArmModel& model, const ThetaVector& theta_rad, Chain& chain);
 
-// Reduced mass matrix [kg m2] of the placed links: for each link its mass at its centre and its inertia about it.
+// Reduced mass matrix [kg m2] of the placed links: for each link its mass at its centre and its inertia about it,
+// for the tool its mass.
 eigen::ThetaMatrix mass_matrix(const ArmModel& model, const Chain& chain);
 
 // Torque [N m] about each theta that holds the placed links: their weight, the tool's, and the springs of the joints.

@@ -1,6 +1,7 @@
 // What goes into the simulation of a command, and what comes out of it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "host/model/simulation/arm_model.hpp"
@@ -14,6 +15,7 @@ struct StartState {
   ThetaVector ahead_rad{};   // where the drums want the arm, less where it is, friction left out: what swings it
   CableVector tension_N{};   // measured, at the motor; all zero: as the simulation itself would plan them
   Pose drawing_in_base{};    // where the scene stands: of the frame that its table is drawn in
+  std::optional<TipLoad> tip_load{};  // tool and payload; nothing: the table's tool
 };
 
 // What the drives are told, one row of angles [rad] every `interval_s` (T_c): the first one when the sequence begins,

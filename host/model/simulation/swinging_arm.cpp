@@ -34,6 +34,7 @@ bool SwingingArm::begin(const StartState& start, const ToldNow& before, const To
                         double step_s) {
   const Eigen::Index thetas = eigen::theta_count(model_.table), cables = model_.table.cable_count();
   step_s_ = step_s;
+  if (start.tip_load) model_.table.tool = *start.tip_load;
   if (!solve(start.theta_rad)) return false;
   const double tau_s = model_.table.servo_time_constant_s;
   theta_ = {tau_s, step_s, now.theta_rad, (now.theta_rad - before.theta_rad) / since_s};

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "firmware_like/cable/arm/static_load.hpp"
 #include "firmware_like/math/trig.hpp"
 #include "host/base/random/random.hpp"
+#include "host/model/config/drive_names.hpp"
 
 namespace liana::workspace {
 
@@ -65,11 +67,15 @@ ThetaVector harder(const RobotParams& table, const CableLayout& layout, ThetaVec
   return theta_rad;
 }
 
+ThetaVector in_rad(const std::vector<double>& angles_deg) {
+  ThetaVector theta_rad{};
+  for (Index k = 0; k < angles_deg.size(); ++k) theta_rad[k] = kDegree * angles_deg[k];
+  return theta_rad;
+}
+
 RobotParams with_payload(const RobotParams& table, double mass_kg) {
   RobotParams out = table;
-  out.tool.mass_kg += mass_kg;
-  if (out.tool.mass_kg > 0.0)
-    out.tool.center_in_tip_m = scale(table.tool.center_in_tip_m, table.tool.mass_kg / out.tool.mass_kg);
+  out.tool = cable::joined(table.tool, {mass_kg, {}});
   return out;
 }
 
@@ -104,6 +110,28 @@ Payload payload_of(const RobotParams& table, const CableLayout& layout, const Po
 
 }  // namespace
 
+PoseTension tension_at(const config::RobotConfig& robot, const std::string& name) {
+  return tension_at(robot.table, in_rad(robot.named_poses_deg.at(name)));
+}
+
+std::string refusal_of_pose(const config::RobotConfig& robot, const std::string& name) {
+  const TensionLimits& limits = robot.table.tension;
+  const PoseTension planned = tension_at(robot, name);
+  if (!planned.balanced)
+    return "pose " + name + ": the cables of a segment cannot turn both of its angles: change cables.phase_deg";
+  const bool is_low = planned.min_N < limits.floor_motor_N;
+  if (!is_low && planned.max_N <= limits.ceiling_free_N) return {};
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      ": tensions of %.1f to %.1f N are planned (%s): allowed %g to %g N: bend it less, let it carry less, or "
+      "raise tension.ceiling_free_N",
+      planned.min_N, planned.max_N,
+      config::DriveNames(robot.table).cable(is_low ? planned.min_cable : planned.max_cable).c_str(),
+      limits.floor_motor_N, limits.ceiling_free_N);
+  return "pose " + name + text;
+}
+
 PoseTension tension_at(const RobotParams& table, const ThetaVector& theta_rad) {
   return tension_at(table, cable_layout(table), theta_rad);
 }
@@ -133,11 +161,7 @@ Carried what_it_carries(const config::RobotConfig& robot, const Mounting& mounti
   Carried out;
   out.mounting = mounting;
   Poses named;
-  for (const auto& [name, angles_deg] : robot.named_poses_deg) {
-    ThetaVector theta_rad{};
-    for (Index k = 0; k < angles_deg.size(); ++k) theta_rad[k] = kDegree * angles_deg[k];
-    named.push_back(theta_rad);
-  }
+  for (const auto& [name, angles_deg] : robot.named_poses_deg) named.push_back(in_rad(angles_deg));
   Poses all = drawn(table, samples, seed);
   std::vector<std::pair<double, Index>> order;
   for (Index i = 0; i < all.size(); ++i) {

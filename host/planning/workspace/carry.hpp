@@ -28,6 +28,10 @@ struct PoseTension {
   bool balanced = true;
 };
 PoseTension tension_at(const cable::RobotParams& table, const cable::ThetaVector& theta_rad);
+// The same in a named pose of its table.
+PoseTension tension_at(const config::RobotConfig& robot, const std::string& name);
+// Why cables cannot hold it there, and what to do. Empty: they can.
+std::string refusal_of_pose(const config::RobotConfig& robot, const std::string& name);
 TensionBand band_of(const cable::TensionLimits& limits, const PoseTension& tension);
 
 // Gravity in the base frame, x along the straight arm.

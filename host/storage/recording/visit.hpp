@@ -100,6 +100,7 @@ void visit_listed(A& a, T& s) {
   a("clear", s.clear);
   visit_first(a, "joint_rad", s.joint_rad, counts_of_visitor(a).thetas);
   a("tip_speed_m_s", s.tip_speed_m_s);
+  a("payload", s.payload);
   a("dither_share", s.dither_share);
 }
 
