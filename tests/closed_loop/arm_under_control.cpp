@@ -139,6 +139,7 @@ void ArmUnderControl::move_joints(const cable::ThetaVector& goal_rad, double sec
       [&](double share) {
         cable::Setpoint setpoint;
         setpoint.kind = CommandKind::kJoint;
+        setpoint.payload = payload_;
         const double done = minimum_jerk(share);
         for (std::size_t i = 0; i < from.size(); ++i) setpoint.joint_rad[i] = from[i] + done * (goal_rad[i] - from[i]);
         return setpoint;
@@ -150,6 +151,7 @@ void ArmUnderControl::hold(double seconds, const Observer& observer) {
   cable::Setpoint setpoint;
   setpoint.kind = CommandKind::kJoint;
   setpoint.joint_rad = out_.theta_command_rad;
+  setpoint.payload = payload_;
   follow(
       seconds, [&](double) { return setpoint; }, observer);
 }

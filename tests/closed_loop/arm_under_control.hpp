@@ -49,6 +49,8 @@ class ArmUnderControl {
   void interval(const cable::Telecommand& telecommand, const Observer& observer = {});
   // Minimum jerk in joint space to `goal_rad`.
   void move_joints(const cable::ThetaVector& goal_rad, double seconds, const Observer& observer = {});
+  // From the next telecommand of move_joints and hold on.
+  void carry(const cable::TipLoad& payload) { payload_ = payload; }
   // Asks for where the arm is commanded to be, again and again.
   void hold(double seconds, const Observer& observer = {});
 
@@ -72,6 +74,7 @@ class ArmUnderControl {
   cable::Inputs in_{};
   cable::Outputs out_{};
   std::array<bool, cable::kMaxCables> gone_{};  // drives
+  cable::TipLoad payload_{};
   std::uint64_t sequence_ = 0;
 };
 

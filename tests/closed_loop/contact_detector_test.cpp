@@ -60,6 +60,45 @@ TEST(ContactWatch, ABodyThatIsPressedAgainstThePanelIsAFaultThatHoldsWithSegment
       << left_N << " N: a hold whose cause stays becomes a stop";
 }
 
+// A weight on the tip of lab_1g, lying: faults of the arm, and how far its tension is from what is planned [N].
+struct Carried {
+  std::int32_t faults = 0;
+  double off_N = 0.0;
+};
+
+Carried carry(std::uint64_t seed, double weighs_kg, double told_kg) {
+  ArmUnderControl arm({"nominal", seed, true, "park", CLOSED_LOOP_DATA "/lab_1g.json", kLying_m_s2},
+                      lab_table(kLying_m_s2));
+  arm.boot();
+  arm.carry({told_kg, {}});
+  arm.hold(0.5);
+  double share = 0.0;
+  arm.hold(3.0, [&](ArmUnderControl& now) {
+    share = std::fmin(1.0, share + now.table().tick_s);
+    now.plant().push(15, {0.0, 0.0, -share * kEarth_m_s2 * weighs_kg});
+  });
+  arm.move_joints(lab_pose_rad("look"), 9.0);
+  arm.move_joints(lab_pose_rad("park"), 9.0);
+  arm.hold(1.0);
+  Carried out{arm.outputs().faults.count, 0.0};
+  for (std::size_t c = 0; c < static_cast<std::size_t>(arm.table().cable_count()); ++c)
+    out.off_N = std::fmax(out.off_N, std::fabs(arm.outputs().tension_measured_N[c] - arm.outputs().tension_plan_N[c]));
+  return out;
+}
+
+// req:A55
+TEST(ContactWatch, AWeightThatTheArmIsToldOfIsHeldAndIsNoContact) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const Carried told = carry(seed, 0.5, 0.5);
+    EXPECT_EQ(told.faults, 0) << "seed " << seed;
+    measured("0.5 kg at the tip, told: largest tension beside the plan", told.off_N, "N");
+    const Carried without = carry(seed, 0.0, 0.0);
+    EXPECT_LT(told.off_N, without.off_N + 8.0) << "seed " << seed << ": friction in proportion to more tension";
+    EXPECT_EQ(without.faults, 0) << "seed " << seed;
+  }
+  EXPECT_GT(carry(1, 0.5, 0.0).faults, 0) << "of what nobody has told it, it says so";
+}
+
 struct Felt {
   FaultNumber first = FaultNumber::kNone;
   double force_N = 0.0;

@@ -90,6 +90,26 @@ TEST(StaticLoad, OfAStraightLyingArmIsItsWeightTimesHalfItsLength) {
   EXPECT_LT(std::fabs(load_Nm[0]) + std::fabs(load_Nm[1]), 9.81 * kg_m * table.segment[0].modules);
 }
 
+TEST(StaticLoad, OfToolAndPayloadTogetherIsThatOfTheirCommonCentre) {
+  Random random(37);
+  for (int n = 0; n < 100; ++n) {
+    RobotParams table = random_arm(random);
+    const TipLoad tool = table.tool, payload{random.uniform(0.0, 3.0), random.vector(0.3)};
+    ThetaVector theta_rad{};
+    for (std::size_t k = 0; k < static_cast<std::size_t>(table.theta_count()); ++k)
+      theta_rad[k] = random.uniform(-0.3, 0.3);
+    const auto load_with = [&](const TipLoad& tip) {
+      table.tool = tip;
+      return load_at(table, theta_rad);
+    };
+    const ThetaVector bare = load_with({}), one = load_with(tool), other = load_with(payload),
+                      both = load_with(joined(tool, payload));
+    for (std::size_t k = 0; k < static_cast<std::size_t>(table.theta_count()); ++k)
+      ASSERT_NEAR(both[k] - bare[k], (one[k] - bare[k]) + (other[k] - bare[k]), 1e-9) << n << " " << k;
+  }
+  EXPECT_EQ(joined({}, {}).mass_kg, 0.0);
+}
+
 TEST(StaticLoad, AnArmWithoutWeightAndSpringsHasNone) {
   EXPECT_FALSE(has_static_load(zhu2022::table()));
   const ThetaVector load_Nm = load_at(zhu2022::table(), zhu2022::radians(zhu2022::kPrepare_deg));

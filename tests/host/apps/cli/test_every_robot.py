@@ -112,6 +112,15 @@ class EveryRobot(Messages, unittest.TestCase):
         self.assertEqual(code, 2)
         self.assertIn("--carry", error)
 
+    def test_a_run_of_an_arm_whose_cables_cannot_hold_a_named_pose_is_refused_at_once_with_pose_and_cable(self):
+        table = json.loads(liana("robot", "export", "zhu2022")[1])
+        table["gravity_m_s2"] = [0, 0, -0.05 * 9.80665]
+        file = self.folder / "rig.json"
+        file.write_text(json.dumps(table))
+        code, _, error = liana("run", "slit_crossing", "--robot", file)
+        self.assertEqual(code, 2, error)
+        self.assert_names(error, "--robot", "pose", "cable", "150 N")
+
     def test_a_pose_that_the_cables_cannot_hold_is_refused_by_ik_with_its_cable_and_by_plan(self):
         table = json.loads(liana("robot", "export", "lab_1g")[1])
         table["tool"]["mass_kg"] = 3.0

@@ -153,6 +153,23 @@ TEST_F(Arbitration, ADitherIsRefusedWhereATensionWouldLeaveItsLimitsOrTheArmMove
   EXPECT_EQ(code_of([&] { arbiter_.dither(now_, 0.1, 4.0); }), "busy");
 }
 
+TEST_F(Arbitration, APayloadIsToldToAnArmAtRestAndTravelsWithEverySetpoint) {
+  now_.at_rest = 0;
+  EXPECT_EQ(code_of([&] { arbiter_.carry(now_, {0.3, {0.01, 0.0, 0.0}}, {}); }), "busy");
+  now_.at_rest = 1;
+  EXPECT_EQ(code_of([&] { arbiter_.carry(now_, {0.3, {0.01, 0.0, 0.0}}, {}); }), "accepted");
+  const auto stays = next();
+  ASSERT_TRUE(stays) << "the arm is told at once";
+  EXPECT_EQ(stays->tip_in_base.position_m, now_.tip_command.position_m);
+  EXPECT_EQ(stays->payload.mass_kg, 0.3);
+  EXPECT_EQ(stays->payload.center_in_tip_m, (Vec3{0.01, 0.0, 0.0}));
+  arbiter_.hold();
+  arbiter_.move_joints(now_, ThetaVector{}, 0.02);
+  const auto moves = next();
+  ASSERT_TRUE(moves);
+  EXPECT_EQ(moves->payload.mass_kg, 0.3);
+}
+
 TEST_F(Arbitration, HeldVariablesAndShapeTravelWithTheTipGoal) {
   ThetaVector held{};
   arbiter_.hold_theta(now_, 1u << 8, held);
