@@ -1,7 +1,8 @@
 """Arms that nobody has looked at, made up by seed (tests/host/apps/cli/made_up_arms.py): kinematics against one written once
 more, goals that are surely reachable, a mission on the bench with its replay, and the bits of its ticks elsewhere.
 
-Alone: made_up.py [--bin DIR] [--count ARMS] [--first SEED] [--json].
+Alone: made_up.py [--bin DIR] [--count ARMS] [--first SEED] [--weight] [--json]. With --weight they are mounted in any
+direction, with masses up to what `liana robot check` lets them have.
 """
 import argparse
 import concurrent.futures
@@ -18,7 +19,7 @@ from asking import ask, joined, quaternion_of
 from page import table
 
 sys.path[:0] = [str(folders.ROOT / "tests/host/apps/cli"), str(folders.ROOT / "tests/bits")]
-from made_up_arms import TOUR, angles_of, table_of, tip_of  # noqa: E402 (found through the line above)
+from made_up_arms import TOUR, angles_of, loaded, table_of, tip_of  # noqa: E402 (found through the line above)
 import run as bits  # noqa: E402
 
 ARMS = 100
@@ -66,17 +67,23 @@ def mission(binaries, robot, folder):
     return {"outcome": "success", "replay": replayed["differing_ticks"], "duration_s": report["duration_s"]}
 
 
-def one_arm(binaries, players, seed):
+def problems_of(binaries, robot, arm):
+    robot.write_text(json.dumps(arm))
+    return ask(binaries / "liana", "robot", "check", robot, "--json")["problems"]
+
+
+def one_arm(binaries, players, seed, has_weight):
     arm, draw = table_of(seed), random.Random(f"study {seed}")
     with tempfile.TemporaryDirectory(prefix="liana-arms-") as place:
         folder = pathlib.Path(place)
         robot = folder / "robot.json"
-        robot.write_text(json.dumps(arm))
+        if has_weight:
+            arm = loaded(arm, seed, lambda heavy: not problems_of(binaries, robot, heavy))
         found = {
             "seed": seed,
             "angles": 2 * len(arm["segments"]),
             "drives": len(arm["drives"]["direction"]),
-            "problems": ask(binaries / "liana", "robot", "check", robot, "--json")["problems"],
+            "problems": problems_of(binaries, robot, arm),
             "kinematics": max(kinematics_error(binaries, robot, arm, draw) for _ in range(GOALS)),
             "goals": [],
         }
@@ -90,13 +97,13 @@ def one_arm(binaries, players, seed):
     return found
 
 
-def study(binaries, first, count):
+def study(binaries, first, count, has_weight):
     work = folders.ROOT / "build/bits"
     work.mkdir(parents=True, exist_ok=True)
     players = [(target, target.build(work)) for target in bits.ALL_TARGETS if target.name in ELSEWHERE]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         arms = []
-        for arm in pool.map(lambda seed: one_arm(binaries, players, seed), range(first, first + count)):
+        for arm in pool.map(lambda seed: one_arm(binaries, players, seed, has_weight), range(first, first + count)):
             arms.append(arm)
             print(f"   arm {len(arms)} of {count}: {arm['mission']['outcome']}", file=sys.stderr, flush=True)
     return arms
@@ -123,8 +130,8 @@ def summary(arms):
     }
 
 
-def measure(binaries, first=FIRST_SEED, count=ARMS):
-    arms = study(binaries, first, count)
+def measure(binaries, first=FIRST_SEED, count=ARMS, has_weight=False):
+    arms = study(binaries, first, count, has_weight)
     found = summary(arms)
     elsewhere = ", ".join(
         f"{name} {found['ticks_that_differ'][name]} of {found['ticks_elsewhere'][name]}" for name in ELSEWHERE
@@ -150,9 +157,10 @@ def main():
     parser.add_argument("--bin", type=pathlib.Path, default=folders.ROOT / "build/bin")
     parser.add_argument("--count", type=int, default=ARMS)
     parser.add_argument("--first", type=int, default=FIRST_SEED)
+    parser.add_argument("--weight", action="store_true")
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()
-    values, text = measure(options.bin.resolve(), options.first, options.count)
+    values, text = measure(options.bin.resolve(), options.first, options.count, options.weight)
     print(json.dumps(values) if options.json else text)
 
 

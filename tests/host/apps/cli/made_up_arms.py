@@ -103,6 +103,31 @@ def table_of(seed):
     }
 
 
+def loaded(table, seed, fits):
+    """The same arm with weight: mounted in any direction, with a tool, and masses up to what `fits` says it can hold."""
+    draw = random.Random(f"load {seed}")
+    towards = [draw.gauss(0, 1) for _ in range(3)]
+    size = math.sqrt(sum(x * x for x in towards))
+    length_m = sum(segment["modules"] * segment["module_length_m"] for segment in table["segments"])
+    own_kg, tool_share = table["module"]["mass_kg"], draw.uniform(0, 0.2)
+    modules = sum(segment["modules"] for segment in table["segments"])
+    center = draw.uniform(0.3, 0.7)
+
+    def heavy(share):
+        return {
+            **table,
+            "gravity_m_s2": [9.80665 * x / size for x in towards],
+            "module": {**table["module"], "mass_kg": share * own_kg, "center": center},
+            "tool": {"mass_kg": share * tool_share * modules * own_kg, "center_m": [0.02 * length_m, 0, 0]},
+        }
+
+    low, high = math.log(1e-3), math.log(10.0)
+    for _ in range(7):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if fits(heavy(math.exp(middle))) else (low, middle)
+    return heavy(draw.uniform(0.5, 1.0) * math.exp(low))
+
+
 def product(a, b):
     return [[sum(a[i][k] * b[k][j] for k in range(4)) for j in range(4)] for i in range(4)]
 
