@@ -3,12 +3,14 @@
 #include <optional>
 #include <string>
 
+#include "firmware_like/cable/arm/static_load.hpp"
 #include "firmware_like/math/trig.hpp"
 #include "host/apps/cli/arguments.hpp"
 #include "host/apps/cli/commands.hpp"
 #include "host/apps/launcher/tables.hpp"
 #include "host/apps/report/line.hpp"
 #include "host/base/json/json.hpp"
+#include "host/control/verification/arm_limits.hpp"
 #include "host/control/verification/judge_serial.hpp"
 #include "host/control/verification/judge_simulated.hpp"
 #include "host/control/verification/refusal_table.hpp"
@@ -53,6 +55,14 @@ auto way_of(const VerifyOptions& options, const Robot& robot, std::size_t joints
   return simulation::straight_way(robot.table, from_rad, to_rad, duration_s, interval_s);
 }
 
+cable::Outputs at_rest(const cable::RobotParams& table, const cable::ThetaVector& theta_rad) {
+  const cable::ArmTrig trig = arm_trig(table, theta_rad);
+  cable::Outputs outputs;
+  outputs.theta_command_rad = theta_rad;
+  outputs.load_Nm = static_load_Nm(table, theta_rad, trig, forward_kinematics(table, trig));
+  return outputs;
+}
+
 verification::Verdict verdict_of(const VerifyOptions& options, const config::RobotConfig& robot,
                                  const config::SceneConfig& scene) {
   const double interval_s = robot.table.interval_ticks * robot.table.tick_s;
@@ -64,7 +74,12 @@ verification::Verdict verdict_of(const VerifyOptions& options, const config::Rob
   const verification::MotionRules rules{
       robot.table, scene, {scene.slit, robot.table.limits.tip_speed_slit_m_s}, robot.machine, robot.module_radius_m};
   verification::TooNear too_near;
-  return verification::judge_simulated(rules, way, true, simulation.run(start, way), too_near);
+  verification::SimulationVerdict verdict =
+      verification::judge_simulated(rules, way, true, simulation.run(start, way), too_near);
+  verification::Judge judge(verdict, &robot.table);
+  judge_hold(robot.table, at_rest(robot.table, way.rows_rad.front()), at_rest(robot.table, way.rows_rad.back()), judge);
+  judge.conclude();
+  return verdict;
 }
 
 // No buses say how long a command interval is, and nothing but how finely the motion is looked at hangs on it.

@@ -1,7 +1,9 @@
 #include "host/control/verification/arm_limits.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "firmware_like/cable/arm/static_load.hpp"
 #include "firmware_like/serial/drive_units.hpp"
 
 namespace liana::verification {
@@ -18,6 +20,22 @@ void judge_tension(const cable::RobotParams& table, const cable::Outputs& output
     judge.require(tension_N * kRounding >= table.tension.floor_motor_N, Refusal::kTension,
                   "planned tension under the floor at cable", static_cast<int>(i));
   }
+}
+
+// The hardest pulled cable of an arm that stands there with its load; what friction holds is left out.
+struct Hardest {
+  std::size_t cable = 0;
+  double tension_N = 0.0;
+};
+
+Hardest hardest_at(const cable::RobotParams& table, const cable::Outputs& outputs) {
+  const cable::CableLayout layout = cable_layout(table);
+  const cable::ArmTrig trig = arm_trig(table, outputs.theta_command_rad);
+  const cable::TensionPlan plan =
+      plan_tension(table, cable_geometry(table, layout, trig), tension_ratio(table, layout, trig, cable::SlipState{}),
+                   cable::SegmentVector{}, {outputs.load_Nm, {}});
+  const auto end = plan.motor_N.begin() + table.cable_count(), hardest = std::max_element(plan.motor_N.begin(), end);
+  return {static_cast<std::size_t>(hardest - plan.motor_N.begin()), *hardest};
 }
 
 void judge_push(const serial::TorqueParams& most, const serial::InsertStatus& push, Judge& judge) {
@@ -50,6 +68,14 @@ void judge_targets(const serial::RobotParams& table, const serial::Outputs* befo
     judge.check(Refusal::kJointTravel, "travel per tick of joint", kDegrees, static_cast<int>(i),
                 after.joint_command_rad[i] - before->joint_command_rad[i], way_rad);
   }
+}
+
+void judge_hold(const cable::RobotParams& table, const cable::Outputs& now, const cable::Outputs& ends, Judge& judge) {
+  if (!has_static_load(table)) return;
+  const Hardest hardest = hardest_at(table, ends);
+  if (hardest.tension_N > table.tension.ceiling_free_N && hardest.tension_N <= hardest_at(table, now).tension_N) return;
+  judge.check(Refusal::kTension, "tension that holds the load, of cable", kNewtons, static_cast<int>(hardest.cable),
+              hardest.tension_N, table.tension.ceiling_free_N);
 }
 
 void judge_joints(const cable::RobotParams& table, const cable::Outputs& first, const cable::Outputs& outputs,

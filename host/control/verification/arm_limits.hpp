@@ -13,6 +13,12 @@ void judge_targets(const cable::RobotParams& table, const cable::Outputs* before
 void judge_targets(const serial::RobotParams& table, const serial::Outputs* before, const serial::Outputs& after,
                    Judge& judge);
 
+// The tensions that hold weight and springs where the arm comes to rest, `ends`: the plan in force is cut off at the
+// ceiling. An arm that stands beyond it already, `now`, may go where they are no higher. Cost: two tension plans, of an
+// arm without such a load nothing.
+void judge_hold(const cable::RobotParams& table, const cable::Outputs& now, const cable::Outputs& ends, Judge& judge);
+inline void judge_hold(const serial::RobotParams&, const serial::Outputs&, const serial::Outputs&, Judge&) {}
+
 // Motion: angles in their ranges, rates within the limits; of a serial arm that pushes, the tube of the robot's table:
 // how far along the axis and beside it, and the set force. (The push's own, narrower tube is the core's: it ends the
 // push by name.)

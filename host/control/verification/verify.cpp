@@ -72,6 +72,8 @@ ExecutionVerdict judge_execution(const typename Arm::Table& table, const Candida
     judge_tip<Arm>(table, outputs, zone, judge);
     if (!verdict.passed()) break;
   }
+  if (candidate.setpoint().kind != CommandKind::kRetract)
+    judge_hold(table, prediction.ticks.front(), prediction.ticks.back(), judge);
   judge.require(prediction.comes_to_rest, Refusal::kNoRest, kNoRestText);
   judge.conclude();
   return verdict;

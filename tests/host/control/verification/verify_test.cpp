@@ -135,6 +135,40 @@ TEST(Verify, TensionAndCableSpeedStayWithinTheirLimits) {
   EXPECT_EQ(judge([&](cable::Outputs& o) { o.payout_command_m[0] = 1.3 * most_m; }).execution, Refusal::kCableSpeed);
 }
 
+// An arm with weight that comes to rest with this torque about its first angle, from where it has another.
+Refusal held(double from_Nm, double to_Nm, CommandKind kind = CommandKind::kTip, double gravity_m_s2 = 9.8) {
+  cable::RobotParams table = kTable;
+  table.gravity_m_s2[2] = -gravity_m_s2;
+  IssueStep<cable::CableArm> release;
+  cable::Setpoint setpoint;
+  setpoint.kind = kind;
+  const Candidate<cable::CableArm> candidate = release.candidate(setpoint, 1, 100, 5);
+  Prediction<cable::CableArm> prediction;
+  prediction.comes_to_rest = true;
+  prediction.ticks.resize(2);
+  for (cable::Outputs& outputs : prediction.ticks) outputs.tension_plan_N.fill(kTable.tension.ceiling_free_N);
+  prediction.ticks[0].load_Nm[0] = from_Nm;
+  prediction.ticks[1].load_Nm[0] = to_Nm;
+  return judge_execution<cable::CableArm>(table, candidate, prediction).code;
+}
+
+// req:A4
+TEST(Verify, ALoadThatTheCablesCannotHoldIsRefusedButForTheWayBack) {
+  double holds_Nm = 0.0, beyond_Nm = 1000.0;
+  while (beyond_Nm - holds_Nm > 1e-3) {
+    const double middle_Nm = 0.5 * (holds_Nm + beyond_Nm);
+    (held(0.0, middle_Nm) == Refusal::kNone ? holds_Nm : beyond_Nm) = middle_Nm;
+  }
+  // Two of three cables, eight joints each: a few times what one cable gives with its ceiling.
+  EXPECT_GT(holds_Nm, 8 * kTable.hole_radius_m * (kTable.tension.ceiling_free_N - kTable.tension.plan_N));
+  EXPECT_LT(holds_Nm, 2 * 8 * kTable.hole_radius_m * kTable.tension.ceiling_free_N);
+  EXPECT_EQ(held(0.0, beyond_Nm), Refusal::kTension);
+  EXPECT_EQ(held(beyond_Nm + 1.0, beyond_Nm), Refusal::kNone) << "less than before";
+  EXPECT_EQ(held(beyond_Nm, beyond_Nm + 1.0), Refusal::kTension) << "more than before";
+  EXPECT_EQ(held(0.0, beyond_Nm, CommandKind::kRetract), Refusal::kNone);
+  EXPECT_EQ(held(0.0, beyond_Nm, CommandKind::kTip, 0.0), Refusal::kNone) << "inertia alone is for the simulation";
+}
+
 TEST(Verify, NotANumberNeverPasses) {
   EXPECT_EQ(judge([](cable::Outputs& o) { o.tip_speed_m_s = std::nan(""); }).execution, Refusal::kNotFinite);
   EXPECT_EQ(judge([](cable::Outputs& o) { o.theta_command_rad[0] = std::nan(""); }).execution, Refusal::kNotFinite);
