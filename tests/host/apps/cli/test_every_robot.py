@@ -18,6 +18,24 @@ SHIPPED = {
     "lab_1g": ("lab_tour", "none", "-6,3,5,-5,8,4"),
 }
 MADE_UP = 2
+CARRY = """
+local liana = require "liana"
+local function pose(name)
+  return liana.step(name) {
+    device = "none", run = liana.move_to(name), exit = liana.all { liana.at_pose(name, 0.5), liana.at_rest() },
+    time_limit_s = 60, on_fail = "hold",
+  }
+end
+local waited = liana.condition("the weight hangs", function(arm) return arm.elapsed_s(arm.begin_tick) > 6 end)
+return liana.mission "carry" {
+  robot = "lab_1g", scene = "none",
+  pose "park",
+  liana.step "carry" {
+    device = "none", enter = liana.at_rest(), run = liana.payload { mass_kg = %g }, exit = waited, time_limit_s = 30, on_fail = "hold",
+  },
+  pose "look", pose "park",
+}
+"""
 
 
 def joined(numbers):
@@ -136,6 +154,21 @@ class EveryRobot(Messages, unittest.TestCase):
         )
         self.assertNotEqual(code, 0)
         self.assert_names(out + error, "cable", "200")
+
+    def test_a_payload_that_a_mission_tells_of_is_held_and_one_that_is_too_heavy_is_refused_with_its_cable(self):
+        mission = self.folder / "carry.lua"
+        hanging = self.folder / "hanging.json"
+        for mass_kg, expected in ((0.5, "success"), (3.0, "refused")):
+            with self.subTest(mass_kg):
+                mission.write_text(CARRY % mass_kg)
+                weight = {"kind": "external_force", "link": 0, "z_N": -9.80665 * mass_kg, "slots": 250, "at_slot": 2500}
+                hanging.write_text(json.dumps([weight] if expected == "success" else []))
+                words = ("run", mission, "--faults", hanging, "--seed", 7, "--record", self.folder / str(mass_kg))
+                liana(*words, "--json", self.folder / "report.json")
+                report = json.loads((self.folder / "report.json").read_text())
+                self.assertEqual((report["outcome"], report["faults"]), (expected, []), report)
+                self.assertEqual(liana_json("replay", self.folder / str(mass_kg))["differing_ticks"], 0)
+        self.assert_names(report["steps"][-1]["reason"], "payload", "cable", "200.0 N")
 
     def new(self, name, *answers):
         """A table that `liana robot new` writes."""
