@@ -7,6 +7,7 @@ import random
 MOST_DRIVES = 32
 MOST_BEND_DEG = 170.0  # of a segment in one plane
 LEAST_RADIUS_M = 0.016  # the holes of 32 cables have to fit side by side
+LEAST_MODULE_KG = 0.001
 DENSITY_KG_M3 = 1000.0  # a hollow aluminium module, filled up to its bounding cylinder
 
 TOUR = """
@@ -117,7 +118,7 @@ def loaded(table, seed, fits):
         return {
             **table,
             "gravity_m_s2": [9.80665 * x / size for x in towards],
-            "module": {**table["module"], "mass_kg": share * own_kg, "center": center},
+            "module": {**table["module"], "mass_kg": max(LEAST_MODULE_KG, share * own_kg), "center": center},
             "tool": {"mass_kg": share * tool_share * modules * own_kg, "center_m": [0.02 * length_m, 0, 0]},
         }
 
