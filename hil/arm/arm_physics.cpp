@@ -16,7 +16,7 @@ ArmPhysics::ArmPhysics(const RobotConfig& robot, const SceneConfig& scene, const
       thetas_(robot.theta_count()),
       viscous_(robot.viscous_Nms_per_rad),
       chain_(robot, scene),
-      paths_(robot, truth.hole_radius_m, truth.linkage),
+      paths_(robot, truth.hole_radius_error_m, truth.linkage),
       theta_(start_rad) {
   chain_.set_gravity(truth.gravity_m_s2);
   chain_.set_linkage(truth.linkage);

@@ -36,12 +36,13 @@ HoleGap hole_gap(const Bend& bend, double y_m, double z_m, double face_m) {
   return gap;
 }
 
-CablePaths::CablePaths(const RobotConfig& robot, double hole_radius_m, const Linkage& linkage) : robot_(robot) {
+CablePaths::CablePaths(const RobotConfig& robot, double hole_radius_error_m, const Linkage& linkage) : robot_(robot) {
   std::size_t module = 0;
   for (std::size_t m = 0; m < robot.segments.size(); ++m) {
     const SegmentConfig& segment = robot.segments[m];
+    const double radius_m = segment.hole_radius_m + hole_radius_error_m;
     for (const double phase : segment.cable_phase_rad)
-      cables_.push_back({m, hole_radius_m * std::cos(phase), hole_radius_m * std::sin(phase)});
+      cables_.push_back({m, radius_m * std::cos(phase), radius_m * std::sin(phase)});
     if (linkage.empty()) joints_.push_back({m, static_cast<double>(segment.modules), {}});
     for (int i = 0; !linkage.empty() && i < segment.modules; ++i) joints_.push_back({m, 1.0, linkage[module++]});
   }
@@ -60,7 +61,7 @@ void CablePaths::update(const Theta& theta_rad) {
     paths_[c] = {};
     for (std::size_t i = 0; i < joints_.size() && joints_[i].segment <= cable.segment; ++i) {
       const auto& [segment, count, share] = joints_[i];
-      const HoleGap gap = hole_gap(bends_[i], cable.hole_y_m, cable.hole_z_m, robot_.face_offset_m);
+      const HoleGap gap = hole_gap(bends_[i], cable.hole_y_m, cable.hole_z_m, robot_.segments[segment].face_offset_m);
       SegmentPath& path = paths_[c][segment];
       path.length_m += count * gap.distance_m;
       path.d_pitch_m += count * share.pitch * gap.d_pitch_m;
@@ -70,7 +71,9 @@ void CablePaths::update(const Theta& theta_rad) {
     for (std::size_t j = 0; j <= cable.segment; ++j) {
       const SegmentConfig& segment = robot_.segments[j];
       const double links = segment.modules - (j == cable.segment ? 1 : 0);  // anchored right after the last joint
-      paths_[c][j].length_m += links * (segment.module_length_m - 2.0 * robot_.face_offset_m);
+      paths_[c][j].length_m += links * (segment.module_length_m - 2.0 * segment.face_offset_m);
+      // The last link that the cable passes ends with the next segment's disc.
+      if (j < cable.segment) paths_[c][j].length_m += segment.face_offset_m - robot_.segments[j + 1].face_offset_m;
     }
   }
 }

@@ -44,8 +44,8 @@ struct SegmentPath {
 // All cables through all segments, recomputed by update().
 class CablePaths {
  public:
-  // `hole_radius_m` and `linkage` are the true ones; everything else is taken from the table.
-  CablePaths(const RobotConfig& robot, double hole_radius_m, const Linkage& linkage = {});
+  // All holes are `hole_radius_error_m` farther from the axis than the table says; `linkage` is the true one.
+  explicit CablePaths(const RobotConfig& robot, double hole_radius_error_m = 0.0, const Linkage& linkage = {});
 
   void update(const Theta& theta_rad);
 

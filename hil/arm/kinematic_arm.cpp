@@ -39,7 +39,7 @@ KinematicArm::KinematicArm(const RobotConfig& robot, const TrueParameters& truth
     : robot_(robot),
       thetas_(robot.theta_count()),
       EA_N_(truth.EA_N),
-      paths_(robot, truth.hole_radius_m),
+      paths_(robot, truth.hole_radius_error_m),
       theta_(start_rad),
       tip_(tip_of(robot, start_rad)) {
   if (truth.mu != 0.0)

@@ -52,7 +52,7 @@ void write_sites(std::ostream& out, const RobotConfig& robot, const char* side, 
   for (const auto& segment : robot.segments) {
     for (const double phase : segment.cable_phase_rad) {
       out << "<site name='" << side << link << '_' << cable++ << "' pos='" << x_m << ' '
-          << robot.hole_radius_m * std::cos(phase) << ' ' << robot.hole_radius_m * std::sin(phase) << "'/>";
+          << segment.hole_radius_m * std::cos(phase) << ' ' << segment.hole_radius_m * std::sin(phase) << "'/>";
     }
   }
   out << '\n';
@@ -109,10 +109,10 @@ std::string make_mjcf(const RobotConfig& robot, const SceneConfig& scene, bool w
     const SegmentConfig& segment = robot.segments[s];
     for (int i = 0; i < segment.modules; ++i, ++link, ++bodies) {
       // The disc before a joint belongs to the link before it: the world for the first one.
-      if (with_tendons) write_sites(out, robot, "n", link, offset_m - robot.face_offset_m);
+      if (with_tendons) write_sites(out, robot, "n", link, offset_m - segment.face_offset_m);
       const bool last = s + 1 == robot.segments.size() && i + 1 == segment.modules;
       write_link(out, robot, segment, offset_m, i % 2 == 0, last);
-      if (with_tendons) write_sites(out, robot, "f", link, robot.face_offset_m);
+      if (with_tendons) write_sites(out, robot, "f", link, segment.face_offset_m);
       offset_m = segment.module_length_m;
     }
   }

@@ -27,7 +27,6 @@ TrueParameters table_parameters(const RobotConfig& robot, const std::string& phy
   TrueParameters parameters;
   parameters.EA_N = robot.cable_EA_N;
   parameters.mu = mu->second;
-  parameters.hole_radius_m = robot.hole_radius_m;
   parameters.torque_gain.fill(1.0);
   return parameters;
 }
@@ -37,7 +36,7 @@ TrueParameters spread_parameters(const RobotConfig& robot, const std::string& ph
   Random arm(seed, "arm parameters");
   parameters.EA_N *= arm.uniform(0.95, 1.05);
   parameters.mu *= arm.uniform(0.8, 1.2);
-  parameters.hole_radius_m += arm.uniform(-0.02e-3, 0.02e-3);
+  parameters.hole_radius_error_m = arm.uniform(-0.02e-3, 0.02e-3);
   Random zeros(seed, "cable zeros");
   Random gains(seed, "torque gains");
   for (std::size_t c = 0; c < robot.cable_count(); ++c) {

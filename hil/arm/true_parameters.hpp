@@ -14,11 +14,11 @@ namespace liana::bench {
 struct TrueParameters {
   double EA_N = 0.0;
   double mu = 0.0;
-  double hole_radius_m = 0.0;
-  Vec3 gravity_m_s2;            // in the base frame: the table's, and what --gravity leaves along -z
-  Linkage linkage;              // empty: all joints of a segment bend alike
-  CableValues zero_offset_m{};  // payout beyond what counts and table say
-  CableValues torque_gain{};    // measured / true drive torque
+  double hole_radius_error_m = 0.0;  // of all holes alike
+  Vec3 gravity_m_s2;                 // in the base frame: the table's, and what --gravity leaves along -z
+  Linkage linkage;                   // empty: all joints of a segment bend alike
+  CableValues zero_offset_m{};       // payout beyond what counts and table say
+  CableValues torque_gain{};         // measured / true drive torque
 };
 
 // The table's own values; `physics` names one of its friction_mu; throws std::runtime_error for an unknown name.

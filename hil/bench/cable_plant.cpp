@@ -128,7 +128,7 @@ void CablePlant::summarise(nlohmann::json& summary) const {
   summary["friction_sweeps_max"] = counts.max_sweeps;
   summary["true_parameters"] = {{"EA_N", truth_.EA_N},
                                 {"mu", truth_.mu},
-                                {"hole_radius_m", truth_.hole_radius_m},
+                                {"hole_radius_error_m", truth_.hole_radius_error_m},
                                 {"gravity_m_s2", {truth_.gravity_m_s2.x, truth_.gravity_m_s2.y, truth_.gravity_m_s2.z}},
                                 {"linkage_error", options_.linkage_error}};
 }

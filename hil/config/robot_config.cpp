@@ -28,6 +28,12 @@ void read_module(const JsonFile& file, const std::string& at_segment, SegmentCon
   segment.joint_rest_rad = {kRadPerDeg * rest_deg[0], kRadPerDeg * rest_deg[1]};
 }
 
+// Of segment `m`: a number is that of all segments, a list has one for each.
+double number_of_segment(const JsonFile& file, const std::string& field, std::size_t m, double low, double high) {
+  if (!file.is_list(field)) return file.number(field, low, high);
+  return file.numbers(field, file.size("/segments"), low, high)[m];
+}
+
 void read_weight(const JsonFile& file, RobotConfig& robot) {
   if (file.has("/gravity_m_s2")) robot.gravity_m_s2 = file.vector("/gravity_m_s2");
   if (!file.has("/tool")) return;
@@ -50,6 +56,8 @@ void read_segments(const JsonFile& file, RobotConfig& robot) {
     if (cables < 3 || cables > 5) file.fail(phases, "has " + std::to_string(cables) + " cables, allowed is 3 to 5");
     for (const double phase : file.numbers(phases, cables, -360.0, 360.0))
       segment.cable_phase_rad.push_back(kRadPerDeg * phase);
+    segment.hole_radius_m = number_of_segment(file, "/cables/hole_radius_m", m, 0.001, 0.5);
+    segment.face_offset_m = number_of_segment(file, "/cables/face_offset_m", m, 0.0, 0.5);
     robot.segments.push_back(segment);
   }
 }
@@ -58,8 +66,6 @@ void read_mechanics(const JsonFile& file, RobotConfig& robot) {
   read_weight(file, robot);
   robot.module_radius_m = file.number("/module/radius_m", 0.001, 0.5);
   robot.viscous_Nms_per_rad = file.number("/joint/viscous_Nms_per_rad", 0.0, 100.0);
-  robot.hole_radius_m = file.number("/cables/hole_radius_m", 0.001, 0.5);
-  robot.face_offset_m = file.number("/cables/face_offset_m", 0.0, 0.5);
   robot.cable_EA_N = file.number("/cables/EA_N", 1e2, 1e8);
   robot.plan_tension_N = file.number("/tension/plan_N", 1e-3, 1e6);
   robot.lead_m = file.number("/cables/lead_m", 0.01, 10.0);
@@ -99,7 +105,7 @@ double RobotConfig::metres_per_count() const {
 double RobotConfig::path_at_zero_m(std::size_t segment) const {
   double path = 0.0;
   for (std::size_t j = 0; j <= segment; ++j) path += segments[j].modules * segments[j].module_length_m;
-  return path - (segments[segment].module_length_m - 2.0 * face_offset_m);
+  return path - (segments[segment].module_length_m - (segments[0].face_offset_m + segments[segment].face_offset_m));
 }
 
 RobotConfig load_robot(const std::string& path) {

@@ -17,6 +17,8 @@ struct SegmentConfig {
   double module_length_m = 0.0;
   double theta_limit_rad = 0.0;
   std::vector<double> cable_phase_rad;
+  double hole_radius_m = 0.0;  // of the cables that end here, in every disc that they pass
+  double face_offset_m = 0.0;  // disc faces before and after a joint centre
   double module_mass_kg = 0.0;
   double module_center = 0.5;           // of a module's length, from the root's side
   double joint_stiffness_Nm_rad = 0.0;  // of one joint, about both axes
@@ -37,8 +39,6 @@ struct RobotConfig {
   Vec3 tool_center_m;  // in the tip's frame
   double module_radius_m = 0.0;
   double viscous_Nms_per_rad = 0.0;  // per theta
-  double hole_radius_m = 0.0;
-  double face_offset_m = 0.0;
   double cable_EA_N = 0.0;
   double plan_tension_N = 0.0;
   double lead_m = 0.0;

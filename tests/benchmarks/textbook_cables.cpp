@@ -31,10 +31,10 @@ Matrix3 about_y(double angle) {
 
 cable::CableVector textbook_lengths(const cable::RobotParams& table, const cable::CableLayout& layout,
                                     const cable::ThetaVector& theta_rad) {
-  const double g = table.face_offset_m;
   cable::CableVector length_m{};
   for (std::size_t j = 0; j < static_cast<std::size_t>(table.segment_count); ++j) {
     const cable::SegmentParams& passed = table.segment[j];
+    const double g = passed.face_offset_m;
     const Matrix3 pitch = about_z(theta_rad[2 * j]), yaw = about_y(theta_rad[2 * j + 1]);
     for (std::int32_t k = 0; k < passed.modules; ++k) {
       const Matrix3 turn = k % 2 == 0 ? product(pitch, yaw) : product(yaw, pitch);
@@ -44,8 +44,9 @@ cable::CableVector textbook_lengths(const cable::RobotParams& table, const cable
         const Vec3 before{-g, layout.hole_y_m[c], layout.hole_z_m[c]}, hole{g, before[1], before[2]};
         const Vec3 gap = subtract({dot(turn[0], hole), dot(turn[1], hole), dot(turn[2], hole)}, before);
         length_m[c] += std::sqrt(dot(gap, gap));
-        if (anchor > j || k + 1 < passed.modules)
-          length_m[c] += passed.module_length_m - 2.0 * g;  // not behind the anchor
+        const bool last = k + 1 == passed.modules;
+        if (last && anchor == j) continue;  // nothing behind the anchor
+        length_m[c] += passed.module_length_m - (g + (last ? table.segment[j + 1].face_offset_m : g));
       }
     }
   }

@@ -12,22 +12,19 @@ namespace {
 
 using zhu2022::Random;
 
-// Where a hole of one cable is, in the frame of a disc `x_m` after the joint centre.
-Vec3 hole(const RobotParams& robot, double phase_rad, double x_m) {
-  return {x_m, robot.hole_radius_m * std::cos(phase_rad), robot.hole_radius_m * std::sin(phase_rad)};
-}
-
 // The same path measured with a string: hole to hole, joint by joint, in the order of the physical axes.
 double string_length_m(const RobotParams& robot, const ThetaVector& theta, std::size_t own_segment, double phase_rad) {
-  const double g = robot.face_offset_m;
+  const double r = robot.segment[own_segment].hole_radius_m, y = r * std::cos(phase_rad), z = r * std::sin(phase_rad);
   double sum = 0.0;
   for (std::size_t m = 0; m <= own_segment; ++m) {
+    const double g = robot.segment[m].face_offset_m;
     const Quat pitch = quaternion_of({0.0, 0.0, theta[2 * m]}), yaw = quaternion_of({0.0, theta[2 * m + 1], 0.0});
     for (std::int32_t k = 0; k < robot.segment[m].modules; ++k) {
       const Quat joint = k % 2 == 0 ? multiply(pitch, yaw) : multiply(yaw, pitch);
-      sum += norm(subtract(rotate(joint, hole(robot, phase_rad, g)), hole(robot, phase_rad, -g)));
-      const bool is_anchor = m == own_segment && k + 1 == robot.segment[m].modules;
-      if (!is_anchor) sum += robot.segment[m].module_length_m - 2.0 * g;
+      sum += norm(subtract(rotate(joint, {g, y, z}), {-g, y, z}));
+      const bool is_last = k + 1 == robot.segment[m].modules;
+      if (is_last && m == own_segment) break;  // the anchor
+      sum += robot.segment[m].module_length_m - g - (is_last ? robot.segment[m + 1].face_offset_m : g);
     }
   }
   return sum;

@@ -164,7 +164,7 @@ TEST(CableSolver, UndoesTheCableJacobian) {
 
 TEST(CableSolver, GivesZeroWhenNoCableTurnsAnAngle) {
   RobotParams robot = zhu2022::table();
-  robot.hole_radius_m = 0.0;
+  for (SegmentParams& segment : robot.segment) segment.hole_radius_m = 0.0;
   const CableLayout layout = cable_layout(robot);
   CableSolver solver;
   const CableGeometry geometry = cable_geometry(robot, layout, arm_trig(robot, ThetaVector{}));

@@ -34,9 +34,9 @@ inline RobotParams table() {
     robot.segment[m].cables = 3;
     robot.segment[m].module_length_m = 0.1;
     robot.segment[m].theta_limit_rad = 0.35;
+    robot.segment[m].hole_radius_m = 0.025;
+    robot.segment[m].face_offset_m = 0.010;
   }
-  robot.hole_radius_m = 0.025;
-  robot.face_offset_m = 0.010;
   robot.cable_EA_N = 240000.0;
   robot.servo_time_constant_s = 0.03;
   robot.tick_s = 0.004;

@@ -37,6 +37,8 @@ inline SegmentParams segment(std::int32_t modules, std::int32_t cables, double f
   out.module_length_m = 0.1;
   out.theta_limit_rad = 20.0 * kDegree;
   out.module_mass_kg = 0.3;
+  out.hole_radius_m = 0.025;
+  out.face_offset_m = 0.010;
   for (std::int32_t c = 0; c < cables; ++c) {
     out.cable_phase_rad[static_cast<std::size_t>(c)] = (first_phase_deg + 360.0 / cables * c) * kDegree;
   }
@@ -48,8 +50,6 @@ inline RobotParams table(double mu = kMu) {
   RobotParams robot;
   robot.segment_count = 5;
   for (std::size_t m = 0; m < 5; ++m) robot.segment[m] = segment(8, 3, 24.0 * static_cast<double>(m));
-  robot.hole_radius_m = 0.025;
-  robot.face_offset_m = 0.010;
   robot.cable_EA_N = 240000.0;
   robot.lead_m = 0.5;
   robot.friction_mu = mu;
@@ -64,7 +64,8 @@ inline RobotParams table(double mu = kMu) {
   return robot;
 }
 
-// Another arm within the capacity: odd module counts, other link lengths, four cables in one segment, uneven phases.
+// Another arm within the capacity: odd module counts, other link lengths, four cables in one segment, uneven phases,
+// other holes and discs in each segment.
 inline RobotParams uneven_table() {
   RobotParams robot = table();
   robot.segment_count = 3;
@@ -72,6 +73,10 @@ inline RobotParams uneven_table() {
   robot.segment[1] = segment(8, 3, 35.0);
   robot.segment[2] = segment(9, 3, 0.0);
   robot.segment[1].module_length_m = 0.08;
+  robot.segment[1].hole_radius_m = 0.021;
+  robot.segment[2].hole_radius_m = 0.017;
+  robot.segment[0].face_offset_m = 0.012;
+  robot.segment[2].face_offset_m = 0.007;
   robot.segment[2].cable_phase_rad = {5.0 * kDegree, 110.0 * kDegree, 250.0 * kDegree, 0.0};
   return robot;
 }

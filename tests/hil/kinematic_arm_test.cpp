@@ -37,7 +37,7 @@ CableValues towards(const RobotConfig& robot, const std::string& from, const std
   const Theta a = start_pose(robot, from, 0.0, 1), b = start_pose(robot, to, 0.0, 1);
   Theta goal{};
   for (std::size_t i = 0; i < 10; ++i) goal[i] = a[i] + share * (b[i] - a[i]);
-  CablePaths at_start(robot, robot.hole_radius_m), at_goal(robot, robot.hole_radius_m);
+  CablePaths at_start(robot), at_goal(robot);
   at_start.update(a);
   at_goal.update(goal);
   CableValues change{};

@@ -197,7 +197,7 @@ TEST(TrueParameters, EachIsSpreadByTheSeedOverAllOfItsRange) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     const TrueParameters p = spread_parameters(robot, "nominal", seed);
     EA.take(p.EA_N / robot.cable_EA_N), mu.take(p.mu / robot.friction_mu.at("nominal"));
-    radius.take(1e3 * (p.hole_radius_m - robot.hole_radius_m));
+    radius.take(1e3 * p.hole_radius_error_m);
     for (std::size_t c = 0; c < 15; ++c) zero.take(1e3 * p.zero_offset_m[c]), gain.take(p.torque_gain[c]);
     EXPECT_NE(p.zero_offset_m[0], p.zero_offset_m[1]) << "each cable has its own";
     EXPECT_NE(p.torque_gain[0], p.torque_gain[1]);

@@ -17,11 +17,11 @@ RobotParams two_segments() {
   robot.segment_count = 2;
   for (std::size_t m = 0; m < 2; ++m) {
     robot.segment[m] = {8, 3, 0.1, 20.0 * kDegree, 0.0, {}};
+    robot.segment[m].hole_radius_m = 0.025;
+    robot.segment[m].face_offset_m = 0.010;
     for (std::size_t c = 0; c < 3; ++c)
       robot.segment[m].cable_phase_rad[c] = (24.0 * static_cast<double>(m) + 120.0 * static_cast<double>(c)) * kDegree;
   }
-  robot.hole_radius_m = 0.025;
-  robot.face_offset_m = 0.010;
   robot.cable_EA_N = 240000.0;
   robot.lead_m = 0.5;
   robot.servo_time_constant_s = 0.03;

@@ -59,15 +59,17 @@ CableLayout cable_layout(const RobotParams& table) noexcept {
       const SinCos phase = sin_cos(own.cable_phase_rad[static_cast<Index>(c)]);
       ++layout.cable_count;
       layout.segment[cable] = m;
-      layout.hole_y_m[cable] = table.hole_radius_m * phase.cos;
-      layout.hole_z_m[cable] = table.hole_radius_m * phase.sin;
+      layout.hole_y_m[cable] = own.hole_radius_m * phase.cos;
+      layout.hole_z_m[cable] = own.hole_radius_m * phase.sin;
       for (std::int32_t j = 0; j <= m; ++j) {
         const SegmentParams& passed = table.segment[static_cast<Index>(j)];
         // The anchor is the last disc, so the last link of the own segment carries no cable.
         const std::int32_t links = j == m ? passed.modules - 1 : passed.modules;
-        layout.straight_m[cable][static_cast<Index>(j)] = links * (passed.module_length_m - 2.0 * table.face_offset_m);
-        layout.zero_length_m[cable] +=
-            layout.straight_m[cable][static_cast<Index>(j)] + passed.modules * 2.0 * table.face_offset_m;
+        double& straight_m = layout.straight_m[cable][static_cast<Index>(j)];
+        straight_m = links * (passed.module_length_m - 2.0 * passed.face_offset_m);
+        // The disc at the end of a segment's last link belongs to the next segment.
+        if (j < m) straight_m += passed.face_offset_m - table.segment[static_cast<Index>(j) + 1].face_offset_m;
+        layout.zero_length_m[cable] += straight_m + passed.modules * 2.0 * passed.face_offset_m;
       }
     }
   }
@@ -80,8 +82,8 @@ void update_cable_geometry(const RobotParams& table, const CableLayout& layout, 
   std::array<PathForm, kMaxSegments> path;
   std::array<SlopeForm, kMaxSegments> slope;
   for (Index j = 0; j < segments; ++j) {
-    path[j] = path_form(trig[j], table.face_offset_m);
-    slope[j] = slope_form(trig[j], table.face_offset_m);
+    path[j] = path_form(trig[j], table.segment[j].face_offset_m);
+    slope[j] = slope_form(trig[j], table.segment[j].face_offset_m);
   }
   for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
     const double y = layout.hole_y_m[c], z = layout.hole_z_m[c];

@@ -4,7 +4,7 @@
 // and even (Ry Rz) joints give the same hole-to-hole distance d, so the path is sum over segments j <= m of modules_j
 // d_j(c) plus the straight parts:
 //   d^2 = 2 (g^2 + r^2) - 2 [-g^2 ca cb + g y sa (1 + cb) - g z sb (1 + ca) + y^2 ca + y z sa sb + z^2 cb],  y = r cos
-//   phase, z = r sin phase.
+//   phase, z = r sin phase, r of segment m, g of segment j.
 #pragma once
 
 #include <array>

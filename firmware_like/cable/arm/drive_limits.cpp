@@ -12,13 +12,14 @@ namespace {
 // Most that bending can change the path of a cable of segment `segment` (0-based): no hole turns about a joint with a
 // larger arm than its distance from the joint centre, and a joint turns about two axes.
 double max_bend_m(const RobotParams& table, std::int32_t segment) noexcept {
-  const double arm_m = std::sqrt(table.hole_radius_m * table.hole_radius_m + table.face_offset_m * table.face_offset_m);
-  double turn_rad = 0.0;
+  const double radius_m = table.segment[as_index(segment)].hole_radius_m;
+  double offset_m = 0.0, turn_rad = 0.0;
   for (std::int32_t m = 0; m <= segment; ++m) {
     const SegmentParams& part = table.segment[as_index(m)];
     turn_rad += 2.0 * static_cast<double>(part.modules) * part.theta_limit_rad;
+    offset_m = larger(offset_m, part.face_offset_m);
   }
-  return arm_m * turn_rad;
+  return std::sqrt(radius_m * radius_m + offset_m * offset_m) * turn_rad;
 }
 
 DriveLimits limits_of(const RobotParams& table, const DriveParams& drive, double zero_payout_m,

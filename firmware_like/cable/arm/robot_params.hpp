@@ -31,6 +31,8 @@ struct SegmentParams {
   double joint_stiffness_Nm_rad = 0.0;     // of one joint, about both of its axes: backbone or spring
   std::array<double, 2> joint_rest_rad{};  // pitch and yaw of one joint at which it gives no torque
   std::array<double, kMaxSegmentCables> cable_phase_rad{};  // angle of the hole from the pitch axis' y, see cables.hpp
+  double hole_radius_m = 0.0;  // of the cables that end in this segment, in every disc that they pass
+  double face_offset_m = 0.0;  // disc faces before and after a joint centre of this segment
 };
 
 // Tension limits of the robot, newtons (mission, A9).
@@ -105,8 +107,6 @@ struct DriveParams {
 struct RobotParams {
   std::int32_t segment_count = 0;
   std::array<SegmentParams, kMaxSegments> segment{};
-  double hole_radius_m = 0.0;
-  double face_offset_m = 0.0;  // disc faces before and after a joint centre
   double cable_EA_N = 0.0;
   double lead_m = 0.0;       // free cable between drum and first disc
   double friction_mu = 0.0;  // capstan coefficient the core is told

@@ -105,7 +105,8 @@ void look_at_mass(const config::RobotConfig& robot, const Json& table, Json& pro
       inertia_kgm2 += mass_kg * along_m * along_m;
     }
   }
-  const double needed_N = inertia_kgm2 * robot.table.limits.tip_accel_m_s2 / along_m / robot.table.hole_radius_m;
+  const double needed_N =
+      inertia_kgm2 * robot.table.limits.tip_accel_m_s2 / along_m / robot.table.segment[0].hole_radius_m;
   if (needed_N <= robot.table.tension.hard_limit_N) return;
   problems.push_back(
       text("module.mass_kg: %g: a cable would pull %.0f N to turn the arm at limits.tip_accel_m_s2: allowed "
@@ -130,7 +131,7 @@ void look_at_stiffness(const cable::RobotParams& table, Json& problems) {
 void look_at_travel(const cable::RobotParams& table, Json& notes) {
   for (std::size_t j = 0; j < static_cast<std::size_t>(table.segment_count); ++j) {
     const cable::SegmentParams& segment = table.segment[j];
-    const double most_m = table.hole_radius_m * segment.modules * segment.theta_limit_rad;
+    const double most_m = segment.hole_radius_m * segment.modules * segment.theta_limit_rad;
     if (most_m >= calibration::kMinChange_m) continue;
     notes.push_back(
         text("segment %zu moves its cables by %.1f mm at most: liana calibrate needs %g mm: set drives.zero_counts "

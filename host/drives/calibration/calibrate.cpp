@@ -145,7 +145,8 @@ bool are_opposite(const RobotParams& robot, Index a, Index b) {
   const CableLayout layout = cable_layout(robot);
   if (layout.segment[a] != layout.segment[b]) return false;
   const double along = layout.hole_y_m[a] * layout.hole_y_m[b] + layout.hole_z_m[a] * layout.hole_z_m[b];
-  return along < kOpposite * robot.hole_radius_m * robot.hole_radius_m;
+  const double radius_m = robot.segment[static_cast<Index>(layout.segment[a])].hole_radius_m;
+  return along < kOpposite * radius_m * radius_m;
 }
 
 [[noreturn]] void refuse_alike(const RobotParams& robot, Index a, Index b) {

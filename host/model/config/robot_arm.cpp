@@ -37,6 +37,13 @@ cable::SegmentParams read_module(const Field& module, const Field& joint) {
   return out;
 }
 
+// Of segment `m`: a number is that of all segments, a list has one for each.
+double number_of_segment(const Field& field, std::size_t m, std::size_t count, const Range& range) {
+  if (!field.json().is_array()) return field.number(range);
+  field.size(count, count, "give one number, or one for each segment");
+  return field.element(m).number(range);
+}
+
 void read_segment(const Field& field, cable::SegmentParams& segment) {
   field.only({"modules", "module_length_m", "theta_limit_deg", "module_mass_kg", "module_center",
               "joint_stiffness_Nm_per_rad", "joint_rest_deg"});
@@ -105,8 +112,12 @@ void read_arm(const Field& table, RobotConfig& out) {
   }
   if (robot.cable_count() > cable::kMaxCables)
     phases.refuse("at most 32 cables", "this build holds at most 32 drives (kMaxCables)");
-  robot.hole_radius_m = table.at("cables").at("hole_radius_m").number({0.001, out.module_radius_m});
-  robot.face_offset_m = table.at("cables").at("face_offset_m").number({0.0001, 0.49 * shortest_m});
+  const Field radius = table.at("cables").at("hole_radius_m"), offset = table.at("cables").at("face_offset_m");
+  for (std::size_t m = 0; m < count; ++m) {
+    cable::SegmentParams& segment = robot.segment[m];
+    segment.hole_radius_m = number_of_segment(radius, m, count, {0.001, out.module_radius_m});
+    segment.face_offset_m = number_of_segment(offset, m, count, {0.0001, 0.49 * shortest_m});
+  }
 }
 
 // A shorter lag than it takes to brake would have the tip pass a target that stops.

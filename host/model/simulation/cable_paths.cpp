@@ -62,13 +62,16 @@ CablePaths cable_paths(const ArmModel& model, const ThetaVector& theta_rad) {
   for (Index anchor = 0; anchor < static_cast<Index>(table.segment_count); ++anchor) {
     for (Index c = 0; c < static_cast<Index>(table.segment[anchor].cables); ++c, ++cable) {
       const double phase_rad = table.segment[anchor].cable_phase_rad[c];
-      const double y_m = table.hole_radius_m * std::cos(phase_rad), z_m = table.hole_radius_m * std::sin(phase_rad);
+      const double radius_m = table.segment[anchor].hole_radius_m;
+      const double y_m = radius_m * std::cos(phase_rad), z_m = radius_m * std::sin(phase_rad);
       for (Index m = 0; m <= anchor; ++m) {
         const SegmentParams& segment = table.segment[m];
-        const Gap gap = gap_of(turns[m], table.face_offset_m, y_m, z_m);
+        const Gap gap = gap_of(turns[m], segment.face_offset_m, y_m, z_m);
         const auto pitch = static_cast<Eigen::Index>(2 * m);
-        const double inside_links_m =
-            (segment.modules - (m == anchor ? 1 : 0)) * (segment.module_length_m - 2.0 * table.face_offset_m);
+        double inside_links_m =
+            (segment.modules - (m == anchor ? 1 : 0)) * (segment.module_length_m - 2.0 * segment.face_offset_m);
+        // The last link ends with a disc of the next segment.
+        if (m < anchor) inside_links_m += segment.face_offset_m - table.segment[m + 1].face_offset_m;
         paths.jacobian_m_rad(cable, pitch) = segment.modules * gap.by_pitch_m;
         paths.jacobian_m_rad(cable, pitch + 1) = segment.modules * gap.by_yaw_m;
         paths.stiffness_N_per_m[cable] += segment.modules * gap.length_m + inside_links_m;

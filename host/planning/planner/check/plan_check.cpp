@@ -81,15 +81,17 @@ std::vector<double> cable_lengths_m(const RobotParams& table, const ThetaVector&
   std::vector<double> lengths;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
     for (Index c = 0; c < static_cast<Index>(table.segment[m].cables); ++c) {
-      const double phase = table.segment[m].cable_phase_rad[c], g = table.face_offset_m, r = table.hole_radius_m;
-      const Vector before{-g, r * std::cos(phase), r * std::sin(phase)}, after{g, before[1], before[2]};
+      const double phase = table.segment[m].cable_phase_rad[c], r = table.segment[m].hole_radius_m;
       double length_m = 0.0;
       for (Index j = 0; j <= m; ++j) {
+        const double g = table.segment[j].face_offset_m;
+        const Vector before{-g, r * std::cos(phase), r * std::sin(phase)}, after{g, before[1], before[2]};
         for (std::int32_t k = 0; k < table.segment[j].modules; ++k) {
           const Rotation joint = joint_rotation(theta_rad[2 * j], theta_rad[2 * j + 1], k % 2 == 0);
           length_m += distance(times(joint, after), before);
-          const bool anchor = j == m && k + 1 == table.segment[j].modules;
-          if (!anchor) length_m += table.segment[j].module_length_m - 2.0 * g;
+          const bool last = k + 1 == table.segment[j].modules;
+          if (last && j == m) continue;  // the anchor
+          length_m += table.segment[j].module_length_m - (g + (last ? table.segment[j + 1].face_offset_m : g));
         }
       }
       lengths.push_back(length_m);

@@ -170,15 +170,15 @@ void ArmDerivatives::add_quaternion_hessian(const Quat& weight, ThetaHessian& he
 
 CableDerivatives cable_derivatives(const RobotParams& table, const ThetaVector& theta_rad) {
   CableDerivatives out;
-  const double g = table.face_offset_m, r = table.hole_radius_m;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
     for (Index c = 0; c < static_cast<Index>(table.segment[m].cables); ++c) {
-      const double phase = table.segment[m].cable_phase_rad[c];
+      const double phase = table.segment[m].cable_phase_rad[c], r = table.segment[m].hole_radius_m;
       const double y = r * std::cos(phase), z = r * std::sin(phase);
       std::vector<Jet> parts;
       double length_m = 0.0;
       for (Index j = 0; j <= m; ++j) {
         const SegmentParams& passed = table.segment[j];
+        const double g = passed.face_offset_m;
         const Jet pitch = pitch_variable(theta_rad[2 * j]), yaw = yaw_variable(theta_rad[2 * j + 1]);
         const Jet sa = sin(pitch), ca = cos(pitch), sb = sin(yaw), cb = cos(yaw), one = constant(1.0);
         const Jet bracket = (-g * g) * (ca * cb) + (g * y) * (sa * (one + cb)) - (g * z) * (sb * (one + ca)) +
@@ -186,6 +186,7 @@ CableDerivatives cable_derivatives(const RobotParams& table, const ThetaVector& 
         parts.push_back(passed.modules * sqrt(constant(2.0 * (g * g + r * r)) - 2.0 * bracket));
         const std::int32_t links = j == m ? passed.modules - 1 : passed.modules;  // the anchor is the last disc
         length_m += parts.back().value + links * (passed.module_length_m - 2.0 * g);
+        if (j < m) length_m += g - table.segment[j + 1].face_offset_m;  // the next segment's disc ends the last link
       }
       out.length_m.push_back(length_m);
       out.by_segment_m.push_back(std::move(parts));

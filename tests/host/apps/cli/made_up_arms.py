@@ -50,6 +50,7 @@ def table_of(seed):
         )
     radius = max(length_m * draw.uniform(0.25, 0.45), LEAST_RADIUS_M)
     mass_kg = DENSITY_KG_M3 * length_m * radius**2 * draw.uniform(0.5, 1.5)
+    offset_m = length_m * draw.uniform(0.05, 0.12)
 
     def pose():
         return [round(0.3 * angle, 2) for angle in angles_of({"segments": segments}, draw)]
@@ -62,8 +63,8 @@ def table_of(seed):
         "module": {"mass_kg": mass_kg, "radius_m": radius},
         "joint": {"viscous_Nms_per_rad": 0.4},
         "cables": {
-            "hole_radius_m": 0.8 * radius,
-            "face_offset_m": length_m * draw.uniform(0.05, 0.12),
+            "hole_radius_m": [0.8 * radius * (1 - 0.2 * j / count) for j in range(count)],
+            "face_offset_m": [offset_m * (1 + 0.3 * j / count) for j in range(count)],
             "phase_deg": [[360.0 / n * c + step * j for c in range(n)] for j, n in enumerate(cables)],
             "EA_N": 200000,
             "lead_m": 0.4,

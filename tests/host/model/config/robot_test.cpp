@@ -64,7 +64,11 @@ TEST(Robot, IsRefusedWithFileFieldValueRangeAndAdvice) {
       {"/cables/phase_deg/0", {0, 120}, "cables.phase_deg[1]", {"3", "5", "2"}},
       {"/cables/phase_deg/0", {0, 60, 120, 180, 240, 300}, "cables.phase_deg[1]", {"3", "5", "entries"}},
       {"/cables/hole_radius_m", 0.04, "cables.hole_radius_m", {"0.001", "0.03"}},
+      {"/cables/hole_radius_m", {0.02, 0.02, 0.02}, "cables.hole_radius_m", {"3", "5"}},
+      {"/cables/hole_radius_m", {0.02, 0.02, 0.02, 0.04, 0.02}, "cables.hole_radius_m[4]", {"0.001", "0.03"}},
+      {"/cables/hole_radius_m", "wide", "cables.hole_radius_m", {"number"}},
       {"/cables/face_offset_m", 0.05, "cables.face_offset_m", {"1e-04", "0.049"}},
+      {"/cables/face_offset_m", {0.01, 0.05, 0.01, 0.01, 0.01}, "cables.face_offset_m[2]", {"1e-04", "0.049"}},
       {"/cables/friction_mu/worn", 0.9, "cables.friction_mu.worn", {"0", "0.5"}},
       {"/cables/EA_N", true, "cables.EA_N", {"number"}},
       {"/tension/floor_motor_N", 50, "tension.plan_N", {"50"}},
@@ -121,6 +125,20 @@ TEST(Robot, SegmentsHaveTheLoadOfAllUnlessTheySayOtherwise) {
   EXPECT_EQ(robot.segment[4].module_center, 0.6);
   EXPECT_EQ(robot.segment[4].joint_stiffness_Nm_rad, 0.0);
   EXPECT_DOUBLE_EQ(robot.segment[4].joint_rest_rad[1], 5 * kDeg);
+}
+
+TEST(Robot, HoleRadiusAndFaceOffsetAreOneNumberOrOneForEachSegment) {
+  Json table = good_table("robot", "zhu2022");
+  table["cables"]["hole_radius_m"] = {0.025, 0.024, 0.023, 0.022, 0.021};
+  table["cables"]["face_offset_m"] = {0.01, 0.009, 0.008, 0.007, 0.006};
+  const cable::RobotParams even = parse_robot(good_table("robot", "zhu2022").dump(), "r", "nominal", buses()).table,
+                           uneven = parse_robot(table.dump(), "r", "nominal", buses()).table;
+  for (std::size_t m = 0; m < 5; ++m) {
+    EXPECT_EQ(even.segment[m].hole_radius_m, 0.025);
+    EXPECT_EQ(even.segment[m].face_offset_m, 0.01);
+    EXPECT_DOUBLE_EQ(uneven.segment[m].hole_radius_m, 0.025 - 0.001 * static_cast<double>(m));
+    EXPECT_DOUBLE_EQ(uneven.segment[m].face_offset_m, 0.01 - 0.001 * static_cast<double>(m));
+  }
 }
 
 TEST(Robot, ATableThatSaysNothingOfTheTipsLagHasThatOfSpeedAndAcceleration) {

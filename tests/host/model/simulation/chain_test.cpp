@@ -89,13 +89,22 @@ TEST(CablePaths, LengthsChangeWithTheAnglesAsTheCoreSays) {
   }
 }
 
-TEST(CablePaths, WrapRoundTheHolesAsTheBenchsDo) {
-  const auto robot = bench::load_robot(CLOSED_LOOP_DATA "/robot.json");
-  bench::CablePaths reference(robot, robot.hole_radius_m);
+// With other holes and discs in each segment.
+// req:A11
+TEST(CablePaths, AreAsLongAsTheBenchsAndTheCoresAndWrapRoundTheHolesAsTheBenchsDo) {
+  auto robot = bench::load_robot(CLOSED_LOOP_DATA "/robot.json");
+  RobotParams table = zhu2022::table();
+  for (std::size_t m = 0; m < 5; ++m) {
+    table.segment[m].hole_radius_m = robot.segments[m].hole_radius_m = 0.025 - 0.002 * static_cast<double>(m);
+    table.segment[m].face_offset_m = robot.segments[m].face_offset_m = m % 2 == 0 ? 0.013 : 0.008;
+  }
+  bench::CablePaths reference(robot);
+  const CableLayout layout = cable_layout(table);
   Random random(5);
   for (int i = 0; i < 20; ++i) {
-    const ThetaVector theta_rad = random.theta(zhu2022::table(), 20.0);
-    const CablePaths paths = cable_paths(zhu2022_model(), theta_rad);
+    const ThetaVector theta_rad = i == 0 ? ThetaVector{} : random.theta(table, 20.0);
+    const CablePaths paths = cable_paths(model_of(table), theta_rad);
+    const CableGeometry core = cable_geometry(table, layout, arm_trig(table, theta_rad));
     bench::Theta at{};
     std::copy_n(theta_rad.begin(), at.size(), at.begin());
     reference.update(at);
@@ -103,6 +112,10 @@ TEST(CablePaths, WrapRoundTheHolesAsTheBenchsDo) {
       double wrap_rad = 0.0;
       for (std::size_t m = 0; m <= reference.last_segment(c); ++m) wrap_rad += reference.path(c, m).wrap_rad;
       EXPECT_NEAR(paths.wrap_rad[static_cast<Eigen::Index>(c)], wrap_rad, 1e-6);
+      EXPECT_NEAR(core.length_m[c], reference.length_m(c), 1e-12);
+      EXPECT_NEAR(layout.zero_length_m[c], robot.path_at_zero_m(c / 3), 1e-12);
+      EXPECT_NEAR(paths.stiffness_N_per_m[static_cast<Eigen::Index>(c)],
+                  table.cable_EA_N / (reference.length_m(c) + table.lead_m), 1e-6);
     }
   }
 }

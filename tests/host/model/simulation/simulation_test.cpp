@@ -39,7 +39,7 @@ class BenchArm {
   explicit BenchArm(const ThetaVector& start_rad)
       : robot_(bench::load_robot(CLOSED_LOOP_DATA "/robot.json")),
         truth_(bench::table_parameters(robot_, "ideal")),
-        paths_(robot_, truth_.hole_radius_m),
+        paths_(robot_),
         arm_(robot_, emptied(bench::load_scene(CLOSED_LOOP_DATA "/scene.json")), truth_, theta(start_rad)) {
     start_payout_m_ = arm_.payouts_m();
     paths_.update(theta(start_rad));

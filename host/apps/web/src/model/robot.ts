@@ -5,10 +5,15 @@ export interface CableRobot {
   kind: 'robot';
   segments: { modules: number; module_length_m: number; theta_limit_deg: number }[];
   module: { radius_m: number };
-  cables: { hole_radius_m: number; face_offset_m: number; phase_deg: number[][] };
+  cables: { hole_radius_m: number | number[]; face_offset_m: number | number[]; phase_deg: number[][] };
   tension: { plan_N: number; floor_motor_N: number; ceiling_free_N: number; alarm_N: number; hard_limit_N: number };
   limits: TipLimits & { theta_rate_deg_s: number; tip_speed_slit_m_s: number };
   named_poses_deg: Record<string, number[]>;
+}
+
+// Of segment `m`: a number is that of all segments, a list has one for each.
+export function numberOfSegment(numbers: number | number[], m: number): number {
+  return typeof numbers === 'number' ? numbers : numbers[m];
 }
 
 export interface SerialRobot {

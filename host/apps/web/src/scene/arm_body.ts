@@ -1,7 +1,7 @@
 // The arm as it is: links, discs in the colours of their segments, cables in the colour of their tension.
 import * as THREE from 'three';
 import { chainOf, type ArmChain } from '../model/arm_chain';
-import type { CableRobot, Robot } from '../model/robot';
+import { numberOfSegment, type CableRobot, type Robot } from '../model/robot';
 import { scaleOf, tensionColour, type TensionScale } from '../model/tension_colour';
 import { segmentColour } from './palette';
 import { paint, shaded } from './shade';
@@ -56,20 +56,20 @@ export class ArmBody {
     this.group.add(this.links, this.discs);
     if (this.cables) this.group.add(this.cables.lines);
     this.details = [this.discs, ...(this.cables ? [this.cables.lines] : [])];
-    this.face_m = isCable ? robot.cables.face_offset_m : 0;
+    this.faces = facesOf(robot, pieces);
     this.paint(new Set());
   }
 
-  private readonly face_m: number;
+  private readonly faces: Faces[];
 
   // Moves the arm; tensions in the order of the API, none for an arm without cables.
   set(theta_deg: ArrayLike<number>, tension_N: ArrayLike<number>): void {
     this.chain.set(theta_deg);
-    const { pieces, matrices } = this.chain;
-    pieces.forEach((piece, k) => {
-      place(this.links, k, matrices, k, this.face_m, piece.length_m - 2 * this.face_m);
-      place(this.discs, 2 * k, matrices, k, this.face_m, DISC_THICKNESS_M);
-      place(this.discs, 2 * k + 1, matrices, k, piece.length_m - this.face_m - DISC_THICKNESS_M, DISC_THICKNESS_M);
+    const { matrices } = this.chain;
+    this.faces.forEach(({ first_m, last_m }, k) => {
+      place(this.links, k, matrices, k, first_m, last_m - first_m);
+      place(this.discs, 2 * k, matrices, k, first_m, DISC_THICKNESS_M);
+      place(this.discs, 2 * k + 1, matrices, k, last_m - DISC_THICKNESS_M, DISC_THICKNESS_M);
     });
     this.links.instanceMatrix.needsUpdate = true;
     this.discs.instanceMatrix.needsUpdate = true;
@@ -102,6 +102,22 @@ export class ArmBody {
   }
 }
 
+// Where a link's two discs are, from the joint before it: the last one belongs to the joint behind it.
+interface Faces {
+  first_m: number;
+  last_m: number;
+}
+
+function facesOf(robot: Robot, pieces: ArmChain['pieces']): Faces[] {
+  const offset_m = (k: number) =>
+    robot.kind === 'serial' ? 0 : numberOfSegment(robot.cables.face_offset_m, pieces[k].segment);
+  const last = pieces.length - 1;
+  return pieces.map(({ length_m }, k) => ({
+    first_m: offset_m(k),
+    last_m: length_m - offset_m(Math.min(k + 1, last)),
+  }));
+}
+
 // One line set for all cables: cable c of segment m goes from the base through all discs to the end of segment m.
 class Cables {
   readonly lines: THREE.LineSegments;
@@ -109,18 +125,18 @@ class Cables {
   private readonly places: Float32Array;
   private readonly colours: Float32Array;
   private readonly scale: TensionScale;
-  private readonly face_m: number;
+  private readonly faces: Faces[];
 
   constructor(robot: CableRobot, private readonly chain: ArmChain) {
     this.scale = scaleOf(robot.tension);
-    this.face_m = robot.cables.face_offset_m;
+    this.faces = facesOf(robot, chain.pieces);
     let at = 0;
     let pieces = 0;
     robot.segments.forEach((segment, m) => {
       pieces += segment.modules;
       for (const phase_deg of robot.cables.phase_deg[m]) {
         const phase = (phase_deg * Math.PI) / 180;
-        const r = robot.cables.hole_radius_m;
+        const r = numberOfSegment(robot.cables.hole_radius_m, m);
         this.runs.push({ holeY_m: r * Math.cos(phase), holeZ_m: r * Math.sin(phase), pieces, at });
         at += 2 * (2 * pieces - 1);
       }
@@ -135,14 +151,14 @@ class Cables {
   }
 
   set(tension_N: ArrayLike<number>): void {
-    const { matrices, pieces } = this.chain;
+    const { matrices } = this.chain;
     this.runs.forEach((run, cable) => {
       const colour = tensionColour(tension_N[cable] ?? NaN, this.scale);
       const points = 2 * run.pieces;
       let vertex = run.at;
       for (let p = 0; p < points; ++p) {
         const k = p >> 1;
-        const x_m = p % 2 === 0 ? this.face_m : pieces[k].length_m - this.face_m;
+        const x_m = p % 2 === 0 ? this.faces[k].first_m : this.faces[k].last_m;
         for (let twice = p === 0 || p === points - 1 ? 1 : 2; twice > 0; --twice) {
           for (let r = 0; r < 3; ++r) {
             const m = 16 * k + r;
