@@ -160,8 +160,8 @@ TEST(Verify, ALoadThatTheCablesCannotHoldIsRefusedButForTheWayBack) {
     (held(0.0, middle_Nm) == Refusal::kNone ? holds_Nm : beyond_Nm) = middle_Nm;
   }
   // Two of three cables, eight joints each: a few times what one cable gives with its ceiling.
-  EXPECT_GT(holds_Nm, 8 * kTable.hole_radius_m * (kTable.tension.ceiling_free_N - kTable.tension.plan_N));
-  EXPECT_LT(holds_Nm, 2 * 8 * kTable.hole_radius_m * kTable.tension.ceiling_free_N);
+  EXPECT_GT(holds_Nm, 8 * kTable.segment[0].hole_radius_m * (kTable.tension.ceiling_free_N - kTable.tension.plan_N));
+  EXPECT_LT(holds_Nm, 2 * 8 * kTable.segment[0].hole_radius_m * kTable.tension.ceiling_free_N);
   EXPECT_EQ(held(0.0, beyond_Nm), Refusal::kTension);
   EXPECT_EQ(held(beyond_Nm + 1.0, beyond_Nm), Refusal::kNone) << "less than before";
   EXPECT_EQ(held(beyond_Nm, beyond_Nm + 1.0), Refusal::kTension) << "more than before";
