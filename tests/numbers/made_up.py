@@ -78,7 +78,8 @@ def one_arm(binaries, players, seed, has_weight):
         folder = pathlib.Path(place)
         robot = folder / "robot.json"
         if has_weight:
-            arm = loaded(arm, seed, lambda heavy: not problems_of(binaries, robot, heavy))
+            light = problems_of(binaries, robot, arm)
+            arm = loaded(arm, seed, lambda heavy: problems_of(binaries, robot, heavy) == light)
         found = {
             "seed": seed,
             "angles": 2 * len(arm["segments"]),
