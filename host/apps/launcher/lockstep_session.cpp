@@ -13,7 +13,8 @@ namespace {
 
 constexpr int kSilence_s = 30;
 constexpr double kLockstepEndGrace_s = 5.0;
-constexpr double kRequestPatience_s = 60.0;  // of arm time, for one request
+constexpr double kRequestPatience_s = 60.0;  // of arm time in which nothing comes of a request
+constexpr double kLongestMotion_s = 3600.0;  // of arm time: slow arms take minutes
 
 bool is_in(const Json& state, const char* wanted) { return state.value("state", "") == wanted; }
 
@@ -57,16 +58,20 @@ Json LockstepSession::next_state(bool refusals_count) {
 Json LockstepSession::ask_and_wait(const Json& request, const std::function<bool(const Json&)>& is_done,
                                    const std::function<void(const Json&)>& look) {
   bool asked = !request.contains("op");
+  double idle_since_s = -1.0;
   for (double since_s = -1.0;;) {
     const Json state = next_state();
-    if (since_s < 0.0) since_s = state.value("time_s", 0.0);
+    const double now_s = state.value("time_s", 0.0);
+    if (since_s < 0.0) since_s = now_s;
+    if (idle_since_s < 0.0 || state.value("is_busy", false)) idle_since_s = now_s;
     const Json faults = state.value("faults", Json::array());
     if (!faults.empty())
       give_up("fault " + event::fault_groups(faults).front().title() + ": " + faults[0].value("text", ""));
-    if (state.value("time_s", 0.0) - since_s > kRequestPatience_s) give_up("the arm did not answer " + request.dump());
+    if (now_s - idle_since_s > kRequestPatience_s || now_s - since_s > kLongestMotion_s)
+      give_up("the arm did not answer " + request.dump());
     if (look) look(state);
     // A state that was on its way when the request was sent says nothing of it.
-    const bool is_over = asked && state.value("time_s", 0.0) - since_s > 0.1 && is_done(state);
+    const bool is_over = asked && now_s - since_s > 0.1 && is_done(state);
     if (!asked) send(request);
     asked = true;
     done(state);
