@@ -37,12 +37,12 @@ TEST(Chain, LinksAreWhereTheCoresClosedFormHasThem) {
   }
 }
 
-void expect_mass_of_hinges(const ArmModel& model, const std::string& robot_file, double most_deg, double share) {
+void expect_mass_of_hinges(const ArmModel& model, const std::string& robot_file, double max_deg, double share) {
   bench::Chain hinges(bench::load_robot(robot_file), bench::load_scene(CLOSED_LOOP_DATA "/scene.json"));
   Random random(2);
   const auto thetas = static_cast<std::size_t>(model.table.theta_count());
   for (int i = 0; i < 10; ++i) {
-    const ThetaVector theta_rad = random.theta(model.table, most_deg);
+    const ThetaVector theta_rad = random.theta(model.table, max_deg);
     Chain chain;
     place(model, theta_rad, chain);
     const eigen::ThetaMatrix mass = mass_matrix(model, chain);
