@@ -56,9 +56,12 @@ double slid_until(const BalanceReadings& now, const SegmentVector& sigma, Index 
 
 TorqueLimits make_torque_limits(const RobotParams& table) noexcept {
   TorqueLimits limits;
-  double reach_m = 0.0, mass_kg = 0.0, inertia_kg_m2 = 0.0;  // of the straight arm beyond a segment's root
+  const double gravity_m_s2 = norm(table.gravity_m_s2);
+  double reach_m = 0.0, mass_kg = table.tool.mass_kg,
+         inertia_kg_m2 = 0.0;  // of the straight arm beyond a segment's root
   for (Index j = segments(table); j-- > 0;) {
     const SegmentParams& segment = table.segment[j];
+    double moment_kg_m = 0.0;  // about all of its joints
     for (std::int32_t i = 0; i < segment.modules; ++i) {
       // Everything so far moves one link outwards; the new link's mass is at its end.
       inertia_kg_m2 += segment.module_length_m * (2.0 * reach_m + segment.module_length_m * mass_kg);
@@ -66,9 +69,12 @@ TorqueLimits make_torque_limits(const RobotParams& table) noexcept {
       mass_kg += segment.module_mass_kg;
       reach_m += segment.module_length_m * segment.module_mass_kg;
       inertia_kg_m2 += segment.module_length_m * segment.module_length_m * segment.module_mass_kg;
+      moment_kg_m += reach_m;
     }
     limits.inertia[j] = segment.modules * std::sqrt(inertia_kg_m2);
-    limits.swing_Nm[j] = kTorqueSwing_rad_s2 * segment.modules * inertia_kg_m2;
+    limits.aside_Nm[j] = kTorqueSwing_rad_s2 * segment.modules * inertia_kg_m2;
+    if (gravity_m_s2 > 0.0)
+      limits.aside_Nm[j] = std::sqrt(square(limits.aside_Nm[j]) + square(kTorqueTilt * gravity_m_s2 * moment_kg_m));
   }
   return limits;
 }
@@ -125,7 +131,7 @@ void end_round(const RobotParams& table, const TorqueLimits& limits, TorqueBalan
   state.stir = larger(state.peak, state.stir * (1.0 - round_s(table) / kTorqueCalm_s));
   state.peak = 0.0;
   for (Index k = 0; k < 2 * segments(table); ++k) {
-    state.variance_Nm2[k][k] += square(kTorqueFloor_Nm) + square(limits.swing_Nm[k / 2]) +
+    state.variance_Nm2[k][k] += square(kTorqueFloor_Nm) + square(limits.aside_Nm[k / 2]) +
                                 square(kTorqueInertia * limits.inertia[k / 2] * state.stir);
   }
 }

@@ -24,6 +24,7 @@ constexpr double kFrictionResting = 1.3;      // more, where it rests
 constexpr double kFrictionDithered = 0.5;     // the same after a dither, which leaves friction nowhere to stay
 constexpr double kTorqueFloor_Nm = 1.0;       // about every angle
 constexpr double kTorqueSwing_rad_s2 = 1e-3;  // the body beyond an angle swings with so much, unmeasured
+constexpr double kTorqueTilt = 0.012;         // rad; weight pulls so far beside where the table has it
 constexpr double kTorqueInertia = 0.07;       // share of the most that commanded acceleration can ask for
 constexpr double kTorqueCalm_s = 2.0;         // swing after an acceleration is forgotten in
 
@@ -31,7 +32,7 @@ using TorqueMatrix = std::array<ThetaVector, kMaxTheta>;  // the lower triangle
 
 // Figures of the straight arm, derived once from the robot table.
 struct TorqueLimits {
-  SegmentVector swing_Nm{};  // at a segment's angles
+  SegmentVector aside_Nm{};  // at a segment's angles: unmeasured swing, and weight beside its direction
   SegmentVector inertia{};   // modules times the root of the inertia beyond, kg^0.5 m: the product of two segments' is
                              // the most that one's acceleration asks of the other
 };
