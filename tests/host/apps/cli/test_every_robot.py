@@ -8,7 +8,7 @@ import sys
 import tempfile
 import unittest
 
-from made_up_arms import TOUR, angles_of, table_of, tip_of
+from made_up_arms import TOUR, angles_of, loaded, table_of, tip_of
 from programs import liana, liana_json
 from message import Messages
 
@@ -297,6 +297,18 @@ class EveryRobot(Messages, unittest.TestCase):
             with self.subTest(seed=seed, segments=len(table["segments"]), drives=len(table["drives"]["direction"])):
                 self.is_served(file, joined(table["named_poses_deg"]["second"]))
                 self.crosses(file, mission, "none")
+
+    def test_an_arm_with_weight_made_up_by_seed_does_a_mission(self):
+        seed = 7022  # it stands, and weighs 8 kg: weight beside its direction is no contact
+        mission, file = self.folder / "tour.lua", self.folder / "robot.json"
+        mission.write_text(TOUR)
+
+        def fits(table):
+            file.write_text(json.dumps(table))
+            return not liana_json("robot", "check", file, expected=(0, 1))["problems"]
+
+        file.write_text(json.dumps(loaded(table_of(seed), seed, fits)))
+        self.crosses(file, mission, "none")
 
 
 if __name__ == "__main__":
