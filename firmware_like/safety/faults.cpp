@@ -80,8 +80,8 @@ constexpr std::array<FaultInfo, count_enumerators<FaultNumber, 1000>()> kFaultTa
     {kCableSlip, "cable_slip", kHold, false, true,
      "A cable slipped on its drum, or its encoder jumped: length and tension no longer agree; the detail is "
      "micrometres of cable.",
-     "Retract, disable and clear; look at the clamp on the drum and at the encoder. The cable's zero is wrong now: "
-     "measure it again (liana calibrate)."},
+     "Retract, disable and clear; look at the clamp on the drum, the encoder, and the load cell if it has one. The "
+     "cable's zero is wrong now: measure it again (liana calibrate)."},
     {kCableBreak, "cable_break", kStop, false, false,
      "A cable's tension was gone from one moment to the next: it broke or came off its drum, or its reading is lost. "
      "An arm with weight keeps all drums where they are: five cables a segment hold it, three or four may let it fall.",
@@ -92,11 +92,14 @@ constexpr std::array<FaultInfo, count_enumerators<FaultNumber, 1000>()> kFaultTa
     {kBodyContact, "body_contact", kHold, false, true,
      "A force acts on the arm's body: the torques of its cables do not balance; the drive is the first of the touched "
      "segment, if that is known; the detail is in 0.01 N m.",
-     "Look where the arm touches; retract, or take away what it touches, then clear."},
+     "Look where the arm touches, or what it carries untold (request payload); retract, or take that away, then "
+     "clear."},
     {kFrictionNotAsDeclared, "friction_not_as_declared", kHold, false, true,
      "Friction of the cables is higher than declared, and higher than plans of tensions allow; the detail is mu in "
      "0.0001.",
-     "Retract and disable; look for worn holes or dirt, then measure again (liana calibrate --friction), and clear."},
+     "Retract and disable; look for a weight that it was not told of (request payload), worn holes or dirt, then "
+     "measure "
+     "again (liana calibrate --friction), and clear."},
     {kLoadCellLost, "load_cell_lost", kHold, false, true,
      "A cable's load cell gives no usable reading; tension is taken from the drive's torque since.",
      "Retract and disable; check the cell, its amplifier and its plug, then clear. With load_cell.when_lost = "

@@ -228,10 +228,9 @@ constexpr std::array kInsert{
 constexpr std::array kPayload{
     number("mass_kg", 0.0, 1e5, "0: nothing"),
     point("center_m", "centre of mass, in the frame of the tip; left out: the tip's origin").optional(),
-    number(
-        "inertia_kgm2", -1e6, 1e6,
-        "xx, yy, zz, xy, xz, yz about the centre of mass, along the axes of the tip's frame; all six, or left out of "
-        "nothing and of a cable arm, which takes a payload as a point mass")
+    number("inertia_kgm2", -1e6, 1e6,
+           "xx, yy, zz, xy, xz, yz about the centre of mass, along the axes of the tip's frame; all six. "
+           "Left out of mass 0, and of cable arms, which take a payload as a point mass")
         .optional()
         .list(6),
 };

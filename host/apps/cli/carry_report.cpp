@@ -71,7 +71,7 @@ void print_carry(const Json& carries) {
         hardest["tension_N"].get<double>(), hardest["cable_name"].get<std::string>().c_str());
     if (!one["payload_all_poses"].is_null()) {
       print_payload("named poses", one["payload_named_poses"]);
-      print_payload("all poses", one["payload_all_poses"]);
+      print_payload("hardest poses found", one["payload_all_poses"]);
     }
     std::printf("\n");
   }

@@ -27,6 +27,7 @@ constexpr double kUnknown_m = 0.01e-3;   // of a length, after homing: arms of t
 constexpr std::int32_t kSamples = 5000;  // of the workspace, whose boundary is then climbed to
 constexpr std::int32_t kCarrySamples = 2000;
 constexpr std::int32_t kTipValues = 6;  // place and attitude
+constexpr double kEarth_m_s2 = 9.80665;
 
 std::string text(const char* format, auto... values) {
   char line[300];
@@ -140,6 +141,19 @@ void look_at_travel(const cable::RobotParams& table, Json& notes) {
   }
 }
 
+// How the arm is mounted, in words: a table in other units, or with a sign reversed, shows here.
+void tell_weight(const cable::RobotParams& table, Json& notes) {
+  const double gravity_m_s2 = norm(table.gravity_m_s2);
+  if (gravity_m_s2 == 0.0) return;
+  const double down_deg = std::asin(std::clamp(table.gravity_m_s2[0] / gravity_m_s2, -1.0, 1.0)) / kDegree;
+  std::string note = std::fabs(down_deg) < 0.05 ? std::string("weight: the straight arm lies level")
+                                                : text("weight: the straight arm points %.1f deg %s the horizontal",
+                                                       std::fabs(down_deg), down_deg > 0.0 ? "below" : "above");
+  if (std::fabs(gravity_m_s2 - kEarth_m_s2) > 0.1)
+    note += text("; gravity_m_s2 is %.3g of the earth's, as a rig leaves it", gravity_m_s2 / kEarth_m_s2);
+  notes.push_back(note);
+}
+
 Json workspace_of(const cable::RobotParams& table) {
   workspace::RegionRequest request;
   request.point.node = table.segment_count;
@@ -178,6 +192,7 @@ Json checked_cable_robot(const config::RobotConfig& robot) {
   look_at_stiffness(table, problems);
   Json notes = Json::array();
   look_at_travel(table, notes);
+  tell_weight(table, notes);
   checked["problems"] = problems;
   checked["notes"] = notes;
   return checked;

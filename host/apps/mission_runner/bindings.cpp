@@ -71,7 +71,12 @@ int refusal(lua_State* state) {
     api::require_may(row, api::Role::kMission, robot.bounds);
     const Json fields = fields_at(state, 2, row);
     api::check_fields(row, fields, &robot.bounds, kFirst);
-    if (robot.serial) force_control::require_possible(*robot.serial, row.op, {fields, row.fields, robot.bounds});
+    const api::Arguments asked{fields, row.fields, robot.bounds};
+    if (robot.serial) {
+      force_control::require_possible(*robot.serial, row.op, asked);
+    } else if (std::string_view(row.op) == "payload") {
+      force_control::tip_load_of(asked);
+    }
   } catch (const std::exception& error) {
     put_text(problem, error.what());
   }

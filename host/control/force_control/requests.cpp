@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <vector>
 
+#include "firmware_like/cable/arm/setpoint.hpp"
 #include "firmware_like/math/trig.hpp"
 #include "host/api/server/request_error.hpp"
 #include "host/api/server/request_text.hpp"
@@ -97,6 +99,19 @@ serial::LinkMass payload_of(const api::Arguments& fields) {
                                                 ": no body has it: moments are over 0, none is larger than the other "
                                                 "two together: compute it from the body, about its centre of mass");
   return payload;
+}
+
+cable::TipLoad tip_load_of(const api::Arguments& fields) {
+  if (fields.has("inertia_kgm2"))
+    throw api::RequestError("bad_request",
+                            "inertia_kgm2: a cable arm takes a payload as a point mass: leave inertia_kgm2 out");
+  const cable::TipLoad payload{fields.number("mass_kg"), fields.has("center_m") ? fields.point("center_m") : Vec3{}};
+  if (is_usable(payload)) return payload;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "mass_kg = %.4g, center_m: a cable arm carries up to %.0f kg within %.0f m of its tip along each axis",
+                payload.mass_kg, cable::kMaxTipLoad_kg, cable::kMaxTipLoad_m);
+  throw api::RequestError("out_of_range", text);
 }
 
 void require_torque_drives(const config::SerialRobotConfig& robot) {

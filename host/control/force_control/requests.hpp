@@ -4,6 +4,7 @@
 
 #include <string_view>
 
+#include "firmware_like/cable/arm/robot_params.hpp"
 #include "firmware_like/serial/mass_table.hpp"
 #include "firmware_like/serial/push.hpp"
 #include "host/api/server/arguments.hpp"
@@ -17,6 +18,9 @@ serial::Push push_of(const config::SerialRobotConfig& robot, const api::Argument
 
 // What the arm carries, as the request `payload` says. Throws RequestError out_of_range for what is no body.
 serial::LinkMass payload_of(const api::Arguments& fields);
+// The same of a cable arm, which takes it as a point mass. Throws RequestError bad_request for an inertia, out_of_range
+// for what is no payload of such an arm.
+cable::TipLoad tip_load_of(const api::Arguments& fields);
 
 // Pushing and giving way need drives that follow torques. Throws RequestError refused.
 void require_torque_drives(const config::SerialRobotConfig& robot);

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "firmware_like/math/trig.hpp"
+#include "host/control/force_control/requests.hpp"
 #include "host/model/config/slit_mouth.hpp"
 #include "host/planning/planner/check/plan_check.hpp"
 #include "host/planning/planner/check/way_check.hpp"
@@ -271,18 +272,7 @@ void CableArmServer::shape(const api::Arguments& fields) {
 }
 
 void CableArmServer::carry(const api::Arguments& fields) {
-  if (fields.has("inertia_kgm2"))
-    throw api::RequestError("bad_request",
-                            "inertia_kgm2: a cable arm takes a payload as a point mass: leave inertia_kgm2 out");
-  const cable::TipLoad payload{fields.number("mass_kg"), fields.has("center_m") ? fields.point("center_m") : Vec3{}};
-  if (!is_usable(payload)) {
-    char text[160];
-    std::snprintf(
-        text, sizeof text,
-        "mass_kg = %.4g, center_m: a cable arm carries up to %.0f kg within %.0f m of its tip along each axis",
-        payload.mass_kg, cable::kMaxTipLoad_kg, cable::kMaxTipLoad_m);
-    throw api::RequestError("out_of_range", text);
-  }
+  const cable::TipLoad payload = force_control::tip_load_of(fields);
   config::RobotConfig loaded = robot_;
   loaded.table.tool = joined(robot_.table.tool, payload);
   planner::PlanCheck check;

@@ -22,8 +22,7 @@ constexpr std::array<RefusalRow, count_enumerators<Refusal, 100>()> kRows{{
     {kGate, "gate", "The gate would refuse an output to a drive.", "", kHold,
      "Ask for the same way with a lower rate_deg_s, or with move_cp in place of servo_cp."},
     {kTension, "tension_plan", "The tension plan would leave its limits.", "N", kHold,
-     "Retract, or ask for a pose that bends the arm less: this one's cables cannot be planned within limits; or let it "
-     "carry less."},
+     "Retract, or ask for another pose, or let it carry less: here cables cannot be planned within limits."},
     {kCableSpeed, "cable_speed", "A cable would move too fast.", "m per tick", kHold,
      "Ask for the same way more slowly: a lower rate_deg_s or speed_m_s, or move_cp in place of servo_cp."},
     {kNotAccepted, "not_accepted", "The controller would not take the command.", "", kHold,

@@ -149,7 +149,7 @@ LoadPose load_pose(const RobotParams& table, const ThetaVector& theta_rad) {
   const CableLayout layout = cable_layout(table);
   const LoadPose pose = with_approach(table, layout, theta_rad);
   if (!is_borne(table, layout, pose))
-    throw std::runtime_error(text("planned tensions leave %g to %g N there: bend the arm less",
+    throw std::runtime_error(text("planned tensions leave %g to %g N there: choose another pose",
                                   table.tension.floor_motor_N, table.tension.ceiling_free_N));
   return pose;
 }

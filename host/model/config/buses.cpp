@@ -14,6 +14,7 @@ constexpr double kMicrosecondsPerSecond = 1e6;
 constexpr std::size_t kMaxBuses = 8;
 constexpr double kSdoPairsPerSecond = 20.0;  // as host/drives/bus/bus_load.hpp has it
 constexpr std::int64_t kMasterNode = 127;    // docs/reference/drives.md
+constexpr double kMaxReading = 32767.0;      // of a load cell: 16 bits
 constexpr std::size_t kMaxCellChannels = 4;  // of a node: 16 bits each in one frame
 
 // Takes a node id, which nobody else has.
@@ -94,6 +95,10 @@ void read_load_cell(const Field& table, BusesConfig& buses) {
   cell.only({"newtons_per_step", "range_N", "agree_N", "when_lost"});
   buses.load_cell.newtons_per_step = cell.at("newtons_per_step").number({1e-6, 10});
   buses.load_cell.range_N = cell.at("range_N").number({1, 1e5});
+  const double most_N = kMaxReading * buses.load_cell.newtons_per_step;
+  if (buses.load_cell.range_N > most_N)
+    cell.at("range_N").refuse("at most " + Json(most_N).dump() + ", 32767 steps of newtons_per_step",
+                              "readings have 16 bits: take larger steps, or a smaller range");
   buses.load_cell.agree_N = cell.at("agree_N").number({0.1, 1e4});
   buses.load_cell.goes_on = cell.at("when_lost").choice({"hold", "torque"}) == "torque";
 }

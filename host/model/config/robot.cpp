@@ -45,6 +45,11 @@ void take_load_cells(const BusesConfig& buses, const std::string& file, RobotCon
     }
   }
   cell.range_N = buses.load_cell.range_N;
+  const double alarm_N = out.table.tension.alarm_N;
+  if (cell.range_N > 0.0 && cell.range_N < alarm_N)
+    throw std::runtime_error(file + ": bus table " + buses.name + ": load_cell.range_N: " + Json(cell.range_N).dump() +
+                             ": allowed from " + Json(alarm_N).dump() + ", tension.alarm_N of " + out.name +
+                             ": take cells that read so much, or lower the alarm");
   cell.agree_N = buses.load_cell.agree_N;
   cell.goes_on = buses.load_cell.goes_on ? 1 : 0;
 }

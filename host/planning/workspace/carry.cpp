@@ -22,6 +22,7 @@ constexpr double kPayloadStep_kg = 0.001;
 constexpr std::uint64_t kCarryStream = 11;
 constexpr Index kHardest = 8;  // poses that are made harder
 constexpr int kSweeps = 3;
+constexpr int kRounds = 8;
 
 PoseTension tension_at(const RobotParams& table, const CableLayout& layout, const ThetaVector& theta_rad) {
   const TensionPlan plan = plan_at_rest(table, layout, theta_rad);
@@ -108,6 +109,24 @@ Payload payload_of(const RobotParams& table, const CableLayout& layout, const Po
   return out;
 }
 
+// Which poses are hardest hangs on what the arm carries: those found are made harder with it, until it stays.
+Payload payload_of_hardest(const RobotParams& table, const CableLayout& layout, Poses poses) {
+  Payload out = payload_of(table, layout, poses);
+  for (int round = 0; round < kRounds && out.unloaded; ++round) {
+    const RobotParams loaded = with_payload(table, out.mass_kg + kPayloadStep_kg);
+    std::vector<std::pair<double, Index>> order;
+    for (Index i = 0; i < poses.size(); ++i)
+      order.emplace_back(-hardness(table.tension, tension_at(loaded, layout, poses[i])), i);
+    std::sort(order.begin(), order.end());
+    for (Index i = 0; i < std::min(kHardest, order.size()); ++i)
+      poses.push_back(harder(loaded, layout, poses[order[i].second]));
+    const double before_kg = out.mass_kg;
+    out = payload_of(table, layout, poses);
+    if (before_kg - out.mass_kg <= kPayloadStep_kg) break;
+  }
+  return out;
+}
+
 }  // namespace
 
 PoseTension tension_at(const config::RobotConfig& robot, const std::string& name) {
@@ -124,7 +143,7 @@ std::string refusal_of_pose(const config::RobotConfig& robot, const std::string&
   char text[240];
   std::snprintf(
       text, sizeof text,
-      ": tensions of %.1f to %.1f N are planned (%s): allowed %g to %g N: bend it less, let it carry less, or "
+      ": tensions of %.1f to %.1f N are planned (%s): allowed %g to %g N: choose another pose, let it carry less, or "
       "raise tension.ceiling_free_N",
       planned.min_N, planned.max_N,
       config::DriveNames(robot.table).cable(is_low ? planned.min_cable : planned.max_cable).c_str(),
@@ -183,7 +202,7 @@ Carried what_it_carries(const config::RobotConfig& robot, const Mounting& mounti
     out.worst = tension, out.worst_rad = theta_rad;
   }
   out.named = payload_of(table, layout, named);
-  out.all = payload_of(table, layout, all);
+  out.all = payload_of_hardest(table, layout, all);
   return out;
 }
 
