@@ -350,8 +350,8 @@ function arm.comply() end
 ---@field mass_kg number
 ---centre of mass, in the frame of the tip; left out: the tip's origin
 ---@field center_m? number[]
----xx, yy, zz, xy, xz, yz about the centre of mass, along the axes of the tip's frame; all six, or left out of
----nothing and of a cable arm, which takes a payload as a point mass
+---xx, yy, zz, xy, xz, yz about the centre of mass, along the axes of the tip's frame; all six. Left out of
+---mass 0, and of cable arms, which take a payload as a point mass
 ---@field inertia_kgm2? number
 
 ---What the arm carries beside its tool from now on, until another is told. Drives that follow torques get
