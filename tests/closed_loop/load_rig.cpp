@@ -92,11 +92,9 @@ Standing standing(const LabMounting& mounting, std::uint64_t seed, const RobotPa
   return out;
 }
 
-RobotParams with(const RobotParams& table, const calibration::LoadResult& found) {
-  const std::vector<calibration::LoadParameter> parameters = calibration::load_parameters(table);
+RobotParams with(const RobotParams& table, const calibration::FieldsFound& found) {
   RobotParams out = table;
-  for (std::size_t i = 0; i < parameters.size(); ++i)
-    *parameters[i].slot(out, parameters[i].index) = found.values[i].value;
+  calibration::set_fields(calibration::table_fields(table), found.values, out);
   return out;
 }
 

@@ -25,7 +25,7 @@ Standing standing(const LabMounting& mounting, std::uint64_t seed, const cable::
                   const std::vector<calibration::LoadPose>& poses);
 
 // The table with what was found.
-cable::RobotParams with(const cable::RobotParams& table, const calibration::LoadResult& found);
+cable::RobotParams with(const cable::RobotParams& table, const calibration::FieldsFound& found);
 
 // Drawn poses within 0.8 of the limits.
 std::vector<calibration::LoadPose> drawn_poses(const cable::RobotParams& table, std::uint64_t seed, std::size_t count);
