@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "host/apps/cli/arguments.hpp"
+#include "host/apps/cli/calibrate_tracker.hpp"
 #include "host/apps/cli/commands.hpp"
 #include "host/apps/cli/fields_report.hpp"
 #include "host/apps/launcher/calibrate_session.hpp"
@@ -233,10 +234,11 @@ int calibrate_command(const CalibrateOptions& options) {
       launcher::checked([&] { return config::parse_robot(text, options.robot, options.physics, buses); });
   launcher::check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
   if (!options.out_file.empty()) launcher::check_output("--out", options.out_file);
+  if (!options.tracker.empty()) return calibrate_by_tracker(options, robot);
   if (options.friction || options.load) return measure_moving(options, simulated, robot);
   if (!options.calibration.empty())
     throw launcher::BadInput("--calibration: '" + options.calibration +
-                             "': allowed with --friction or --load only: leave it out");
+                             "': allowed with --friction, --load or --tracker only: leave it out");
   const std::vector<std::string> poses = poses_of(options, robot);
   std::vector<cable::ThetaVector> thetas_rad;
   try {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "firmware_like/math/convert.hpp"
 #include "host/model/config/canonical.hpp"
 #include "host/model/config/field.hpp"
 #include "host/model/config/sha256.hpp"
@@ -186,6 +187,15 @@ Calibration parse_calibration(const std::string& text, const std::string& file, 
 
 Calibration load_calibration(const std::string& path, const config::RobotConfig& robot, const std::string& today) {
   return parse_calibration(config::read_text_file(path), path, robot, today);
+}
+
+void shift_zeros(const CableVector& longer_m, const config::RobotConfig& robot, Calibration& calibration) {
+  for (std::size_t i = 0; i < calibration.cables.size(); ++i) {
+    CableCalibration& cable = calibration.cables[i];
+    const double counts = longer_m[i] / metres_per_count(cable, robot);
+    cable.zero_counts -= cable.direction * to_counts(counts).value;
+    cable.offset_m += longer_m[i];
+  }
 }
 
 void apply(const Calibration& calibration, config::RobotConfig& robot) {

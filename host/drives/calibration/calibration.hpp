@@ -54,6 +54,9 @@ Calibration parse_calibration(const std::string& text, const std::string& file, 
                               const std::string& today);
 Calibration load_calibration(const std::string& path, const config::RobotConfig& robot, const std::string& today);
 
+// Every cable is longer than its drive says by `longer_m`: its zero is put right.
+void shift_zeros(const cable::CableVector& longer_m, const config::RobotConfig& robot, Calibration& calibration);
+
 // The robot with the calibration's drums, directions, zeros and drive serial numbers in place of its table's, and its
 // friction and other fields where those were measured.
 void apply(const Calibration& calibration, config::RobotConfig& robot);
