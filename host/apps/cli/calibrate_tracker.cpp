@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 
 #include "firmware_like/math/trig.hpp"
 #include "host/apps/cli/fields_report.hpp"
@@ -52,9 +53,16 @@ int calibrate_by_tracker(const CalibrateOptions& options, const config::RobotCon
   return launcher::checked([&] {
     calibration::Calibration whole =
         calibration::load_calibration(options.calibration, robot, calibration::today_utc());
-    const std::vector<calibration::StillPose> poses =
-        still_poses(stays_of(folder, robot), calibration::read_tracker(options.tracker));
-    const TrackerResult found = calibration::tracker_fit(robot.table, whole.fields, poses);
+    const Stays run = stays_of(folder, robot);
+    const std::vector<calibration::TrackedPose> tracked = calibration::read_tracker(options.tracker);
+    std::vector<calibration::StillPose> poses;
+    TrackerResult found;
+    try {
+      poses = still_poses(run, tracked);
+      found = calibration::tracker_fit(robot.table, whole.fields, poses);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(options.tracker + ", run " + folder + ": " + error.what());
+    }
     show(found, poses.size(), robot, options.json);
     if (!found.problems.empty()) return launcher::kExitFailure;
     whole.fields = calibration::merged(calibration::table_fields(robot.table), whole.fields, found.values);
