@@ -43,12 +43,19 @@ ArmUnderControl::ArmUnderControl(const PlantSetup& setup, const cable::RobotPara
     zero_payout_m_[c] = layout.zero_length_m[c] + table_.lead_m;
     in_.drive[c].statusword = kStatusDisabled;
   }
+  if (setup.geometry_share == 0.0) return;
+  cable::RobotParams built = table_;
+  for (std::size_t j = 0; j < as_index(table_.segment_count); ++j)
+    built.segment[j].module_length_m = plant_.module_length_m(j);
+  const cable::CableLayout there = cable_layout(built);
+  for (std::size_t c = 0; c < as_index(table_.cable_count()); ++c)
+    jig_m_[c] = there.zero_length_m[c] - layout.zero_length_m[c];
 }
 
 cable::CableVector ArmUnderControl::targets_m() const {
   cable::CableVector target{};
   for (std::size_t c = 0; c < as_index(table_.cable_count()); ++c) {
-    target[c] = payout_at_counts(table_.drive[c], zero_payout_m_[c], out_.drive[c].target_counts);
+    target[c] = payout_at_counts(table_.drive[c], zero_payout_m_[c], out_.drive[c].target_counts) + jig_m_[c];
   }
   return target;
 }
@@ -71,7 +78,7 @@ void ArmUnderControl::read_drives() {
       continue;
     }
     answer(c, out_.drive[c].controlword);
-    in_.drive[c].position_counts = to_counts(counts_at_payout(drive, zero_payout_m_[c], payout[c])).value;
+    in_.drive[c].position_counts = to_counts(counts_at_payout(drive, zero_payout_m_[c], payout[c] - jig_m_[c])).value;
     in_.drive[c].torque_permille = narrow<std::int16_t>(to_counts(tension[c] / drive.newtons_per_permille).value);
   }
 }

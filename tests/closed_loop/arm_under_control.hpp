@@ -69,6 +69,7 @@ class ArmUnderControl {
 
   cable::RobotParams table_;
   cable::CableVector zero_payout_m_{};
+  cable::CableVector jig_m_{};  // path of the built arm at the zero pose beyond the table's: a jig has seen it
   Plant plant_;
   cable::Controller controller_;
   cable::Inputs in_{};

@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include "arm_under_control.hpp"
+#include "firmware_like/cable/arm/payout.hpp"
 #include "firmware_like/cable/arm/static_load.hpp"
 #include "firmware_like/math/trig.hpp"
 #include "host/base/random/random.hpp"
+#include "host/drives/calibration/hand_eye.hpp"
 
 namespace liana::closed_loop {
 
@@ -43,8 +45,19 @@ calibration::LoadReading come_to(ArmUnderControl& arm, const calibration::LoadPo
   return read(arm);
 }
 
-PlantSetup setup_of(const LabMounting& mounting, std::uint64_t seed) {
-  return {"nominal", seed, true, "park", CLOSED_LOOP_DATA "/lab_1g.json", mounting.gravity_m_s2};
+PlantSetup setup_of(const LabMounting& mounting, std::uint64_t seed, double geometry_share = 0.0,
+                    const CableVector& zero_m = {}) {
+  return {"nominal",      seed,  true, "park", CLOSED_LOOP_DATA "/lab_1g.json", mounting.gravity_m_s2,
+          geometry_share, zero_m};
+}
+
+// A marker at the true tip as a tracker sees it, both somewhere.
+Pose seen(const Pose& tip_in_base, simulated::RandomStream& random) {
+  const calibration::HandEye tracker{{{1.5, -0.4, 0.8}, quaternion_of({0.3, -1.1, 0.6})},
+                                     {{0.03, 0.02, -0.04}, quaternion_of({-0.5, 0.2, 0.9})}};
+  const auto noise = [&](double sd) { return Vec3{random.normal(sd), random.normal(sd), random.normal(sd)}; };
+  const Pose marker = tracker.marker_in_tracker(tip_in_base);
+  return {add(marker.position_m, noise(0.1e-3)), multiply(quaternion_of(noise(1e-3)), marker.quaternion)};
 }
 
 double root_mean(const CableVector& a, const CableVector& b, std::int32_t count) {
@@ -69,9 +82,27 @@ calibration::LoadResult find_load(const LabMounting& mounting, std::uint64_t see
   return fit.solve();
 }
 
+calibration::TrackerResult find_geometry(const LabMounting& mounting, std::uint64_t seed, double geometry_share,
+                                         const std::vector<calibration::LoadPose>& poses) {
+  const RobotParams table = lab_table(mounting.gravity_m_s2);
+  ArmUnderControl arm(setup_of(mounting, seed, geometry_share), table);
+  arm.boot();
+  simulated::RandomStream random(seed, 78);
+  std::vector<calibration::StillPose> still;
+  for (const calibration::LoadPose& pose : poses) {
+    const calibration::LoadReading now = come_to(arm, pose, 1.0);
+    still.push_back({now.theta_rad, {}, now.tension_N, seen(arm.plant().tip_in_base(), random)});
+    for (std::size_t c = 0; c < static_cast<std::size_t>(table.cable_count()); ++c) {
+      const DriveParams& drive = table.drive[c];
+      still.back().position_m[c] = payout_at_counts(drive, 0.0, arm.inputs().drive[c].position_counts);
+    }
+  }
+  return calibration::tracker_fit(table, {}, still);
+}
+
 Standing standing(const LabMounting& mounting, std::uint64_t seed, const RobotParams& table,
-                  const std::vector<calibration::LoadPose>& poses) {
-  ArmUnderControl arm(setup_of(mounting, seed), table);
+                  const std::vector<calibration::LoadPose>& poses, double geometry_share, const CableVector& zero_m) {
+  ArmUnderControl arm(setup_of(mounting, seed, geometry_share, zero_m), table);
   arm.boot();
   Standing out;
   for (const calibration::LoadPose& pose : poses) {
@@ -92,11 +123,9 @@ Standing standing(const LabMounting& mounting, std::uint64_t seed, const RobotPa
   return out;
 }
 
-RobotParams with(const RobotParams& table, const calibration::LoadResult& found) {
-  const std::vector<calibration::LoadParameter> parameters = calibration::load_parameters(table);
+RobotParams with(const RobotParams& table, const calibration::FieldsFound& found) {
   RobotParams out = table;
-  for (std::size_t i = 0; i < parameters.size(); ++i)
-    *parameters[i].slot(out, parameters[i].index) = found.values[i].value;
+  calibration::set_fields(calibration::table_fields(table), found.values, out);
   return out;
 }
 

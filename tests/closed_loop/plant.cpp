@@ -26,6 +26,10 @@ bench::RobotConfig built(const PlantSetup& setup) {
     const Vec3& g_m_s2 = *setup.mounted_m_s2;
     table.gravity_m_s2 = {g_m_s2[0], g_m_s2[1], g_m_s2[2]};
   }
+  bench::Random geometry(setup.seed, "closed loop geometry");
+  const auto drawn = [&] { return 1.0 + setup.geometry_share * geometry.uniform(-1.0, 1.0); };
+  for (bench::SegmentConfig& segment : table.segments) segment.module_length_m *= drawn();
+  table.hole_radius_m *= drawn();
   return setup.spread ? bench::spread_load(table, setup.seed) : table;
 }
 
@@ -56,7 +60,9 @@ struct Plant::Parts {
         drum_m(arm.payouts_m()),
         noisy(setup.spread),
         noise(setup.seed, "closed loop torque noise"),
-        fault_noise(setup.seed, "closed loop fault noise") {}
+        fault_noise(setup.seed, "closed loop fault noise") {
+    for (std::size_t c = 0; c < robot.cable_count(); ++c) truth.zero_offset_m[c] -= setup.zero_m[c];
+  }
 };
 
 Plant::Plant(const PlantSetup& setup) : parts_(std::make_unique<Parts>(built(setup), setup)) {}
@@ -99,6 +105,7 @@ void Plant::advance(double tick_s, const cable::CableVector& target_m, bool powe
 const cable::ThetaVector& Plant::theta_rad() const { return parts_->arm.theta_rad(); }
 const cable::ThetaVector& Plant::rate_rad_s() const { return parts_->arm.rate_rad_s(); }
 double Plant::friction_mu() const { return parts_->truth.mu; }
+double Plant::module_length_m(std::size_t segment) const { return parts_->robot.segments[segment].module_length_m; }
 
 Pose Plant::tip_in_base() const {
   const bench::Pose tip = parts_->arm.tip();

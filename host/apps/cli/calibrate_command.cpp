@@ -3,7 +3,9 @@
 #include <sstream>
 
 #include "host/apps/cli/arguments.hpp"
+#include "host/apps/cli/calibrate_tracker.hpp"
 #include "host/apps/cli/commands.hpp"
+#include "host/apps/cli/fields_report.hpp"
 #include "host/apps/launcher/calibrate_session.hpp"
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/interrupt.hpp"
@@ -144,28 +146,20 @@ Json json_of(const calibration::LoadError& error) {
 
 void show(const calibration::LoadResult& load, const config::RobotConfig& robot, bool as_json) {
   if (as_json) {
-    Json report{
-        {"load", Json::array()},        {"not_told_apart", load.not_told_apart},  {"before", json_of(load.before)},
-        {"after", json_of(load.after)}, {"with_gains", json_of(load.with_gains)}, {"problems", load.problems}};
-    for (const calibration::LoadValue& one : load.values)
-      report["load"].push_back({{"field", one.field}, {"value", one.value}, {"sd", one.sd}});
+    Json report = fields_json(load);
+    report["before"] = json_of(load.before);
+    report["after"] = json_of(load.after);
+    report["with_gains"] = json_of(load.with_gains);
     std::printf("%s\n", report.dump().c_str());
     return;
   }
-  const std::vector<calibration::LoadParameter> parameters = calibration::load_parameters(robot.table);
-  std::printf("%-40s %10s %10s %10s\n", "field", "table", "found", "+-");
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const calibration::LoadValue& one = load.values[i];
-    std::printf("%-40s %10.5g %10.5g %10.2g\n", one.field.c_str(), parameters[i].table_value, one.value, one.sd);
-  }
-  for (const std::vector<std::string>& fields : load.not_told_apart)
-    std::printf("cannot be told apart in these poses: %s\n", list_of(fields).c_str());
+  print_fields(load, robot.table);
   std::printf(
       "not explained, rms: %.3f N m and %.2f N with the table, %.3f N m and %.2f N as found, %.3f N m and %.2f N "
       "with the torque gains of the drives as found, too\n",
       load.before.torque_Nm, load.before.tension_N, load.after.torque_Nm, load.after.tension_N,
       load.with_gains.torque_Nm, load.with_gains.tension_N);
-  for (const std::string& problem : load.problems) std::printf("problem: %s\n", problem.c_str());
+  print_problems(load);
 }
 
 // Where the load is measured; what is wrong with a pose is said before anything starts.
@@ -206,11 +200,13 @@ int measure_moving(const CalibrateOptions& options, bool simulated, const config
   const launcher::SystemLayout plan = launcher::make_layout(run);
   const launcher::InterruptGuard interrupts;
   if (options.load) {
+    config::RobotConfig measured = robot;  // its geometry as it is known
+    calibration::set_fields(calibration::geometry_fields(robot.table), whole.fields, measured.table);
     const calibration::LoadResult load = found_with(
-        plan, interrupts, [&](launcher::CalibrateSession&& session) { return session.measure_load(robot, poses); });
+        plan, interrupts, [&](launcher::CalibrateSession&& session) { return session.measure_load(measured, poses); });
     show(load, robot, options.json);
     if (!load.problems.empty()) return launcher::kExitFailure;
-    whole.load = load.values;
+    whole.fields = calibration::merged(calibration::table_fields(robot.table), whole.fields, load.values);
   } else {
     whole.friction = found_with(plan, interrupts,
                                 [&](launcher::CalibrateSession&& session) { return session.measure_friction(robot); });
@@ -238,10 +234,11 @@ int calibrate_command(const CalibrateOptions& options) {
       launcher::checked([&] { return config::parse_robot(text, options.robot, options.physics, buses); });
   launcher::check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
   if (!options.out_file.empty()) launcher::check_output("--out", options.out_file);
+  if (!options.tracker.empty()) return calibrate_by_tracker(options, robot);
   if (options.friction || options.load) return measure_moving(options, simulated, robot);
   if (!options.calibration.empty())
     throw launcher::BadInput("--calibration: '" + options.calibration +
-                             "': allowed with --friction or --load only: leave it out");
+                             "': allowed with --friction, --load or --tracker only: leave it out");
   const std::vector<std::string> poses = poses_of(options, robot);
   std::vector<cable::ThetaVector> thetas_rad;
   try {

@@ -158,7 +158,9 @@ struct CalibrateOptions {
   std::string physics = "nominal";
   std::string cross_wired;  // empty, or two drives of the simulated arm whose cables are exchanged
   std::string out_file;     // empty: the calibration is only printed
-  std::string calibration;  // with friction or load: the file that it is added to
+  std::string calibration;  // with friction, load or tracker: the file that it is added to
+  std::string tracker;      // not empty: poses that a tracker saw, in place of a measurement
+  std::string run;          // with tracker: during which run; empty: the newest
   std::uint64_t seed = 1;
   bool friction = false;  // move the arm and measure friction, instead of the drives in fixtures
   bool load = false;      // the same with weight and springs
@@ -251,8 +253,8 @@ struct LogOptions {
   std::string run;      // a folder, or the name of one of the newest runs; empty: the newest
   double from_s = 0.0;  // arm time
   double to_s = kLatestArmTime_s;
-  std::string csv, mcap, candump;  // of log export: files
-  std::string ticks;               // of log export: a folder
+  std::string csv, mcap, candump, tracker;  // of log export: files
+  std::string ticks;                        // of log export: a folder
   bool json = false;
 };
 // The newest runs: name, begin, how each ended, length and size.

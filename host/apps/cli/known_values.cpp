@@ -41,6 +41,8 @@ constexpr KnownValues kValues[] = {
     {"--csv", "", "", true},
     {"--mcap", "", "", true},
     {"--candump", "", "", true},
+    {"--tracker", "", "", true},
+    {"--run", "", "", true},
     {"--token-file", "", "", true},
     {"--cert", "", "", true},
     {"--key", "", "", true},

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cinttypes>
 #include <cstdio>
 #include <filesystem>
@@ -8,6 +9,7 @@
 
 #include "host/apps/cli/commands.hpp"
 #include "host/apps/cli/run_choice.hpp"
+#include "host/apps/cli/tracker_export.hpp"
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/output.hpp"
 #include "host/apps/launcher/runs.hpp"
@@ -258,9 +260,11 @@ int log_export_command(const LogOptions& options) {
   const std::tuple<const char*, const char*, std::string, Write> kinds[]{
       {"--csv", "rows", options.csv, archive::write_csv},
       {"--mcap", "messages", options.mcap, archive::write_mcap},
-      {"--candump", "frames", options.candump, archive::write_candump}};
-  if (options.csv.empty() && options.mcap.empty() && options.candump.empty() && options.ticks.empty())
-    throw launcher::BadInput("log export: no file given; give --csv, --mcap, --candump or --ticks");
+      {"--candump", "frames", options.candump, archive::write_candump},
+      {"--tracker", "rows", options.tracker, write_tracker}};
+  const bool has_file = std::ranges::any_of(kinds, [](const auto& kind) { return !std::get<2>(kind).empty(); });
+  if (!has_file && options.ticks.empty())
+    throw launcher::BadInput("log export: no file given; give --csv, --mcap, --candump, --tracker or --ticks");
   for (const auto& [option, unit, file, write] : kinds) {
     if (!file.empty()) launcher::check_output(option, file);
   }

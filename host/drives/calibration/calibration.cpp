@@ -1,9 +1,10 @@
 #include "host/drives/calibration/calibration.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 
-#include "host/drives/calibration/load_model.hpp"
+#include "firmware_like/math/convert.hpp"
 #include "host/model/config/canonical.hpp"
 #include "host/model/config/field.hpp"
 #include "host/model/config/sha256.hpp"
@@ -19,6 +20,10 @@ constexpr double kTwoPi = 6.28318530717958647692;
 constexpr double kOtherDrumShare = 0.05;  // a drum further from the table's radius is another drum
 constexpr double kMaxFriction = 0.5;      // as in robot tables
 constexpr const char* kAgain = "run liana calibrate again";
+
+double metres_per_count(const CableCalibration& cable, const config::RobotConfig& robot) {
+  return kTwoPi * cable.drum_radius_m / (robot.counts_per_turn * robot.gear);
+}
 
 std::string checksum(Json content) {
   content.erase("sha256");
@@ -52,8 +57,8 @@ Json content_of(const Calibration& calibration) {
                   {"date", calibration.date},
                   {"cables", cables}};
   if (calibration.friction) content["friction"] = json_of(*calibration.friction);
-  for (const LoadValue& one : calibration.load)
-    content["load"].push_back({{"field", one.field}, {"value", one.value}, {"sd", one.sd}});
+  for (const FieldValue& one : calibration.fields)
+    content["fields"].push_back({{"field", one.field}, {"value", one.value}, {"sd", one.sd}});
   return content;
 }
 
@@ -109,18 +114,24 @@ Friction read_friction(const config::Field& field, const config::RobotConfig& ro
   return out;
 }
 
-std::vector<LoadValue> read_load(const config::Field& list, const config::RobotConfig& robot) {
-  const std::vector<LoadParameter> parameters = load_parameters(robot.table);
-  list.size(parameters.size(), parameters.size(), "one entry for each number of the load that the robot table gives");
-  std::vector<LoadValue> out;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const LoadParameter& known = parameters[i];
+// In the order of the table's fields, so that none is there twice.
+std::vector<FieldValue> read_fields(const config::Field& list, const config::RobotConfig& robot) {
+  const std::vector<TableField> fields = table_fields(robot.table);
+  const std::size_t count = list.size(1, fields.size(), "leave it out where nothing was measured");
+  std::vector<FieldValue> out;
+  auto known = fields.begin();
+  for (std::size_t i = 0; i < count; ++i) {
     const config::Field entry = list.element(i);
     entry.only({"field", "value", "sd"});
-    if (entry.at("field").json() != known.field) entry.at("field").refuse("\"" + known.field + "\"", kAgain);
-    const double off = kPlausibleDeviations * known.prior_sd;
-    out.push_back({known.field, entry.at("value").number({known.table_value - off, known.table_value + off}),
-                   entry.at("sd").number({0, known.prior_sd})});
+    known =
+        std::find_if(known, fields.end(), [&](const TableField& one) { return entry.at("field").json() == one.field; });
+    if (known == fields.end())
+      entry.at("field").refuse("a field that is measured of this robot, once, in the order of docs/how-to/calibrate.md",
+                               kAgain);
+    out.push_back({known->field,
+                   entry.at("value").number({known->table_value - known->room(), known->table_value + known->room()}),
+                   entry.at("sd").number({0, known->table_sd, true})});
+    ++known;
   }
   return out;
 }
@@ -152,7 +163,7 @@ Calibration parse_calibration(const std::string& text, const std::string& file, 
     sum.refuse(checksum(content),
                "the file was changed or damaged after it was written; take a good copy, or " + std::string(kAgain));
   }
-  table.only({"format", "kind", "robot", "robot_sha256", "date", "cables", "friction", "load", "sha256"});
+  table.only({"format", "kind", "robot", "robot_sha256", "date", "cables", "friction", "fields", "sha256"});
   Calibration out;
   out.robot = table.at("robot").name(40);
   if (out.robot != robot.name)
@@ -170,7 +181,7 @@ Calibration parse_calibration(const std::string& text, const std::string& file, 
   cables.size(count, count, "one entry per cable, those of segment 1 first");
   for (std::size_t i = 0; i < count; ++i) out.cables.push_back(read_cable(cables.element(i), robot));
   if (content.contains("friction")) out.friction = read_friction(table.at("friction"), robot);
-  if (content.contains("load")) out.load = read_load(table.at("load"), robot);
+  if (content.contains("fields")) out.fields = read_fields(table.at("fields"), robot);
   return out;
 }
 
@@ -178,18 +189,25 @@ Calibration load_calibration(const std::string& path, const config::RobotConfig&
   return parse_calibration(config::read_text_file(path), path, robot, today);
 }
 
+void shift_zeros(const CableVector& longer_m, const config::RobotConfig& robot, Calibration& calibration) {
+  for (std::size_t i = 0; i < calibration.cables.size(); ++i) {
+    CableCalibration& cable = calibration.cables[i];
+    const double counts = longer_m[i] / metres_per_count(cable, robot);
+    cable.zero_counts -= cable.direction * to_counts(counts).value;
+    cable.offset_m += longer_m[i];
+  }
+}
+
 void apply(const Calibration& calibration, config::RobotConfig& robot) {
   if (calibration.friction) robot.table.friction_mu = calibration.friction->arm.mu;
-  const std::vector<LoadParameter> parameters = load_parameters(robot.table);
-  for (std::size_t i = 0; i < calibration.load.size(); ++i)
-    *parameters[i].slot(robot.table, parameters[i].index) = calibration.load[i].value;
+  set_fields(table_fields(robot.table), calibration.fields, robot.table);
   robot.drive_serials.clear();
   for (std::size_t i = 0; i < calibration.cables.size(); ++i) {
     const CableCalibration& cable = calibration.cables[i];
     DriveParams& drive = robot.table.drive[i];
     drive.direction = cable.direction;
     drive.zero_counts = cable.zero_counts;
-    drive.metres_per_count = kTwoPi * cable.drum_radius_m / (robot.counts_per_turn * robot.gear);
+    drive.metres_per_count = metres_per_count(cable, robot);
     robot.drive_serials.push_back(cable.serial);
   }
 }

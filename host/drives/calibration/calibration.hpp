@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "host/drives/calibration/table_fields.hpp"
 #include "host/model/config/config.hpp"
 
 namespace liana::calibration {
@@ -31,20 +32,13 @@ struct Friction {
   std::vector<std::optional<FrictionOf>> segment;  // nothing where it cannot be told apart
 };
 
-// One number of the load, in place of the robot table's (load_model.hpp), and its standard deviation.
-struct LoadValue {
-  std::string field;
-  double value = 0.0;
-  double sd = 0.0;
-};
-
 struct Calibration {
   std::string robot;         // name
   std::string robot_sha256;  // of the robot's canonical JSON
   std::string date;          // YYYY-MM-DD, UTC
   std::vector<CableCalibration> cables;
   std::optional<Friction> friction{};  // only where it was measured
-  std::vector<LoadValue> load{};       // all that load_parameters() has, or nothing where it was not measured
+  std::vector<FieldValue> fields{};    // what was measured of the robot table's (table_fields.hpp), in their order
 };
 
 // Today in UTC as YYYY-MM-DD.
@@ -60,8 +54,11 @@ Calibration parse_calibration(const std::string& text, const std::string& file, 
                               const std::string& today);
 Calibration load_calibration(const std::string& path, const config::RobotConfig& robot, const std::string& today);
 
+// Every cable is longer than its drive says by `longer_m`: its zero is put right.
+void shift_zeros(const cable::CableVector& longer_m, const config::RobotConfig& robot, Calibration& calibration);
+
 // The robot with the calibration's drums, directions, zeros and drive serial numbers in place of its table's, and its
-// friction and load where those were measured.
+// friction and other fields where those were measured.
 void apply(const Calibration& calibration, config::RobotConfig& robot);
 
 }  // namespace liana::calibration

@@ -4,12 +4,11 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <vector>
 
-#include "host/drives/calibration/calibration.hpp"
 #include "host/drives/calibration/load_model.hpp"
 #include "host/drives/calibration/load_poses.hpp"
+#include "host/drives/calibration/prior_fit.hpp"
 
 namespace liana::calibration {
 
@@ -26,14 +25,9 @@ struct LoadError {
   double tension_N = 0.0;
 };
 
-struct LoadResult {
-  std::vector<LoadValue> values;
-  // Fields that the poses cannot tell apart: of each direction in which the readings say less than the table, those
-  // that take part in it.
-  std::vector<std::vector<std::string>> not_told_apart;
+struct LoadResult : FieldsFound {
   LoadError before, after;
-  LoadError with_gains;               // after, the drives' torque gains corrected as they were found, too
-  std::vector<std::string> problems;  // values beyond what is plausible: field, value, what is allowed, what to do
+  LoadError with_gains;  // after, the drives' torque gains corrected as they were found, too
 };
 
 class LoadFit {
@@ -48,13 +42,12 @@ class LoadFit {
   LoadResult solve() const;
 
  private:
-  struct Sum;
   LoadEquations equations(const std::array<LoadReading, 2>& sides, const cable::RobotParams& table) const;
-  Sum sum(const cable::RobotParams& table, const Eigen::VectorXd& value) const;
+  PriorFit sum(const cable::RobotParams& table, const Eigen::VectorXd& value) const;
   LoadError error(const cable::RobotParams& table, const Eigen::VectorXd& gain) const;
 
   cable::RobotParams table_;
-  std::vector<LoadParameter> parameters_;
+  std::vector<TableField> fields_;
   Eigen::VectorXd prior_;
   std::vector<std::array<LoadReading, 2>> poses_;
 };

@@ -75,11 +75,9 @@ bool is_borne(const RobotParams& table, const CableLayout& layout, const LoadPos
 }
 
 // What a reading in this pose adds, every row in units of its noise and every column of what is known before.
-Eigen::MatrixXd information(const RobotParams& table, const CableLayout& layout,
-                            const std::vector<LoadParameter>& parameters, const Eigen::VectorXd& prior,
-                            const ThetaVector& theta_rad) {
-  const LoadEquations one =
-      load_equations(table, parameters, theta_rad, plan_at_rest(table, layout, theta_rad).motor_N);
+Eigen::MatrixXd information(const RobotParams& table, const CableLayout& layout, const std::vector<TableField>& fields,
+                            const Eigen::VectorXd& prior, const ThetaVector& theta_rad) {
+  const LoadEquations one = load_equations(table, fields, theta_rad, plan_at_rest(table, layout, theta_rad).motor_N);
   const Eigen::MatrixXd rows = one.reading_Nm.array().inverse().matrix().asDiagonal() * one.rows * prior.asDiagonal();
   return rows.transpose() * rows;
 }
@@ -97,11 +95,11 @@ ThetaVector LoadPose::beside_rad(double side) const {
 }
 
 std::vector<LoadPose> load_poses(const RobotParams& table, Index count) {
-  const std::vector<LoadParameter> parameters = load_parameters(table);
-  if (parameters.empty())
+  const std::vector<TableField> fields = load_fields(table);
+  if (fields.empty())
     throw std::runtime_error("the robot table has neither gravity_m_s2 nor joint stiffness: there is no load to find");
   const CableLayout layout = cable_layout(table);
-  const Eigen::VectorXd prior = prior_sd(parameters, static_cast<Index>(table.cable_count()));
+  const Eigen::VectorXd prior = prior_sd(fields, static_cast<Index>(table.cable_count()));
   simulated::RandomStream random(kSeed, kCandidates);
   std::vector<LoadPose> candidates;
   std::vector<Eigen::MatrixXd> adds;
@@ -113,7 +111,7 @@ std::vector<LoadPose> load_poses(const RobotParams& table, Index count) {
     const LoadPose pose = with_approach(table, layout, theta_rad);
     if (!is_borne(table, layout, pose)) continue;
     candidates.push_back(pose);
-    adds.push_back(information(table, layout, parameters, prior, theta_rad));
+    adds.push_back(information(table, layout, fields, prior, theta_rad));
   }
   if (candidates.size() < count)
     throw std::runtime_error(

@@ -40,8 +40,18 @@ void add_calibrate(CLI::App& app, Action& action) {
          "measure weight and springs instead: the arm is enabled and goes to twelve poses, or to those of --poses, "
          "each from two sides, for about five minutes; needs room for all its poses")
       ->excludes("--friction");
-  sub.add_option("--calibration", calibrate.calibration,
-                 "with --friction or --load: the calibration that it is added to");
+  CLI::Option* known = sub.add_option("--calibration", calibrate.calibration,
+                                      "with --friction, --load or --tracker: the calibration that it is added to; with "
+                                      "--tracker that of the run");
+  sub.add_option("--tracker", calibrate.tracker,
+                 "find lengths, hole radius and stiffness instead, from the poses of a marker at the tip during a run, "
+                 "a CSV file; no arm moves")
+      ->needs(known)
+      ->excludes("--friction", "--load", "--poses", "--cross-wired");
+  sub.add_option("--run", calibrate.run,
+                 "with --tracker: the run, a folder or a name of liana log list; the newest "
+                 "where not given")
+      ->needs("--tracker");
   add_seed(sub, calibrate.seed, "of the simulated arm");
   add_json(sub, calibrate.json);
 }

@@ -115,6 +115,9 @@ void add_log_export(CLI::App& log, Action& action) {
   sub.add_option("--csv", exported.csv, "file for telemetry as a table");
   sub.add_option("--mcap", exported.mcap, "file for the arm in its scene, angles, events, as Foxglove shows them");
   sub.add_option("--candump", exported.candump, "file for the traffic of all buses");
+  sub.add_option("--tracker", exported.tracker,
+                 "of a simulated run with --record: file for what a tracker would have seen of its tip, for liana "
+                 "calibrate --tracker");
   sub.add_option("--ticks", exported.ticks, "folder for every control tick, as --record writes it: liana replay");
 }
 

@@ -11,9 +11,9 @@
 #include "firmware_like/math/trig.hpp"
 #include "host/base/random/random.hpp"
 #include "host/drives/calibration/load_poses.hpp"
-#include "host/model/config/bench_buses.hpp"
 #include "host/model/config/sha256.hpp"
 #include "tests/host/drives/calibration/day.hpp"
+#include "tests/host/drives/calibration/lab_arm.hpp"
 #include "tests/host/model/config/tables.hpp"
 
 namespace liana::calibration {
@@ -21,18 +21,12 @@ namespace liana::calibration {
 using namespace cable;
 namespace {
 
-config::RobotConfig lab_1g(double stiffness_Nm_per_rad = 0.0) {
-  Json table = config::good_table("robot", "lab_1g");
-  if (stiffness_Nm_per_rad > 0.0) table["joint"]["stiffness_Nm_per_rad"] = stiffness_Nm_per_rad;
-  return config::parse_robot(table.dump(), "r", "nominal", config::parse_buses(config::bench_buses(15), "b"));
-}
-
 // An arm whose load is one prior deviation off the table's, up and down by turns.
 RobotParams off_by_one_deviation(const RobotParams& table) {
   RobotParams out = table;
   double sign = 0.5;
-  for (const LoadParameter& parameter : load_parameters(table)) {
-    *parameter.slot(out, parameter.index) += sign * parameter.prior_sd;
+  for (const TableField& parameter : load_fields(table)) {
+    *parameter.slot(out, parameter.index) += sign * parameter.known_sd;
     sign = -sign;
   }
   out.gravity_m_s2 = scale(out.gravity_m_s2, norm(table.gravity_m_s2) / norm(out.gravity_m_s2));
@@ -60,7 +54,7 @@ LoadResult found(const RobotParams& table, const RobotParams& truth, const std::
 TEST(LoadFit, MassesCentersSpringsAndGravityAreFoundWithTheirUncertainty) {
   const RobotParams table = lab_1g(2.0).table, truth = off_by_one_deviation(table);
   const LoadResult result = found(table, truth, load_poses(table));
-  const std::vector<LoadParameter> parameters = load_parameters(table);
+  const std::vector<TableField> parameters = load_fields(table);
   ASSERT_EQ(result.values.size(), parameters.size());
   int known = 0;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -68,8 +62,8 @@ TEST(LoadFit, MassesCentersSpringsAndGravityAreFoundWithTheirUncertainty) {
     const double is = *parameters[i].slot(copy, parameters[i].index);
     EXPECT_EQ(result.values[i].field, parameters[i].field);
     EXPECT_NEAR(result.values[i].value, is, 3.5 * result.values[i].sd) << parameters[i].field;
-    EXPECT_LE(result.values[i].sd, parameters[i].prior_sd);
-    known += result.values[i].sd < 0.5 * parameters[i].prior_sd;
+    EXPECT_LE(result.values[i].sd, parameters[i].known_sd);
+    known += result.values[i].sd < 0.5 * parameters[i].known_sd;
   }
   EXPECT_GE(known, 8) << "of 16: three stiffnesses, gravity, and the heavy ones";
   EXPECT_LT(result.after.torque_Nm, 0.4 * result.before.torque_Nm);
@@ -130,17 +124,17 @@ TEST(LoadFit, ACalibrationKeepsTheLoadTheArmIsGivenItAndAnImplausibleOneIsRefuse
   Calibration calibration{arm.name, config::sha256_hex(arm.canonical_json), kDay, {}};
   for (std::size_t i = 0; i < static_cast<std::size_t>(arm.table.cable_count()); ++i)
     calibration.cables.push_back({static_cast<std::uint32_t>(i + 1), 1, 500000, arm.drum_radius_m, 30.0, 0.0});
-  calibration.load = found(table, truth, load_poses(table)).values;
+  calibration.fields = found(table, truth, load_poses(table)).values;
   const Calibration read = parse_calibration(calibration_json(calibration), "arm.json", arm, kDay);
   EXPECT_EQ(calibration_json(read), calibration_json(calibration));
   apply(read, arm);
-  for (const LoadParameter& parameter : load_parameters(table)) {
-    const auto one = std::ranges::find(calibration.load, parameter.field, &LoadValue::field);
+  for (const TableField& parameter : load_fields(table)) {
+    const auto one = std::ranges::find(calibration.fields, parameter.field, &FieldValue::field);
     EXPECT_EQ(*parameter.slot(arm.table, parameter.index), one->value) << parameter.field;
   }
-  calibration.load.front().value *= 2.0;
+  calibration.fields.front().value *= 2.0;
   EXPECT_THROW(parse_calibration(calibration_json(calibration), "arm.json", lab_1g(2.0), kDay), std::runtime_error);
-  calibration.load.pop_back();
+  calibration.fields.front() = calibration.fields.back();
   EXPECT_THROW(parse_calibration(calibration_json(calibration), "arm.json", lab_1g(2.0), kDay), std::runtime_error);
 }
 
