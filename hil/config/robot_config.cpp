@@ -17,7 +17,7 @@ double number_or(const JsonFile& file, const std::string& field, double low, dou
 // What a segment's modules weigh and how their joints spring: its own fields, else those of all.
 void read_module(const JsonFile& file, const std::string& at_segment, SegmentConfig& segment) {
   segment.module_mass_kg =
-      number_or(file, at_segment + "/module_mass_kg", 0.001, 100.0, file.number("/module/mass_kg", 0.001, 100.0));
+      number_or(file, at_segment + "/module_mass_kg", 0.0001, 100.0, file.number("/module/mass_kg", 0.0001, 100.0));
   segment.module_center =
       number_or(file, at_segment + "/module_center", 0.0, 1.0, number_or(file, "/module/center", 0.0, 1.0, 0.5));
   segment.joint_stiffness_Nm_rad = number_or(file, at_segment + "/joint_stiffness_Nm_per_rad", 0.0, 1e4,

@@ -1,7 +1,9 @@
 #include <cstdio>
+#include <span>
 
 #include "firmware_like/cable/arm/cables.hpp"
 #include "firmware_like/cable/arm/kinematics.hpp"
+#include "firmware_like/cable/arm/static_load.hpp"
 #include "host/apps/cli/arguments.hpp"
 #include "host/apps/cli/commands.hpp"
 #include "host/apps/cli/pose_json.hpp"
@@ -22,17 +24,23 @@ Json pose_of(const cable::RobotParams& table, const cable::ThetaVector& theta_ra
   Json ends = Json::array();
   for (std::size_t m = 1; m <= static_cast<std::size_t>(table.segment_count); ++m)
     ends.push_back(arm.node_in_base[m].position_m);
+  const cable::ThetaVector load_Nm = static_load_Nm(table, theta_rad, trig, arm);
+  const auto angles = static_cast<std::size_t>(table.theta_count());
   Json length = Json::array();
   Json change = Json::array();
+  Json by_theta = Json::array();
   for (std::size_t c = 0; c < static_cast<std::size_t>(table.cable_count()); ++c) {
     length.push_back(cables.length_m[c]);
     change.push_back(cables.length_m[c] - layout.zero_length_m[c]);
+    by_theta.push_back(std::span(cables.jacobian_m_rad[c]).first(angles));
   }
   return {{"tip_pose", homogeneous(arm.tip_in_base)},
           {"segment_ends_m", ends},
           {"jacobian", jacobian_rows(arm.tip_jacobian.linear, arm.tip_jacobian.angular, table.theta_count())},
           {"cable_length_m", length},
-          {"cable_length_change_m", change}};
+          {"cable_length_change_m", change},
+          {"cable_jacobian_m_rad", by_theta},
+          {"static_load_Nm", std::span(load_Nm).first(angles)}};
 }
 
 void print_summary(const config::DriveNames& names, const Json& pose) {

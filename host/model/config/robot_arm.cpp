@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kLongestTipLag_s = 5.0;
 
-constexpr Range kModuleMass{0.001, 100};
+constexpr Range kModuleMass{0.0001, 100};
 constexpr double kHeaviest_m_s2 = 30.0;
 
 bool has(const Field& table, const char* key) { return table.json().contains(key); }

@@ -44,7 +44,7 @@ TEST(Robot, IsRefusedWithFileFieldValueRangeAndAdvice) {
       {"/name", "a b", "name", {"a b"}},
       {"/colour", "red", "colour", {"field"}},
       {"/module/radius_m", -0.03, "module.radius_m", {"0.001", "0.5"}},
-      {"/module/mass_kg", 1e-300, "module.mass_kg", {"0.001", "100"}},
+      {"/module/mass_kg", 1e-300, "module.mass_kg", {"1e-04", "100"}},
       {"/module/center", 1.01, "module.center", {"0", "1"}},
       {"/gravity_m_s2", {0, 0, -31}, "gravity_m_s2[3]", {"-30", "30"}},
       {"/gravity_m_s2", {0, -9.81}, "gravity_m_s2", {"2", "3"}},
@@ -53,7 +53,7 @@ TEST(Robot, IsRefusedWithFileFieldValueRangeAndAdvice) {
       {"/tool", {{"mass_kg", 1}, {"center_m", {0, 0, 1.5}}}, "tool.center_m[3]", {"-1", "1"}},
       {"/joint/stiffness_Nm_per_rad", -1, "joint.stiffness_Nm_per_rad", {"0", "10000"}},
       {"/joint/rest_deg", {0, 46}, "joint.rest_deg[2]", {"-45", "45"}},
-      {"/segments/1/module_mass_kg", 0, "segments[2].module_mass_kg", {"0.001", "100"}},
+      {"/segments/1/module_mass_kg", 0, "segments[2].module_mass_kg", {"1e-04", "100"}},
       {"/segments/1/joint_rest_deg", {1}, "segments[2].joint_rest_deg", {"1", "2"}},
       {"/segments", nine, "segments", {"kMaxSegments"}},  // compiled capacity, by name
       {"/segments/0/modules", 17, "segments[1].modules", {"1", "16"}},
