@@ -66,6 +66,18 @@ TEST(Buses, ALoadCellHasANodeOfItsOwnACableOfItsOwnAndARowForAll) {
   expect_refused(good, {"/buses/0/load_cells/1/cables/0", 33, "buses[1].load_cells[2].cables[1]", {"32"}}, parse);
   expect_refused(good, {"/load_cell/when_lost", "stop", "load_cell.when_lost", {"hold", "torque"}}, parse);
   expect_refused(good, {"/load_cell/agree_N", 0, "load_cell.agree_N", {"0.1"}}, parse);
+  expect_refused(good, {"/load_cell/range_N", 655.35, "load_cell.range_N", {"655.34", "32767"}}, parse);
+  EXPECT_EQ(message_of(good, {"/load_cell/range_N", 655.34, "", {}}, parse), "");
+}
+
+TEST(Buses, LoadCellsReadAtLeastWhatTheRobotCallsAnAlarm) {
+  const std::string robot = good_table("robot", "lab_1g").dump();
+  const auto parse = [&](const std::string& text) {
+    parse_robot(robot, "lab.json", "nominal", parse_buses(text, "given.json"));
+  };
+  const Json good = good_table("buses", "embedded_lab_1g");
+  EXPECT_EQ(message_of(good, {"/load_cell/range_N", 300, "", {}}, parse), "");
+  expect_refused(good, {"/load_cell/range_N", 299, "load_cell.range_N", {"299", "300", "tension.alarm_N"}}, parse);
 }
 
 TEST(Buses, PeriodIsWhatObject60C2Holds) {
