@@ -29,7 +29,8 @@ bench::RobotConfig built(const PlantSetup& setup) {
   bench::Random geometry(setup.seed, "closed loop geometry");
   const auto drawn = [&] { return 1.0 + setup.geometry_share * geometry.uniform(-1.0, 1.0); };
   for (bench::SegmentConfig& segment : table.segments) segment.module_length_m *= drawn();
-  table.hole_radius_m *= drawn();
+  const double radius = drawn();
+  for (bench::SegmentConfig& segment : table.segments) segment.hole_radius_m *= radius;
   return setup.spread ? bench::spread_load(table, setup.seed) : table;
 }
 

@@ -13,7 +13,7 @@ using Index = std::size_t;
 using Slot = double* (*)(RobotParams&, Index);
 
 std::string of_segment(Index j, const char* field) { return "segments[" + std::to_string(j) + "]." + field; }
-std::string of_axis(const char* field, Index axis) { return std::string(field) + "[" + std::to_string(axis) + "]"; }
+std::string at_index(const char* field, Index i) { return std::string(field) + "[" + std::to_string(i) + "]"; }
 
 struct Fields {
   RobotParams table;
@@ -39,12 +39,15 @@ const FieldValue* of(const std::vector<FieldValue>& values, const std::string& f
 
 std::vector<TableField> geometry_fields(const RobotParams& table) {
   Fields out{table};
-  for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j)
+  const auto segments = static_cast<Index>(table.segment_count);
+  for (Index j = 0; j < segments; ++j)
     out.add_share(
         of_segment(j, "module_length_m"), kPriorLength,
         [](RobotParams& t, Index i) { return &t.segment[i].module_length_m; }, j);
-  out.add_share(
-      "cables.hole_radius_m", kPriorHoleRadius, [](RobotParams& t, Index) { return &t.hole_radius_m; }, 0);
+  for (Index j = 0; j < segments; ++j)
+    out.add_share(
+        at_index("cables.hole_radius_m", j), kPriorHoleRadius,
+        [](RobotParams& t, Index i) { return &t.segment[i].hole_radius_m; }, j);
   out.add_share(
       "cables.EA_N", kPriorEA, [](RobotParams& t, Index) { return &t.cable_EA_N; }, 0);
   return out.list;
@@ -73,12 +76,12 @@ std::vector<TableField> load_fields(const RobotParams& table) {
         "tool.mass_kg", kPriorMass, [](RobotParams& t, Index) { return &t.tool.mass_kg; }, 0);
     for (Index axis = 0; axis < 3; ++axis)
       out.add(
-          of_axis("tool.center_m", axis), kPriorCenter_m,
+          at_index("tool.center_m", axis), kPriorCenter_m,
           [](RobotParams& t, Index i) { return &t.tool.center_in_tip_m[i]; }, axis);
   }
   for (Index axis = 0; gravity > 0.0 && axis < 3; ++axis)
     out.add(
-        of_axis("gravity_m_s2", axis), kPriorGravity * gravity,
+        at_index("gravity_m_s2", axis), kPriorGravity * gravity,
         [](RobotParams& t, Index i) { return &t.gravity_m_s2[i]; }, axis);
   return out.list;
 }

@@ -40,7 +40,7 @@ struct TableField {
   double room() const { return kPlausibleDeviations * table_sd; }
 };
 
-// Module length of each segment, hole radius, and stiffness of the cables.
+// Module length and hole radius of each segment, and stiffness of the cables.
 std::vector<TableField> geometry_fields(const cable::RobotParams& table);
 // With gravity mass and center of each segment's modules and of the tool, and gravity's direction; joint stiffness
 // where the table has one. Empty for an arm without weight and springs.
