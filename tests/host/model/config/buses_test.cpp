@@ -73,11 +73,11 @@ TEST(Buses, ALoadCellHasANodeOfItsOwnACableOfItsOwnAndARowForAll) {
 TEST(Buses, LoadCellsReadAtLeastWhatTheRobotCallsAnAlarm) {
   const std::string robot = good_table("robot", "lab_1g").dump();
   const auto parse = [&](const std::string& text) {
-    parse_robot(robot, "lab.json", "nominal", parse_buses(text, "given.json"));
+    parse_robot(robot, "given.json", "nominal", parse_buses(text, "given.json"));
   };
   const Json good = good_table("buses", "embedded_lab_1g");
   EXPECT_EQ(message_of(good, {"/load_cell/range_N", 300, "", {}}, parse), "");
-  expect_refused(good, {"/load_cell/range_N", 299, "load_cell.range_N", {"299", "300", "tension.alarm_N"}}, parse);
+  expect_refused(good, {"/load_cell/range_N", 299, "load_cell.range_N", {"299.0", "300.0", "tension.alarm_N"}}, parse);
 }
 
 TEST(Buses, PeriodIsWhatObject60C2Holds) {
