@@ -7,6 +7,7 @@
 #include "host/api/telemetry/record.hpp"
 #include "host/base/json/json.hpp"
 #include "host/drives/calibration/text.hpp"
+#include "host/model/config/serial_robot.hpp"
 #include "host/storage/archive/reader.hpp"
 #include "host/storage/archive/stretches.hpp"
 

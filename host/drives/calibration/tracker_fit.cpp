@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "firmware_like/cable/arm/cables.hpp"
 #include "firmware_like/math/trig.hpp"
 #include "host/drives/calibration/hand_eye.hpp"
 #include "host/drives/calibration/jig.hpp"

@@ -10,6 +10,7 @@
 #include "firmware_like/cable/arm/static_load.hpp"
 #include "firmware_like/math/trig.hpp"
 #include "host/base/random/random.hpp"
+#include "host/drives/calibration/calibration.hpp"
 #include "host/drives/calibration/load_poses.hpp"
 #include "host/model/config/sha256.hpp"
 #include "tests/host/drives/calibration/day.hpp"
