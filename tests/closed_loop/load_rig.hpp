@@ -16,8 +16,8 @@ namespace liana::closed_loop {
 calibration::LoadResult find_load(const LabMounting& mounting, std::uint64_t seed,
                                   const std::vector<calibration::LoadPose>& poses);
 
-// Geometry and zeros found in these poses, by a tracker as `liana calibrate --tracker` does; of an arm whose lengths and
-// hole radius differ by `geometry_share` at most.
+// Geometry and zeros found in these poses, by a tracker as `liana calibrate --tracker` does; of an arm whose lengths
+// and hole radius differ by `geometry_share` at most.
 calibration::TrackerResult find_geometry(const LabMounting& mounting, std::uint64_t seed, double geometry_share,
                                          const std::vector<calibration::LoadPose>& poses);
 

@@ -22,9 +22,9 @@ struct PlantSetup {
   std::string start_pose = "prepare";
   std::string robot_file{};                         // of the bench; empty: the arm of all tests, in its scene
   std::optional<Vec3> mounted_m_s2 = std::nullopt;  // gravity in the base frame in place of the table's
-  double geometry_share = 0.0;   // by which module lengths and hole radius of the built arm differ at most, by seed;
-                                 // the drives' zeros are then those of a jig at the zero pose
-  cable::CableVector zero_m{};   // that each cable was found longer than its drive says
+  double geometry_share = 0.0;  // by which module lengths and hole radius of the built arm differ at most, by seed;
+                                // the drives' zeros are then those of a jig at the zero pose
+  cable::CableVector zero_m{};  // that each cable was found longer than its drive says
 };
 
 // Extremes since the last take_load().

@@ -56,7 +56,7 @@ class Tracker(unittest.TestCase):
             (fit(other, "--calibration", arm), "correlation"),
             (fit(poses), "--calibration"),
             (fit("/nowhere.csv", "--calibration", arm), "/nowhere.csv"),
-            (run(*fitted, "--robot", changed, "--calibration", jigs), "another version of its table"),
+            (run(*fitted, "--robot", changed, "--calibration", jigs), str(tour)),
         ):
             self.assertEqual((refused.returncode, refused.stdout), (2, ""), refused.stderr)
             self.assertIn(named, refused.stderr)

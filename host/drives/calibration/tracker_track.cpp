@@ -204,20 +204,20 @@ double clock_offset_s(const std::vector<TimedPoint>& tip, const std::vector<Trac
   for (const TrackedPose& row : tracked) marker.push_back({row.time_s, row.marker_in_tracker.position_m});
   const double begins_s = tip.front().time_s - marker.front().time_s;
   double later_s = 0.0, span_s = std::max(tip.back().time_s - tip.front().time_s, kMaxTrack_s);
-  Likeness best;
+  double alike = 0.0;  // in short steps a tracker's noise is as large as the speed
   for (const double step_s : {kCoarse_s, kFine_s}) {
     const std::vector<double> a = travels_m(tip, step_s), b = travels_m(marker, step_s);
     const long middle = std::lround(later_s / step_s), room = std::lround(span_s / step_s);
     const long shift = best_shift(a, b, middle - room, middle + room);
-    best = likeness(a, b, shift);
+    alike = std::max(alike, likeness(a, b, shift).correlation());
     later_s = static_cast<double>(shift) * step_s;
     span_s = 2.0 * kCoarse_s;
   }
-  if (!(best.correlation() >= kAlike))
+  if (!(alike >= kAlike))
     throw std::runtime_error(
         text("the marker never moves as the tip of the run does (correlation %.2f at best): allowed %.1f: give the "
              "poses that were tracked during this run",
-             best.correlation(), kAlike));
+             alike, kAlike));
   return begins_s + later_s;
 }
 

@@ -18,10 +18,10 @@ CASES = {
     "segment 1 pulls": ([4, 0, 0, 0, 0, 0], [0, 0, 0], [0, 0, 0], [1.1, 1.1, 1.1]),
     "both pull in one plane": ([2, 0, 0, 1, 0, 0], [0, 0, 0], [0, 0, 0], [0.6, 0.6, 0.6]),
     "both pull, out of plane": ([4, 0, 0, 0, 2, 0], [0, 0, 0], [0, 0, 0], [1.4, 1.4, 1.4]),
-    "the same, 0.05 N at the tip": ([4, 0, 0, 0, 2, 0], [0, 0, 0], [0, 0.05, 0], [6.3, 2.3, 1.6]),
+    "out of plane, pushed": ([4, 0, 0, 0, 2, 0], [0, 0, 0], [0, 0.05, 0], [6.3, 2.3, 1.6]),
     "nothing pulls, lying": ([0, 0, 0, 0, 0, 0], DOWN, [0, 0, 0], [0.83, 0.83, 0.1]),
     "both pull, lying": ([4, 0, 0, 0, 2, 0], DOWN, [0, 0, 0], [2.6, 2.0, 1.5]),
-    "the same, 0.05 N at the tip, lying": ([4, 0, 0, 0, 2, 0], DOWN, [0, 0.05, 0], [5.8, 2.9, 1.7]),
+    "out of plane, pushed, lying": ([4, 0, 0, 0, 2, 0], DOWN, [0, 0.05, 0], [5.8, 2.9, 1.7]),
 }
 SPLIT = 2  # parts of each segment, which bend by themselves, in the finer chain
 STIFF = 1e3  # torsion of a rod that does not twist, beside its bending
