@@ -54,7 +54,7 @@ TEST(RequestCheck, RefusesByFieldValueAllowedRangeAndWhatToDo) {
       {R"({"op":"move_cp","swing_s":1,"goal":[1,0,0,1,0,0,0]})",
        "bad_request",
        {"swing_s", "sway_s", "now"},
-       "a field that had another name"},
+       "a renamed field"},
       {R"({"op":"servo_cp"})", "bad_request", {"goal", "[x,y,z,qw,qx,qy,qz]"}, "required"},
       {R"({"op":"state_command","command":"fly"})",
        "bad_request",
