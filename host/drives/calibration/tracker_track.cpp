@@ -26,8 +26,8 @@ constexpr double kUnit = 0.01;                                                  
 
 constexpr double kCoarse_s = 0.5, kFine_s = 0.05;  // of the two searches for the offset
 constexpr double kLongestGap_s = 0.5;              // between two rows; over it nobody knows where the marker was
-constexpr double kAlike = 0.8;                     // least correlation of the speeds
-constexpr double kStill_m = 3e-3;                  // most that a marker at rest is off its mean
+constexpr double kAlike = 0.6;     // least correlation of the speeds: a marker beside the tip moves as that turns, too
+constexpr double kStill_m = 3e-3;  // most that a marker at rest is off its mean
 
 class Table {
  public:
@@ -204,20 +204,20 @@ double clock_offset_s(const std::vector<TimedPoint>& tip, const std::vector<Trac
   for (const TrackedPose& row : tracked) marker.push_back({row.time_s, row.marker_in_tracker.position_m});
   const double begins_s = tip.front().time_s - marker.front().time_s;
   double later_s = 0.0, span_s = std::max(tip.back().time_s - tip.front().time_s, kMaxTrack_s);
-  double alike = 0.0;  // in short steps a tracker's noise is as large as the speed
+  Likeness best;
   for (const double step_s : {kCoarse_s, kFine_s}) {
     const std::vector<double> a = travels_m(tip, step_s), b = travels_m(marker, step_s);
     const long middle = std::lround(later_s / step_s), room = std::lround(span_s / step_s);
     const long shift = best_shift(a, b, middle - room, middle + room);
-    alike = std::max(alike, likeness(a, b, shift).correlation());
+    best = likeness(a, b, shift);
     later_s = static_cast<double>(shift) * step_s;
     span_s = 2.0 * kCoarse_s;
   }
-  if (!(alike >= kAlike))
+  if (!(best.correlation() >= kAlike))
     throw std::runtime_error(
         text("the marker never moves as the tip of the run does (correlation %.2f at best): allowed %.1f: give the "
              "poses that were tracked during this run",
-             alike, kAlike));
+             best.correlation(), kAlike));
   return begins_s + later_s;
 }
 
