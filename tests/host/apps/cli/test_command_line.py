@@ -63,11 +63,13 @@ class Pose(unittest.TestCase):
     def test_every_golden_case_agrees_to_1e_9(self):
         for case in GOLDEN:
             pose = liana_json("pose", "--robot", "zhu2022", f"--theta-deg={joined(case['theta_deg'])}")
-            self.assertEqual(
-                set(pose), {"tip_pose", "segment_ends_m", "jacobian", "cable_length_m", "cable_length_change_m"}
-            )
-            for key in pose:
+            golden = {"tip_pose", "segment_ends_m", "jacobian", "cable_length_m", "cable_length_change_m"}
+            self.assertEqual(set(pose) - golden, {"cable_jacobian_m_rad", "static_load_Nm"})
+            for key in golden:
                 self.assertLess(largest_difference(pose[key], case[key]), 1e-9, f"{case['name']}: {key}")
+            self.assertEqual(pose["static_load_Nm"], [0.0] * 10, "nothing loads this arm")
+            for cable, row in enumerate(pose["cable_jacobian_m_rad"]):
+                self.assertEqual(row[2 * (cable // 3 + 1) :], [0.0] * (10 - 2 * (cable // 3 + 1)), "beyond its segment")
 
     def test_a_pose_in_a_scene_says_what_its_slit_wants_planar(self):
         slit = liana_json(
