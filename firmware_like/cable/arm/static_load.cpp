@@ -91,11 +91,17 @@ ThetaVector static_load_Nm(const RobotParams& table, const ThetaVector& theta_ra
 }
 
 TensionPlan plan_at_rest(const RobotParams& table, const CableLayout& layout, const ThetaVector& theta_rad) noexcept {
+  if (!has_static_load(table)) return plan_at_rest(table, layout, theta_rad, ThetaVector{});
   const ArmTrig trig = arm_trig(table, theta_rad);
-  PlannedLoad load;
-  if (has_static_load(table)) load.static_Nm = static_load_Nm(table, theta_rad, trig, forward_kinematics(table, trig));
+  return plan_at_rest(table, layout, theta_rad,
+                      static_load_Nm(table, theta_rad, trig, forward_kinematics(table, trig)));
+}
+
+TensionPlan plan_at_rest(const RobotParams& table, const CableLayout& layout, const ThetaVector& theta_rad,
+                         const ThetaVector& load_Nm) noexcept {
+  const ArmTrig trig = arm_trig(table, theta_rad);
   const TensionRatio ratio = tension_ratio(table, layout, trig, SlipState{});
-  return plan_tension(table, cable_geometry(table, layout, trig), ratio, SegmentVector{}, load);
+  return plan_tension(table, cable_geometry(table, layout, trig), ratio, SegmentVector{}, {load_Nm, {}});
 }
 
 }  // namespace liana::cable

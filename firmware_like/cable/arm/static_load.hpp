@@ -25,5 +25,8 @@ ThetaVector static_load_Nm(const RobotParams& table, const ThetaVector& theta_ra
 
 // The plan for an arm that stands at theta_rad, nothing having slipped. Cost: kinematics, cables and a plan.
 TensionPlan plan_at_rest(const RobotParams& table, const CableLayout& layout, const ThetaVector& theta_rad) noexcept;
+// The same under this load [N m] in place of the table's.
+TensionPlan plan_at_rest(const RobotParams& table, const CableLayout& layout, const ThetaVector& theta_rad,
+                         const ThetaVector& load_Nm) noexcept;
 
 }  // namespace liana::cable

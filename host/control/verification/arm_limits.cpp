@@ -29,11 +29,7 @@ struct Hardest {
 };
 
 Hardest hardest_at(const cable::RobotParams& table, const cable::Outputs& outputs) {
-  const cable::CableLayout layout = cable_layout(table);
-  const cable::ArmTrig trig = arm_trig(table, outputs.theta_command_rad);
-  const cable::TensionPlan plan =
-      plan_tension(table, cable_geometry(table, layout, trig), tension_ratio(table, layout, trig, cable::SlipState{}),
-                   cable::SegmentVector{}, {outputs.load_Nm, {}});
+  const cable::TensionPlan plan = plan_at_rest(table, cable_layout(table), outputs.theta_command_rad, outputs.load_Nm);
   const auto end = plan.motor_N.begin() + table.cable_count(), hardest = std::max_element(plan.motor_N.begin(), end);
   return {static_cast<std::size_t>(hardest - plan.motor_N.begin()), *hardest};
 }

@@ -63,7 +63,8 @@ void read_weight(const Field& table, cable::RobotParams& robot) {
   if (!has(table, "tool")) return;
   const Field tool = table.at("tool");
   tool.only({"mass_kg", "center_m"});
-  robot.tool = {tool.at("mass_kg").number({0, 100}), tool.at("center_m").numbers<3>({-1, 1})};
+  robot.tool = {tool.at("mass_kg").number({0, cable::kMaxTipLoad_kg}),
+                tool.at("center_m").numbers<3>({-cable::kMaxTipLoad_m, cable::kMaxTipLoad_m})};
 }
 
 // Cables can only pull: no half circle may be without one.

@@ -68,6 +68,14 @@ ThetaVector harder(const RobotParams& table, const CableLayout& layout, ThetaVec
   return theta_rad;
 }
 
+using Order = std::vector<std::pair<double, Index>>;  // hardness, below zero, and which pose
+
+void add_harder(const RobotParams& table, const CableLayout& layout, Order& order, Poses& poses) {
+  std::sort(order.begin(), order.end());
+  for (Index i = 0; i < std::min(kHardest, order.size()); ++i)
+    poses.push_back(harder(table, layout, poses[order[i].second]));
+}
+
 ThetaVector in_rad(const std::vector<double>& angles_deg) {
   ThetaVector theta_rad{};
   for (Index k = 0; k < angles_deg.size(); ++k) theta_rad[k] = kDegree * angles_deg[k];
@@ -114,12 +122,10 @@ Payload payload_of_hardest(const RobotParams& table, const CableLayout& layout, 
   Payload out = payload_of(table, layout, poses);
   for (int round = 0; round < kRounds && out.unloaded; ++round) {
     const RobotParams loaded = with_payload(table, out.mass_kg + kPayloadStep_kg);
-    std::vector<std::pair<double, Index>> order;
+    Order order;
     for (Index i = 0; i < poses.size(); ++i)
       order.emplace_back(-hardness(table.tension, tension_at(loaded, layout, poses[i])), i);
-    std::sort(order.begin(), order.end());
-    for (Index i = 0; i < std::min(kHardest, order.size()); ++i)
-      poses.push_back(harder(loaded, layout, poses[order[i].second]));
+    add_harder(loaded, layout, order, poses);
     const double before_kg = out.mass_kg;
     out = payload_of(table, layout, poses);
     if (before_kg - out.mass_kg <= kPayloadStep_kg) break;
@@ -182,7 +188,7 @@ Carried what_it_carries(const config::RobotConfig& robot, const Mounting& mounti
   Poses named;
   for (const auto& [name, angles_deg] : robot.named_poses_deg) named.push_back(in_rad(angles_deg));
   Poses all = drawn(table, samples, seed);
-  std::vector<std::pair<double, Index>> order;
+  Order order;
   for (Index i = 0; i < all.size(); ++i) {
     const PoseTension tension = tension_at(table, layout, all[i]);
     const TensionBand band = band_of(table.tension, tension);
@@ -190,9 +196,7 @@ Carried what_it_carries(const config::RobotConfig& robot, const Mounting& mounti
     out.poses.push_back({tip_pose(table, arm_trig(table, all[i])).position_m, band});
     order.emplace_back(-hardness(table.tension, tension), i);
   }
-  std::sort(order.begin(), order.end());
-  for (Index i = 0; i < std::min(kHardest, order.size()); ++i)
-    all.push_back(harder(table, layout, all[order[i].second]));
+  add_harder(table, layout, order, all);
   all.insert(all.end(), named.begin(), named.end());
   double most = -1.0;
   for (const ThetaVector& theta_rad : all) {
