@@ -5,8 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 #include <memory>
+#include <thread>
 
 #include "host/api/server/client.hpp"
 #include "host/base/event/event_json.hpp"
@@ -179,7 +181,11 @@ class ServiceTellsEvents : public testing::Test {
     }
     goal[0] = goal[0].get<double>() + 2.0;
     client_.send({{"op", "move_jp"}, {"goal_deg", goal}});
-    for (int i = 0; i < 400 && arm_.now().active_sequence == 0; ++i) intervals(1);  // its way is looked at first
+    // Its way is looked at first, by a thread that takes its time where every access is checked.
+    for (int i = 0; i < 2000 && arm_.now().active_sequence == 0; ++i) {
+      intervals(1);
+      if (i >= 100) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
     intervals(20);
   }
 
