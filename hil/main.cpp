@@ -180,7 +180,7 @@ void load_arm(const std::string& path, liana::bench::BenchOptions& options) {
 }
 
 std::size_t drives_of(const liana::bench::BenchOptions& options) {
-  return options.serial_robot ? options.serial_robot->drives.size() : options.robot.cable_count();
+  return options.serial_robot ? options.serial_robot->drives.size() : options.robot.drive_count();
 }
 
 // Angles that a fault can wait for.

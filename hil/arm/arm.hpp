@@ -14,7 +14,7 @@ namespace liana::bench {
 constexpr double kJointStop_Nm_per_rad =
     500.0;  // all joints of a segment together; stiff against the cables' 1 to 100 N.m/rad
 
-// Extremes since the last take_record().
+// Extremes since the last take_record(); tensions are those of cables.
 struct LoadRecord {
   double contact_N = 0.0;
   double rod_N = 0.0;
@@ -39,17 +39,19 @@ class Arm {
   Arm& operator=(Arm&&) = default;
   virtual ~Arm() = default;
 
-  // Unstretched cable between drum and anchor, as the drums now hold it [m].
+  // What each drive now holds [m]: of a base's slide and roll first (base_drives.hpp), then of each cable the
+  // unstretched length between drum and anchor.
   virtual CableValues payouts_m() const = 0;
   // Call before a run of steps that together last `duration_s`.
   virtual void begin_slot(double duration_s) = 0;
-  // One step of at most longest_step_s() with the drums at `payout_m`.
+  // One step of at most longest_step_s() with the drives at `payout_m`, in the same order.
   virtual void step(double step_s, const CableValues& payout_m) = 0;
   virtual double longest_step_s() const = 0;
 
   virtual const Theta& theta_rad() const = 0;
   virtual const Theta& rate_rad_s() const = 0;
-  virtual double motor_tension_N(std::size_t cable) const = 0;
+  // At the drum's radius; of slide and roll the force, of either sign.
+  virtual double motor_tension_N(std::size_t drive) const = 0;
   virtual Pose tip() const = 0;
   // The press rod is gone from now on.
   virtual void remove_rod() = 0;

@@ -17,6 +17,7 @@ ArmPhysics::ArmPhysics(const RobotConfig& robot, const SceneConfig& scene, const
       viscous_(robot.viscous_Nms_per_rad),
       chain_(robot, scene),
       paths_(robot, truth.hole_radius_error_m, truth.linkage),
+      base_(robot),
       theta_(start_rad) {
   chain_.set_gravity(truth.gravity_m_s2);
   chain_.set_linkage(truth.linkage);
@@ -28,6 +29,7 @@ ArmPhysics::ArmPhysics(const RobotConfig& robot, const SceneConfig& scene, const
                                                 kStartFloorOfPlan * robot.plan_tension_N);
   for (std::size_t c = 0; c < paths_.cable_count(); ++c)
     lines_.emplace_back(paths_, c, robot.lead_m, truth.EA_N, truth.mu, tension[c]);
+  base_.carry(theta_, weight_Nm);
   ThetaMatrix mass;
   chain_.inertia(mass);
   stable_step_s_ = stable_step_s(mass, stiffness(), viscous_, thetas_, kLongestStep_s);
@@ -41,13 +43,14 @@ ThetaMatrix ArmPhysics::stiffness() const {
 
 CableValues ArmPhysics::payouts_m() const {
   CableValues payout{};
-  for (std::size_t c = 0; c < lines_.size(); ++c) payout[c] = lines_[c].payout_m();
+  for (std::size_t i = 0; i < base_.count(); ++i) payout[i] = base_.payout_m(i);
+  for (std::size_t c = 0; c < lines_.size(); ++c) payout[base_.count() + c] = lines_[c].payout_m();
   return payout;
 }
 
 void ArmPhysics::settle_cables(const CableValues& payout_m) {
   for (std::size_t c = 0; c < lines_.size(); ++c) {
-    max_sweeps_ = std::max(max_sweeps_, lines_[c].settle(paths_, payout_m[c]));
+    max_sweeps_ = std::max(max_sweeps_, lines_[c].settle(paths_, payout_m[base_.count() + c]));
     record_.least_tension_N = std::min(record_.least_tension_N, lines_[c].least_tension_N());
     record_.min_motor_tension_N = std::min(record_.min_motor_tension_N, lines_[c].motor_tension_N());
     record_.max_motor_tension_N = std::max(record_.max_motor_tension_N, lines_[c].motor_tension_N());
@@ -56,7 +59,7 @@ void ArmPhysics::settle_cables(const CableValues& payout_m) {
 
 void ArmPhysics::pull(Theta& force) const {
   for (std::size_t c = 0; c < lines_.size(); ++c) {
-    for (std::size_t j = 0; j <= paths_.last_segment(c); ++j) {
+    for (std::size_t j = paths_.first_segment(); j <= paths_.last_segment(c); ++j) {
       const double tension = lines_[c].segment_tension_N(j);
       force[2 * j] -= tension * paths_.path(c, j).d_pitch_m;
       force[2 * j + 1] -= tension * paths_.path(c, j).d_yaw_m;
@@ -94,6 +97,7 @@ void ArmPhysics::step(double step_s, const CableValues& payout_m) {
   touch(step_s, load);
   pull(load.force);
   stop_at_limits(load.force, load.damping, step_s);
+  base_.add(theta_, mass, payout_m, step_s, load.force, load.damping);
 
   // (M + h D) v_new = M v + h (cables + contacts - bias): velocity first, damping implicit.
   Theta momentum{};
@@ -101,11 +105,12 @@ void ArmPhysics::step(double step_s, const CableValues& payout_m) {
     momentum[a] = step_s * (load.force[a] - bias[a]);
     for (std::size_t b = 0; b < thetas_; ++b) momentum[a] += mass[a][b] * rate_[b];
     for (std::size_t b = 0; b < thetas_; ++b) load.damping[a][b] = mass[a][b] + step_s * load.damping[a][b];
-    load.damping[a][a] += step_s * viscous_;
+    if (a >= base_.count()) load.damping[a][a] += step_s * viscous_;
   }
   if (!solve_spd(load.damping, momentum, thetas_, rate_))
     throw std::runtime_error("physics: the mass matrix is not positive; the state is broken");
   for (std::size_t a = 0; a < thetas_; ++a) theta_[a] += step_s * rate_[a];
+  base_.settle(theta_, rate_);
   chain_.place(theta_);
   paths_.update(theta_);
 }
@@ -145,7 +150,7 @@ LoadRecord ArmPhysics::take_record() {
 }
 
 double ArmPhysics::energy_J() {
-  double energy = 0.0;
+  double energy = base_.energy_J();
   for (const auto& line : lines_) energy += line.energy_J();
   ThetaMatrix mass;
   chain_.inertia(mass);
@@ -159,6 +164,8 @@ void ArmPhysics::set_state(const Theta& theta_rad, const Theta& rate_rad_s) {
   rate_ = rate_rad_s;
   chain_.place(theta_);
   paths_.update(theta_);
+  base_.halt();
+  base_.settle(theta_, rate_);
   settle_cables(payouts_m());
 }
 

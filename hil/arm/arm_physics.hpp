@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hil/arm/arm.hpp"
+#include "hil/arm/base_drives.hpp"
 #include "hil/arm/cable_geometry.hpp"
 #include "hil/arm/cable_line.hpp"
 #include "hil/arm/chain.hpp"
@@ -20,10 +21,9 @@ class ArmPhysics final : public Arm {
   // std::runtime_error, also of an arm whose cables are too stiff for its links (stable_step.hpp).
   ArmPhysics(const RobotConfig& robot, const SceneConfig& scene, const TrueParameters& truth, const Theta& start_rad);
 
-  // Unstretched cable between drum and anchor, as the drums now hold it [m].
   CableValues payouts_m() const override;
   // One step of `step_s` (kStep_s, or what this arm's stiffness bears, stable_step.hpp; without contact up to
-  // kLongestStep_s) with the drums at `payout_m`.
+  // kLongestStep_s) with the drives at `payout_m`.
   void step(double step_s, const CableValues& payout_m) override;
   double longest_step_s() const override { return std::min(stable_step_s_, near_contact_ ? kStep_s : free_step_s_); }
   // Longer steps, at most kLongestStep_s, in runs in which nothing can touch: four times as fast, and nearly the same.
@@ -34,7 +34,10 @@ class ArmPhysics final : public Arm {
 
   const Theta& theta_rad() const override { return theta_; }
   const Theta& rate_rad_s() const override { return rate_; }
-  double motor_tension_N(std::size_t cable) const override { return lines_[cable].motor_tension_N(); }
+  double motor_tension_N(std::size_t drive) const override {
+    return drive < base_.count() ? base_.force_N(drive) : lines_[drive - base_.count()].motor_tension_N();
+  }
+  // Of a cable, counted without the drives of a base.
   double least_tension_N(std::size_t cable) const { return lines_[cable].least_tension_N(); }
   Pose tip() const override { return chain_.tip(); }
   void remove_rod() override;
@@ -67,6 +70,7 @@ class ArmPhysics final : public Arm {
   double viscous_;
   Chain chain_;
   CablePaths paths_;
+  BaseDrives base_;
   std::vector<CableLine> lines_;
   Theta theta_{};
   Theta rate_{};

@@ -43,6 +43,7 @@ CablePaths::CablePaths(const RobotConfig& robot, double hole_radius_error_m, con
     const double radius_m = segment.hole_radius_m + hole_radius_error_m;
     for (const double phase : segment.cable_phase_rad)
       cables_.push_back({m, radius_m * std::cos(phase), radius_m * std::sin(phase)});
+    if (segment.modules == 0) continue;  // a base
     if (linkage.empty()) joints_.push_back({m, static_cast<double>(segment.modules), {}});
     for (int i = 0; !linkage.empty() && i < segment.modules; ++i) joints_.push_back({m, 1.0, linkage[module++]});
   }
@@ -68,7 +69,7 @@ void CablePaths::update(const Theta& theta_rad) {
       path.d_yaw_m += count * share.yaw * gap.d_yaw_m;
       path.wrap_rad += count * gap.wrap_rad;
     }
-    for (std::size_t j = 0; j <= cable.segment; ++j) {
+    for (std::size_t j = first_segment(); j <= cable.segment; ++j) {
       const SegmentConfig& segment = robot_.segments[j];
       const double links = segment.modules - (j == cable.segment ? 1 : 0);  // anchored right after the last joint
       paths_[c][j].length_m += links * (segment.module_length_m - 2.0 * segment.face_offset_m);

@@ -50,6 +50,8 @@ class CablePaths {
   void update(const Theta& theta_rad);
 
   std::size_t cable_count() const { return cables_.size(); }
+  // First segment that cables run through (0-based): they start on the carriage of a base, so it changes no length.
+  std::size_t first_segment() const { return robot_.first_bending(); }
   // Last segment the cable runs through (0-based); it is anchored at the end of it.
   std::size_t last_segment(std::size_t cable) const { return cables_[cable].segment; }
   const SegmentPath& path(std::size_t cable, std::size_t segment) const { return paths_[cable][segment]; }

@@ -14,7 +14,12 @@ constexpr double kToleranceN = 1e-7;
 
 CableLine::CableLine(const CablePaths& paths, std::size_t cable, double lead_m, double EA_N, double mu,
                      double tension_N)
-    : cable_(cable), lumps_(paths.last_segment(cable) + 1), lead_m_(lead_m), EA_N_(EA_N), mu_(mu) {
+    : cable_(cable),
+      first_(paths.first_segment()),
+      lumps_(paths.last_segment(cable) + 1 - first_),
+      lead_m_(lead_m),
+      EA_N_(EA_N),
+      mu_(mu) {
   lay_out(paths);
   for (std::size_t i = 0; i <= lumps_; ++i) {
     material_m_[i] = length_m_[i] / (1.0 + tension_N / EA_N_);
@@ -32,7 +37,7 @@ void CableLine::lay_out(const CablePaths& paths) {
   length_m_.fill(0.0);
   length_m_[0] = lead_m_;
   for (std::size_t j = 0; j < lumps_; ++j) {
-    const SegmentPath& path = paths.path(cable_, j);
+    const SegmentPath& path = paths.path(cable_, first_ + j);
     length_m_[j] += 0.5 * path.length_m;
     length_m_[j + 1] += 0.5 * path.length_m;
     ratio_[j] = std::exp(mu_ * path.wrap_rad);
@@ -98,8 +103,9 @@ void CableLine::add_stiffness(const CablePaths& paths, ThetaMatrix& stiffness) c
     Theta row{};  // d length / d theta of span i: half of the segment before it, half of its own
     for (const std::size_t j : {i, i + 1}) {
       if (j == 0 || j > lumps_) continue;
-      row[2 * (j - 1)] = 0.5 * paths.path(cable_, j - 1).d_pitch_m;
-      row[2 * (j - 1) + 1] = 0.5 * paths.path(cable_, j - 1).d_yaw_m;
+      const std::size_t segment = first_ + j - 1;
+      row[2 * segment] = 0.5 * paths.path(cable_, segment).d_pitch_m;
+      row[2 * segment + 1] = 0.5 * paths.path(cable_, segment).d_yaw_m;
     }
     for (std::size_t a = 0; a < row.size(); ++a)
       for (std::size_t b = 0; b < row.size(); ++b) stiffness[a][b] += EA_N_ / material_m_[i] * row[a] * row[b];

@@ -26,7 +26,9 @@ class CableLine {
   // At the drum, at the emptiest span, and averaged over the two sides of a segment's lump [N].
   double motor_tension_N() const { return tension_N_[0]; }
   double least_tension_N() const;
-  double segment_tension_N(std::size_t segment) const { return 0.5 * (tension_N_[segment] + tension_N_[segment + 1]); }
+  double segment_tension_N(std::size_t segment) const {
+    return 0.5 * (tension_N_[segment - first_] + tension_N_[segment - first_ + 1]);
+  }
   // Adds what the cable resists turns of the angles with while friction holds all its material, which is when it is
   // stiffest [N.m/rad].
   void add_stiffness(const CablePaths& paths, ThetaMatrix& stiffness) const;
@@ -40,6 +42,7 @@ class CableLine {
   double span_tension(std::size_t span) const;
 
   std::size_t cable_;
+  std::size_t first_;  // segment that it passes first; it has no lump in a base
   std::size_t lumps_;
   double lead_m_;
   double EA_N_;

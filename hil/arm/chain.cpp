@@ -18,6 +18,13 @@ Vec3 row_of(const mjtNum* values, std::size_t i) { return {values[3 * i], values
 
 Chain::Chain(const RobotConfig& robot, const SceneConfig& scene, bool with_tendons)
     : engine_(std::make_unique<Engine>(make_mjcf(robot, scene, with_tendons))), thetas_(robot.theta_count()) {
+  if (robot.base) {
+    base_joints_ = kBaseDrives;
+    first_body_ = 2;  // the carriage is 1
+    theta_of_hinge_ = {0, 1};
+    share_of_hinge_ = {robot.base->slide_m_per_rad, 1.0};
+    spring_of_hinge_.resize(kBaseDrives);
+  }
   for (std::size_t s = 0; s < robot.segments.size(); ++s) {
     for (int i = 0; i < robot.segments[s].modules; ++i, ++links_) {
       const std::size_t first = i % 2 == 0 ? 0 : 1;
@@ -28,7 +35,7 @@ Chain::Chain(const RobotConfig& robot, const SceneConfig& scene, bool with_tendo
       spring_of_hinge_.push_back({segment.joint_stiffness_Nm_rad, segment.joint_rest_rad[1 - first]});
     }
   }
-  share_of_hinge_.assign(theta_of_hinge_.size(), 1.0);
+  share_of_hinge_.resize(theta_of_hinge_.size(), 1.0);
   tip_offset_m_ = robot.segments.back().module_length_m;
   place(Theta{});
 }
@@ -42,9 +49,10 @@ void Chain::set_gravity(const Vec3& gravity_m_s2) {
 }
 
 void Chain::set_linkage(const Linkage& linkage) {
-  for (std::size_t i = 0; i < theta_of_hinge_.size(); ++i) {
+  for (std::size_t i = base_joints_; i < theta_of_hinge_.size(); ++i) {
     const bool pitch = theta_of_hinge_[i] % 2 == 0;
-    share_of_hinge_[i] = linkage.empty() ? 1.0 : pitch ? linkage[i / 2].pitch : linkage[i / 2].yaw;
+    const std::size_t link = (i - base_joints_) / 2;
+    share_of_hinge_[i] = linkage.empty() ? 1.0 : pitch ? linkage[link].pitch : linkage[link].yaw;
   }
 }
 
@@ -102,7 +110,7 @@ const std::vector<Contact>& Chain::contacts() {
     // MuJoCo's normal points from geom 1 to geom 2; the world is body 0.
     const double sign = body1 == 0 ? 1.0 : -1.0;
     Contact contact;
-    contact.link = static_cast<std::size_t>(body1 == 0 ? body2 : body1) - 1;
+    contact.link = static_cast<std::size_t>(body1 == 0 ? body2 : body1) - first_body_;
     contact.point_m = row_of(found.pos, 0);
     contact.normal = sign * row_of(found.frame, 0);
     contact.depth_m = -found.dist;
@@ -113,20 +121,22 @@ const std::vector<Contact>& Chain::contacts() {
 }
 
 Vec3 Chain::joint_center_m(std::size_t link) const {
-  return link < links_ ? row_of(engine_->data->xpos, link + 1) : tip().position_m;
+  return link < links_ ? row_of(engine_->data->xpos, link + first_body_) : tip().position_m;
 }
 
 Pose Chain::tip() const {
-  const mjtNum* q = engine_->data->xquat + 4 * links_;
+  const std::size_t last = links_ + first_body_ - 1;
+  const mjtNum* q = engine_->data->xquat + 4 * last;
   const Quat attitude{q[0], q[1], q[2], q[3]};
-  return {row_of(engine_->data->xpos, links_) + rotate(attitude, {tip_offset_m_, 0.0, 0.0}), attitude};
+  return {row_of(engine_->data->xpos, last) + rotate(attitude, {tip_offset_m_, 0.0, 0.0}), attitude};
 }
 
 void Chain::point_jacobian(std::size_t link, const Vec3& point_m, PointJacobian& jacobian) const {
   jacobian = {};
-  for (std::size_t i = 0; i < 2 * (link + 1); ++i) {
-    const Vec3 column =
-        share_of_hinge_[i] * cross(row_of(engine_->data->xaxis, i), point_m - row_of(engine_->data->xanchor, i));
+  for (std::size_t i = 0; i < base_joints_ + 2 * (link + 1); ++i) {
+    const Vec3 axis = row_of(engine_->data->xaxis, i);
+    const bool slides = i == 0 && base_joints_ != 0;
+    const Vec3 column = share_of_hinge_[i] * (slides ? axis : cross(axis, point_m - row_of(engine_->data->xanchor, i)));
     const std::size_t t = theta_of_hinge_[i];
     jacobian[0][t] += column.x;
     jacobian[1][t] += column.y;

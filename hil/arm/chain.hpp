@@ -1,4 +1,5 @@
-// The arm as hinges in MuJoCo, seen through the reduced angles: positions, inertia, bias forces, contacts.
+// The arm as hinges in MuJoCo, on a slide and a roll where it has a base, seen through the reduced angles: positions,
+// inertia, bias forces, contacts.
 #pragma once
 
 #include <cstdint>
@@ -50,7 +51,7 @@ class Chain {
   const std::vector<Contact>& contacts();
 
   std::size_t link_count() const { return links_; }
-  // Start of a link's axis; `link` == link_count() is the tip. Base frame, metres.
+  // Start of a link's axis, links counted without the base; `link` == link_count() is the tip. Base frame, metres.
   Vec3 joint_center_m(std::size_t link) const;
   Pose tip() const;
   void point_jacobian(std::size_t link, const Vec3& point_m, PointJacobian& jacobian) const;
@@ -61,13 +62,16 @@ class Chain {
   std::vector<double> tendon_lengths_m();
   // The unreduced mass matrix, row by row; for checks.
   std::vector<double> full_inertia();
-  // Reduced index of a hinge, and its angle per reduced angle: the constant matrix S.
+  // Reduced index of a hinge, and its angle per reduced angle: the constant matrix S. Slide and roll of a base come
+  // first; the slide's is metres per angle.
   std::size_t theta_of_hinge(std::size_t hinge) const { return theta_of_hinge_[hinge]; }
   double share_of_hinge(std::size_t hinge) const { return share_of_hinge_[hinge]; }
 
  private:
   struct Engine;
   std::unique_ptr<Engine> engine_;
+  std::size_t base_joints_ = 0;
+  std::size_t first_body_ = 1;  // of the links; MuJoCo's world is 0
   std::size_t links_ = 0;
   std::size_t thetas_ = 0;
   double tip_offset_m_ = 0.0;

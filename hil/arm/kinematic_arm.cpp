@@ -22,6 +22,7 @@ Quat turned(double angle_rad, const Vec3& axis) {
 
 Pose tip_of(const RobotConfig& robot, const Theta& theta_rad) {
   Pose tip;
+  if (robot.base) tip = {{robot.base->slide_m_per_rad * theta_rad[0], 0.0, 0.0}, turned(theta_rad[1], {1.0, 0.0, 0.0})};
   for (std::size_t s = 0; s < robot.segments.size(); ++s) {
     const Quat pitch = turned(theta_rad[2 * s], {0.0, 0.0, 1.0});
     const Quat yaw = turned(theta_rad[2 * s + 1], {0.0, 1.0, 0.0});
@@ -40,6 +41,7 @@ KinematicArm::KinematicArm(const RobotConfig& robot, const TrueParameters& truth
       thetas_(robot.theta_count()),
       EA_N_(truth.EA_N),
       paths_(robot, truth.hole_radius_error_m),
+      base_(robot),
       theta_(start_rad),
       tip_(tip_of(robot, start_rad)) {
   if (truth.mu != 0.0)
@@ -49,8 +51,9 @@ KinematicArm::KinematicArm(const RobotConfig& robot, const TrueParameters& truth
   paths_.update(theta_);
   const CableValues tension = balanced_tensions(paths_, thetas_, Theta{}, kStartTensionOfPlan * robot.plan_tension_N,
                                                 kStartFloorOfPlan * robot.plan_tension_N);
+  for (std::size_t i = 0; i < base_.count(); ++i) payout_[i] = base_.payout_m(i, theta_[i]);
   for (std::size_t c = 0; c < paths_.cable_count(); ++c)
-    payout_[c] = (paths_.length_m(c) + robot_.lead_m) / (1.0 + tension[c] / EA_N_);
+    payout_[base_.count() + c] = (paths_.length_m(c) + robot_.lead_m) / (1.0 + tension[c] / EA_N_);
   stretch();
   note_extremes();
 }
@@ -58,8 +61,8 @@ KinematicArm::KinematicArm(const RobotConfig& robot, const TrueParameters& truth
 // Tensions of the present angles and payouts; a cable that is too long is slack.
 void KinematicArm::stretch() {
   for (std::size_t c = 0; c < paths_.cable_count(); ++c) {
-    const double stretched_m = paths_.length_m(c) + robot_.lead_m - payout_[c];
-    tension_N_[c] = std::max(0.0, EA_N_ * stretched_m / payout_[c]);
+    const double stretched_m = paths_.length_m(c) + robot_.lead_m - payout_m(c);
+    tension_N_[c] = std::max(0.0, EA_N_ * stretched_m / payout_m(c));
   }
 }
 
@@ -75,10 +78,10 @@ void KinematicArm::note_extremes() {
 void KinematicArm::pull(Theta& torque, ThetaMatrix& stiffness) const {
   for (std::size_t c = 0; c < paths_.cable_count(); ++c) {
     if (tension_N_[c] == 0.0) continue;
-    const double k_N_per_m = EA_N_ / payout_[c];
+    const double k_N_per_m = EA_N_ / payout_m(c);
     const std::size_t angles = 2 * (paths_.last_segment(c) + 1);
     Theta row{};
-    for (std::size_t j = 0; 2 * j < angles; ++j) {
+    for (std::size_t j = paths_.first_segment(); 2 * j < angles; ++j) {
       row[2 * j] = paths_.path(c, j).d_pitch_m;
       row[2 * j + 1] = paths_.path(c, j).d_yaw_m;
     }
@@ -87,12 +90,20 @@ void KinematicArm::pull(Theta& torque, ThetaMatrix& stiffness) const {
       for (std::size_t b = 0; b <= a; ++b) stiffness[a][b] += k_N_per_m * row[a] * row[b];
     }
   }
-  for (std::size_t i = 0; i < thetas_; ++i) {
+  for (std::size_t i = base_.count(); i < thetas_; ++i) {
     const double limit = robot_.segments[i / 2].theta_limit_rad;
     const double beyond = theta_[i] - std::clamp(theta_[i], -limit, limit);
     if (beyond == 0.0) continue;
     torque[i] -= kJointStop_Nm_per_rad * beyond;
     stiffness[i][i] += kJointStop_Nm_per_rad;
+  }
+}
+
+void KinematicArm::follow_base(double step_s) {
+  for (std::size_t i = 0; i < base_.count(); ++i) {
+    const double angle_rad = base_.angle_rad(i, payout_[i]);
+    rate_[i] = (angle_rad - theta_[i]) / step_s;
+    theta_[i] = angle_rad;
   }
 }
 
@@ -102,15 +113,17 @@ void KinematicArm::step(double step_s, const CableValues& payout_m) {
   Theta torque{};
   ThetaMatrix stiffness{};  // the lower triangle, which is all that the solver reads
   pull(torque, stiffness);
-  for (std::size_t a = 0; a < thetas_; ++a) stiffness[a][a] += robot_.viscous_Nms_per_rad / step_s;
+  for (std::size_t a = 0; a < base_.count(); ++a) stiffness[a][a] = 1.0;  // no torque: none turns
+  for (std::size_t a = base_.count(); a < thetas_; ++a) stiffness[a][a] += robot_.viscous_Nms_per_rad / step_s;
   Theta turn{};
   if (!solve_spd(stiffness, torque, thetas_, turn))
     throw std::runtime_error("light arm: no step is possible; the state is broken");
-  for (std::size_t a = 0; a < thetas_; ++a) {
+  for (std::size_t a = base_.count(); a < thetas_; ++a) {
     const double limited = std::clamp(turn[a], -kMaxTurn_rad, kMaxTurn_rad);
     theta_[a] += limited;
     rate_[a] = limited / step_s;
   }
+  follow_base(step_s);
   paths_.update(theta_);
   tip_ = tip_of(robot_, theta_);
   stretch();

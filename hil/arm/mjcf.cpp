@@ -58,6 +58,13 @@ void write_sites(std::ostream& out, const RobotConfig& robot, const char* side, 
   out << '\n';
 }
 
+// Opens the carriage, a solid cylinder of the wheel's radius: only its turn about x counts, so it is as a ball.
+void write_carriage(std::ostream& out, const BaseConfig& base) {
+  const double inertia = 0.5 * base.mass_kg * base.roll_radius_m * base.roll_radius_m;
+  out << "<body><joint type='slide' axis='1 0 0'/><joint type='hinge' axis='1 0 0'/><inertial pos='0 0 0' mass='"
+      << base.mass_kg << "' diaginertia='" << inertia << ' ' << inertia << ' ' << inertia << "'/>\n";
+}
+
 void write_link(std::ostream& out, const RobotConfig& robot, const SegmentConfig& segment, double offset_m,
                 bool pitch_first, bool last) {
   const double l = segment.module_length_m;
@@ -105,10 +112,11 @@ std::string make_mjcf(const RobotConfig& robot, const SceneConfig& scene, bool w
   double offset_m = 0.0;
   int link = 0;
   int bodies = 0;
+  if (robot.base) write_carriage(out, *robot.base), ++bodies;
   for (std::size_t s = 0; s < robot.segments.size(); ++s) {
     const SegmentConfig& segment = robot.segments[s];
     for (int i = 0; i < segment.modules; ++i, ++link, ++bodies) {
-      // The disc before a joint belongs to the link before it: the world for the first one.
+      // The disc before a joint belongs to the link before it: world or carriage for the first.
       if (with_tendons) write_sites(out, robot, "n", link, offset_m - segment.face_offset_m);
       const bool last = s + 1 == robot.segments.size() && i + 1 == segment.modules;
       write_link(out, robot, segment, offset_m, i % 2 == 0, last);

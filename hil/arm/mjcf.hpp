@@ -8,7 +8,8 @@
 
 namespace liana::bench {
 
-// Hinges in the order of the links, two per link; one body per module with inertia of a solid cylinder. Arm geoms touch
+// With a base first its carriage, a body without shape that slides along x and turns about it. Then hinges in the order
+// of the links, two per link; one body per module with inertia of a solid cylinder. Arm geoms touch
 // the scene and never each other; the last link does not touch the rod. The scene's shapes are world geoms, the rod is
 // named "rod". `with_tendons` adds one spatial tendon per cable through sites at the holes (the independent check of
 // the cable lengths; slow).

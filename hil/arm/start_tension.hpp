@@ -1,4 +1,4 @@
-// Tensions that hold the arm still: J^T t + w = 0, w what gravity asks of the joints.
+// Tensions that hold the arm still: J^T t + w = 0, w what gravity asks of the joints; those of a base are left out.
 #pragma once
 
 #include "hil/arm/cable_geometry.hpp"

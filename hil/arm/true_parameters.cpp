@@ -39,7 +39,7 @@ TrueParameters spread_parameters(const RobotConfig& robot, const std::string& ph
   parameters.hole_radius_error_m = arm.uniform(-0.02e-3, 0.02e-3);
   Random zeros(seed, "cable zeros");
   Random gains(seed, "torque gains");
-  for (std::size_t c = 0; c < robot.cable_count(); ++c) {
+  for (std::size_t c = robot.base_drives(); c < robot.drive_count(); ++c) {
     parameters.zero_offset_m[c] = zeros.uniform(-0.05e-3, 0.05e-3);
     parameters.torque_gain[c] = gains.uniform(0.99, 1.01);
   }
@@ -54,6 +54,7 @@ RobotConfig spread_load(const RobotConfig& robot, std::uint64_t seed) {
   constexpr double kMass = 0.05, kCenter_m = 0.005, kStiffness = 0.1, kTilt_rad = 1.0 / kDegPerRad;
   Random load(seed, "load");
   for (SegmentConfig& segment : built.segments) {
+    if (segment.modules == 0) continue;  // a base
     segment.module_mass_kg *= 1.0 + load.uniform(-kMass, kMass);
     segment.module_center += load.uniform(-kCenter_m, kCenter_m) / segment.module_length_m;
     segment.joint_stiffness_Nm_rad *= 1.0 + load.uniform(-kStiffness, kStiffness);

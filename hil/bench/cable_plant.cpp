@@ -16,6 +16,27 @@ namespace {
 constexpr double kGravity_m_s2 = 9.80665;  // standard gravity, ISO 80000-3
 constexpr double kStartSpread_rad = 0.5 / kDegPerRad;
 
+// Drives of a base move no cable: `what` asks for one.
+void require_cable(const RobotConfig& robot, std::size_t drive, const std::string& what) {
+  if (drive >= robot.base_drives()) return;
+  const std::string number = std::to_string(drive + 1);
+  throw std::runtime_error(what + " needs a cable, but drive " + number + " (node " + number +
+                           ", segment 1) moves the " + (drive == 0 ? "slide" : "roll") +
+                           " of the base; name drives of cables, " + std::to_string(robot.base_drives() + 1) + " to " +
+                           std::to_string(robot.drive_count()));
+}
+
+void refuse_cables_of_base(const RobotConfig& robot, const BusesConfig& buses, const ModelOptions& options,
+                           const std::vector<FaultConfig>& faults) {
+  for (const FaultConfig& fault : faults)
+    if (fault_of(fault.kind) == FaultOf::kCable)
+      for (const std::size_t drive : fault.drives) require_cable(robot, drive, "--faults: kind \"" + fault.name + "\"");
+  for (const std::size_t drive : options.cross_wired) require_cable(robot, drive, "--cross-wired");
+  for (const LoadCellNodeConfig& node : buses.load_cells)
+    for (const std::size_t cable : node.cables)
+      require_cable(robot, cable, "bus table: load cell of node " + std::to_string(node.node));
+}
+
 TrueParameters parameters_of(const RobotConfig& robot, const ModelOptions& options, std::uint64_t seed) {
   TrueParameters truth =
       options.spread ? spread_parameters(robot, options.physics, seed) : table_parameters(robot, options.physics);
@@ -52,6 +73,7 @@ CablePlant::CablePlant(const RobotConfig& robot, const SceneConfig& scene, const
       drives_(robot, buses, truth_, arm_->payouts_m(), options.spread, seed, options.cross_wired),
       load_cells_(buses, options.spread, seed),
       tip_before_m_(arm_->tip().position_m) {
+  refuse_cables_of_base(robot, buses, options, faults);
   load_cells_.refuse_faults_of_others(faults);
   drives_.measure(motor_tensions_N());
 }

@@ -16,15 +16,13 @@ DriveBank::DriveBank(const RobotConfig& robot, const BusesConfig& buses, const T
     : Drives(robot.product, seed),
       robot_(robot),
       truth_(truth),
-      creep_(robot.cable_count()),
+      path_at_zero_m_(robot.paths_at_zero_m()),
+      creep_(robot.drive_count()),
       noisy_(noisy),
       torque_noise_(seed, "torque noise") {
-  for (std::size_t m = 0; m < robot.segments.size(); ++m)
-    for (std::size_t c = 0; c < robot.segments[m].cable_phase_rad.size(); ++c)
-      path_at_zero_m_.push_back(robot.path_at_zero_m(m));
-  for (std::size_t i = 0; i < robot.cable_count(); ++i) cable_of_.push_back(i);
+  for (std::size_t i = 0; i < robot.drive_count(); ++i) cable_of_.push_back(i);
   if (cross_wired.size() == 2) std::swap(cable_of_[cross_wired[0]], cable_of_[cross_wired[1]]);
-  for (std::size_t i = 0; i < robot.cable_count(); ++i) {
+  for (std::size_t i = 0; i < robot.drive_count(); ++i) {
     const std::size_t cable = cable_of_[i];
     const double paid_out = payout_m[cable] - path_at_zero_m_[cable] - robot.lead_m - truth.zero_offset_m[cable];
     const double counts = robot.drives[i].zero_counts + robot.drives[i].direction * paid_out / robot.metres_per_count();

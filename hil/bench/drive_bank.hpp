@@ -12,7 +12,8 @@ namespace liana::bench {
 
 class DriveBank final : public Drives {
  public:
-  // Drums hold `payout_m`; brakes on. `cross_wired`: empty, or two drives that have each other's cable.
+  // Drums hold `payout_m`, one a drive (Arm::payouts_m); brakes on. `cross_wired`: empty, or two drives that have each
+  // other's cable.
   DriveBank(const RobotConfig& robot, const BusesConfig& buses, const TrueParameters& truth,
             const CableValues& payout_m, bool noisy, std::uint64_t seed,
             const std::vector<std::size_t>& cross_wired = {});
@@ -23,7 +24,7 @@ class DriveBank final : public Drives {
   void move(double step_s, const CableValues& tension_N);
   // Reads all torque sensors (once per slot).
   void measure(const CableValues& tension_N);
-  // Unstretched cable the drums have paid out now [m].
+  // Unstretched cable the drums have paid out now, and where the drives of a base stand [m].
   CableValues payouts_m() const;
 
  private:
@@ -41,7 +42,7 @@ class DriveBank final : public Drives {
   RobotConfig robot_;
   TrueParameters truth_;
   std::vector<double> path_at_zero_m_;
-  std::vector<std::size_t> cable_of_;  // on each drive's drum
+  std::vector<std::size_t> cable_of_;  // on each drive's drum, counted as the drives
   std::vector<Creep> creep_;
   CableValues loose_m_{};  // cable that faults paid out beside the drum
   bool noisy_;

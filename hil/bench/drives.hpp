@@ -33,6 +33,7 @@ DriveSettings drive_settings(const Robot& robot, const BusesConfig& buses, std::
     settings.is_torque_controlled = robot.is_torque_controlled;
   } else {
     settings.pull_direction = -robot.drives[i].direction;
+    settings.holds_both_ways = i < robot.base_drives();
   }
   return settings;
 }

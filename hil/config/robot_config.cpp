@@ -1,5 +1,6 @@
 #include "hil/config/robot_config.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 #include "hil/config/fields.hpp"
@@ -9,6 +10,8 @@
 namespace liana::bench {
 
 namespace {
+
+constexpr double kMostBase_deg = 360.0;
 
 double number_or(const JsonFile& file, const std::string& field, double low, double high, double otherwise) {
   return file.has(field) ? file.number(field, low, high) : otherwise;
@@ -41,10 +44,29 @@ void read_weight(const JsonFile& file, RobotConfig& robot) {
   robot.tool_center_m = file.vector("/tool/center_m");
 }
 
+void read_base(const JsonFile& file, RobotConfig& robot) {
+  if (!file.has("/base")) return;
+  BaseConfig base;
+  base.limit_rad = kRadPerDeg * file.number("/base/limit_deg", 0.1, kMostBase_deg);
+  base.slide_m_per_rad = file.number("/base/slide_m_per_deg", 1e-6, 1.0) / kRadPerDeg;
+  base.roll_radius_m = file.number("/base/roll_radius_m", 0.001, 1.0);
+  base.mass_kg = file.number("/base/mass_kg", 0.001, 1000.0);
+  robot.base = base;
+}
+
+// The base as a segment: it limits two angles and ends where the first disc is.
+SegmentConfig segment_of(const BaseConfig& base, double face_offset_m) {
+  SegmentConfig segment;
+  segment.theta_limit_rad = base.limit_rad;
+  segment.face_offset_m = face_offset_m;
+  return segment;
+}
+
 void read_segments(const JsonFile& file, RobotConfig& robot) {
-  const std::size_t count = file.size("/segments");
-  if (count < 1 || count > kMaxSegments)
-    file.fail("/segments", "has " + std::to_string(count) + " entries, allowed is 1 to 8");
+  const std::size_t count = file.size("/segments"), most = kMaxSegments - robot.first_bending();
+  if (count < 1 || count > most)
+    file.fail("/segments", "has " + std::to_string(count) + " entries, allowed is 1 to " + std::to_string(most) +
+                               (robot.base ? " beside a base" : ""));
   for (std::size_t m = 0; m < count; ++m) {
     SegmentConfig segment;
     segment.modules = file.integer(at("/segments", m) + "/modules", 1, 16);
@@ -60,6 +82,8 @@ void read_segments(const JsonFile& file, RobotConfig& robot) {
     segment.face_offset_m = number_of_segment(file, "/cables/face_offset_m", m, 0.0, 0.5);
     robot.segments.push_back(segment);
   }
+  if (robot.base)
+    robot.segments.insert(robot.segments.begin(), segment_of(*robot.base, robot.segments.front().face_offset_m));
 }
 
 void read_mechanics(const JsonFile& file, RobotConfig& robot) {
@@ -82,11 +106,14 @@ void read_drives(const JsonFile& file, RobotConfig& robot) {
   robot.vendor = static_cast<std::uint32_t>(file.number("/drives/identity/vendor", 0.0, 4294967295.0));
   robot.product = static_cast<std::uint32_t>(file.number("/drives/identity/product", 0.0, 4294967295.0));
   robot.revision = static_cast<std::uint32_t>(file.number("/drives/identity/revision", 0.0, 4294967295.0));
-  std::size_t cables = 0;
-  for (const auto& segment : robot.segments) cables += segment.cable_phase_rad.size();
-  const auto direction = file.numbers("/drives/direction", cables, -1.0, 1.0);
-  const auto zero = file.numbers("/drives/zero_counts", cables, -1e9, 1e9);
-  for (std::size_t i = 0; i < cables; ++i) {
+  std::size_t drives = robot.base_drives();
+  for (const auto& segment : robot.segments) drives += segment.cable_phase_rad.size();
+  if (drives > kMaxCables)
+    file.fail("/cables/phase_deg",
+              "asks for " + std::to_string(drives) + " drives, allowed is 1 to " + std::to_string(kMaxCables));
+  const auto direction = file.numbers("/drives/direction", drives, -1.0, 1.0);
+  const auto zero = file.numbers("/drives/zero_counts", drives, -1e9, 1e9);
+  for (std::size_t i = 0; i < drives; ++i) {
     if (direction[i] == 0.0) file.fail(at("/drives/direction", i), "is 0; allowed is -1 or 1");
     robot.drives.push_back({direction[i] > 0.0 ? 1 : -1, zero[i], static_cast<std::uint32_t>(kFirstSerial + i)});
     if (file.has("/drives/serials"))
@@ -94,6 +121,21 @@ void read_drives(const JsonFile& file, RobotConfig& robot) {
   }
   if (file.has("/limits/cable_speed_m_s"))
     robot.fastest_counts_per_s = file.number("/limits/cable_speed_m_s", 0.0, 10.0) / robot.metres_per_count();
+}
+
+void read_named_poses(const JsonFile& file, RobotConfig& robot) {
+  constexpr double kMostBend_deg = 90.0;
+  const double base_deg = robot.base ? file.number("/base/limit_deg", 0.1, kMostBase_deg) : 0.0;
+  const double max_deg = std::max(base_deg, kMostBend_deg);
+  for (const auto& name : file.keys("/named_poses_deg")) {
+    const std::string field = "/named_poses_deg/" + name;
+    auto pose = file.numbers(field, robot.theta_count(), -max_deg, max_deg);
+    for (std::size_t i = 0; i < pose.size(); ++i) {
+      const double limit_deg = i < robot.base_drives() ? base_deg : kMostBend_deg;
+      pose[i] = kRadPerDeg * file.number(at(field, i), -limit_deg, limit_deg);
+    }
+    robot.named_poses_rad[name] = pose;
+  }
 }
 
 }  // namespace
@@ -108,17 +150,23 @@ double RobotConfig::path_at_zero_m(std::size_t segment) const {
   return path - (segments[segment].module_length_m - (segments[0].face_offset_m + segments[segment].face_offset_m));
 }
 
+std::vector<double> RobotConfig::paths_at_zero_m() const {
+  std::vector<double> paths;
+  if (base)
+    for (const double metres : base->metres_per_rad()) paths.push_back(metres * base->limit_rad);
+  for (std::size_t m = first_bending(); m < segments.size(); ++m)
+    paths.insert(paths.end(), segments[m].cable_phase_rad.size(), path_at_zero_m(m));
+  return paths;
+}
+
 RobotConfig load_robot(const std::string& path) {
   const JsonFile file(path, "robot");
   RobotConfig robot;
+  read_base(file, robot);
   read_segments(file, robot);
   read_mechanics(file, robot);
   read_drives(file, robot);
-  for (const auto& name : file.keys("/named_poses_deg")) {
-    auto pose = file.numbers("/named_poses_deg/" + name, robot.theta_count(), -90.0, 90.0);
-    for (auto& angle : pose) angle *= kRadPerDeg;
-    robot.named_poses_rad[name] = pose;
-  }
+  read_named_poses(file, robot);
   return robot;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,16 +26,29 @@ struct SegmentConfig {
   std::array<double, 2> joint_rest_rad{};
 };
 
-// What a drive is told about itself; one per cable.
+// A carriage that slides along x of the base frame and then turns about that x; the arm starts on it. Two angles stand
+// for both, the slide's first, each moved by a drive of its own.
+struct BaseConfig {
+  double limit_rad = 0.0;        // of both angles
+  double slide_m_per_rad = 0.0;  // x of the carriage per angle, 0 in the middle of the travel
+  double roll_radius_m = 0.0;    // of the wheel that turns it
+  double mass_kg = 0.0;          // of the carriage
+  // What the drives of slide and roll move per angle [m/rad].
+  std::array<double, 2> metres_per_rad() const { return {slide_m_per_rad, roll_radius_m}; }
+};
+constexpr std::size_t kBaseDrives = 2;
+
+// What a drive is told about itself; first those of a base, then one per cable.
 struct DriveConfig {
-  int direction = 1;         // +1: counts grow while cable is paid out
+  int direction = 1;         // +1: counts grow while cable is paid out, or slide and roll go on
   double zero_counts = 0.0;  // counts at payout = path at the zero pose + lead
   std::uint32_t serial = 0;  // 1018:4
 };
 
 struct RobotConfig {
-  std::vector<SegmentConfig> segments;
-  Vec3 gravity_m_s2;  // in the base frame
+  std::optional<BaseConfig> base;
+  std::vector<SegmentConfig> segments;  // with a base the first stands for it: no module, no cable
+  Vec3 gravity_m_s2;                    // in the base frame
   double tool_kg = 0.0;
   Vec3 tool_center_m;  // in the tip's frame
   double module_radius_m = 0.0;
@@ -61,11 +75,17 @@ struct RobotConfig {
     for (const SegmentConfig& segment : segments) count += static_cast<std::size_t>(segment.modules);
     return count;
   }
-  std::size_t cable_count() const { return drives.size(); }
+  std::size_t drive_count() const { return drives.size(); }
+  // Drives that move no cable: they come first.
+  std::size_t base_drives() const { return base ? kBaseDrives : 0; }
+  // First of the segments that bend.
+  std::size_t first_bending() const { return base ? 1 : 0; }
   // Cable paid out per encoder count [m].
   double metres_per_count() const;
   // The table's path of a cable that ends in `segment`, arm straight [m].
   double path_at_zero_m(std::size_t segment) const;
+  // The same of every drive. That of slide and roll is what they move from the middle to the end, so none is negative.
+  std::vector<double> paths_at_zero_m() const;
 };
 
 // Reads and checks a robot; throws std::runtime_error naming file, field, value and allowed range.

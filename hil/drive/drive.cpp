@@ -17,7 +17,7 @@ Drive::Drive(const DriveSettings& settings, double start_counts)
       sdo_(
           objects_, [this](const Object& o, std::int64_t v) { return guard(o, v); },
           [this](const Object& o) { written(o); }),
-      motor_(settings.servo_time_constant_s, settings.pull_direction, start_counts) {
+      motor_(settings.servo_time_constant_s, settings.pull_direction, start_counts, settings.holds_both_ways) {
   rebuild_pdos();
   sample();
   objects_.set(0x607A, 0, objects_.get(0x6064));

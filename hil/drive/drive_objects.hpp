@@ -22,6 +22,7 @@ struct DriveSettings {
   double fastest_counts_per_s = 0.0;  // that it will be told; 0: not known
   double servo_time_constant_s = 0.03;
   int pull_direction = -1;            // sign of counts that winds cable up
+  bool holds_both_ways = false;       // what it moves pulls at it or pushes it: its torque has either sign
   bool is_torque_controlled = false;  // has cyclic synchronous torque, and a joint torque sensor
   DictionaryConfig dictionary;
 

@@ -5,9 +5,10 @@
 
 namespace liana::bench {
 
-ServoMotor::ServoMotor(double time_constant_s, int pull_direction, double position_counts)
+ServoMotor::ServoMotor(double time_constant_s, int pull_direction, double position_counts, bool both_ways)
     : time_constant_s_(time_constant_s),
       pull_direction_(pull_direction),
+      both_ways_(both_ways),
       position_(position_counts),
       target_(position_counts) {}
 
@@ -34,7 +35,8 @@ double ServoMotor::next_velocity(double step_s) const {
 void ServoMotor::step(double step_s, double torque_permille, double max_torque_permille) {
   if (mode_ == MotorMode::kTorque) return;
   velocity_ = next_velocity(step_s);
-  limited_ = torque_permille >= max_torque_permille && velocity_ * pull_direction_ > 0.0;
+  const double turned = both_ways_ && torque_permille < 0.0 ? -1.0 : 1.0;
+  limited_ = turned * torque_permille >= max_torque_permille && turned * velocity_ * pull_direction_ > 0.0;
   if (limited_) velocity_ = 0.0;
   position_ += velocity_ * step_s;
 }

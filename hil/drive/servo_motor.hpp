@@ -8,9 +8,11 @@ enum class MotorMode { kBraked, kFollow, kRamp, kTorque };
 class ServoMotor {
  public:
   // `pull_direction` is the sign of counts that winds cable up, against the load.
-  ServoMotor(double time_constant_s, int pull_direction, double position_counts);
+  // `both_ways`: a load below 0 is one the other way.
+  ServoMotor(double time_constant_s, int pull_direction, double position_counts, bool both_ways = false);
 
-  // One step; `torque_permille` is the load now. At `max_torque_permille` the servo gives no more: it stops winding up.
+  // One step; `torque_permille` is the load now. At `max_torque_permille` the servo gives no more: it stops winding up,
+  // or going on against the load.
   void step(double step_s, double torque_permille, double max_torque_permille);
 
   void set_mode(MotorMode mode);
@@ -32,6 +34,7 @@ class ServoMotor {
 
   double time_constant_s_;
   int pull_direction_;
+  bool both_ways_;
   double position_;
   double target_;
   double velocity_ = 0.0;

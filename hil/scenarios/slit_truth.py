@@ -7,15 +7,19 @@ REST_DEG_S = 0.1
 
 
 def turned(rotation, axis, angle):
-    """The rotation (rows) followed by a turn about the body's own axis (1: y, 2: z)."""
+    """The rotation (rows) followed by a turn about the body's own axis (0: x, 1: y, 2: z)."""
     s, c = math.sin(angle), math.cos(angle)
-    turn = ((c, -s, 0), (s, c, 0), (0, 0, 1)) if axis == 2 else ((c, 0, s), (0, 1, 0), (-s, 0, c))
+    turns = ((1, 0, 0), (0, c, -s), (0, s, c)), ((c, 0, s), (0, 1, 0), (-s, 0, c)), ((c, -s, 0), (s, c, 0), (0, 0, 1))
+    turn = turns[axis]
     return [[sum(row[k] * turn[k][j] for k in range(3)) for j in range(3)] for row in rotation]
 
 
 def joint_centres_m(robot, theta_deg):
     """Of every joint and the tip; odd modules turn pitch first, even ones yaw first."""
     rotation, at = [[1, 0, 0], [0, 1, 0], [0, 0, 1]], [0.0, 0.0, 0.0]
+    if "base" in robot:  # slide and roll come first
+        at[0] = robot["base"]["slide_m_per_deg"] * theta_deg[0]
+        rotation, theta_deg = turned(rotation, 0, math.radians(theta_deg[1])), theta_deg[2:]
     found = [tuple(at)]
     for s, segment in enumerate(robot["segments"]):
         pitch, yaw = (math.radians(theta_deg[2 * s + i]) for i in (0, 1))

@@ -36,7 +36,9 @@ class Limits:
         tension, limits = robot["tension"], robot["limits"]
         self.floor_motor_N, self.floor_N = tension["floor_motor_N"], tension["floor_anywhere_N"]
         self.hard_limit_N = tension["hard_limit_N"]
-        self.theta_deg = [segment["theta_limit_deg"] for segment in robot["segments"] for _ in (0, 1)]
+        base = [robot["base"]["limit_deg"]] if "base" in robot else []
+        bending = [segment["theta_limit_deg"] for segment in robot["segments"]]
+        self.theta_deg = [most for most in base + bending for _ in (0, 1)]
         self.rate_deg_s = limits["theta_rate_deg_s"]
         self.tip_m_s, self.tip_slit_m_s = limits["tip_speed_m_s"], limits["tip_speed_slit_m_s"]
 

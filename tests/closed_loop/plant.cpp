@@ -62,7 +62,7 @@ struct Plant::Parts {
         noisy(setup.spread),
         noise(setup.seed, "closed loop torque noise"),
         fault_noise(setup.seed, "closed loop fault noise") {
-    for (std::size_t c = 0; c < robot.cable_count(); ++c) truth.zero_offset_m[c] -= setup.zero_m[c];
+    for (std::size_t c = 0; c < robot.drive_count(); ++c) truth.zero_offset_m[c] -= setup.zero_m[c];
   }
 };
 
@@ -71,14 +71,14 @@ Plant::~Plant() = default;
 
 cable::CableVector Plant::measured_payout_m() const {
   cable::CableVector payout{};
-  for (std::size_t c = 0; c < parts_->robot.cable_count(); ++c)
+  for (std::size_t c = 0; c < parts_->robot.drive_count(); ++c)
     payout[c] = parts_->drum_m[c] - parts_->truth.zero_offset_m[c];
   return payout;
 }
 
 cable::CableVector Plant::measured_tension_N() {
   cable::CableVector tension{};
-  for (std::size_t c = 0; c < parts_->robot.cable_count(); ++c) {
+  for (std::size_t c = 0; c < parts_->robot.drive_count(); ++c) {
     const double noise = parts_->noisy ? parts_->noise.gaussian(kTorqueNoise) : 0.0;
     tension[c] = parts_->arm.motor_tension_N(c) * parts_->truth.torque_gain[c] * (1.0 + noise);
     if (parts_->scatter_N[c] > 0.0) tension[c] += parts_->fault_noise.gaussian(parts_->scatter_N[c]);
@@ -92,13 +92,13 @@ void Plant::advance(double tick_s, const cable::CableVector& target_m, bool powe
   parts_->arm.begin_slot(tick_s);
   const long steps = std::lround(tick_s / kPhysicsStep_s);
   for (long i = 0; i < steps; ++i) {
-    for (std::size_t c = 0; c < parts_->robot.cable_count(); ++c) {
+    for (std::size_t c = 0; c < parts_->robot.drive_count(); ++c) {
       if (parts_->stands[c]) continue;
       const double target = target_m[c] + parts_->truth.zero_offset_m[c];
       parts_->drum_m[c] += share * (target - parts_->drum_m[c]);
     }
     cable::CableVector payout_m = parts_->drum_m;
-    for (std::size_t c = 0; c < parts_->robot.cable_count(); ++c) payout_m[c] += parts_->loose_m[c];
+    for (std::size_t c = 0; c < parts_->robot.drive_count(); ++c) payout_m[c] += parts_->loose_m[c];
     parts_->arm.step(kPhysicsStep_s, payout_m);
   }
 }

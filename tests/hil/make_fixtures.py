@@ -137,6 +137,56 @@ def buses():
     }
 
 
+def feeder():
+    """An arm on a base that feeds, as lua/robots/feeder.lua; its slide counts the other way round."""
+    return {
+        "format": 1,
+        "kind": "robot",
+        "name": "feeder",
+        "base": {"limit_deg": 90, "slide_m_per_deg": 0.005, "roll_radius_m": 0.05, "mass_kg": 2},
+        "segments": [{"modules": 4, "module_length_m": 0.05, "theta_limit_deg": 18}] * 4,
+        "gravity_m_s2": [0, 0, -9.80665],
+        "module": {"mass_kg": 0.04, "radius_m": 0.03},
+        "joint": {"viscous_Nms_per_rad": 0.3},
+        "cables": {
+            "hole_radius_m": 0.026,
+            "face_offset_m": 0.008,
+            "phase_deg": [[30 * m + 120 * c for c in range(3)] for m in range(4)],
+            "EA_N": 150000,
+            "lead_m": 0.3,
+            "friction_mu": {"nominal": 0.05, "ideal": 0, "worn": 0.10},
+        },
+        "tension": {"plan_N": 30},
+        "drives": {
+            "drum_radius_m": 0.012,
+            "counts_per_turn": 16384,
+            "gear": 1,
+            "servo_time_constant_s": 0.03,
+            "rated_torque_Nm": 5,
+            "identity": {"vendor": 19529, "product": 1, "revision": 1},
+            "direction": [-1] + [1] * 13,
+            "zero_counts": [500000 + 1000 * i for i in range(14)],
+        },
+        "limits": {"cable_speed_m_s": 0.04},
+        "named_poses_deg": {
+            "zero": [0] * 10,
+            "back": [-85] + [0] * 9,
+            "look": [-20, 30, 6, -4, 5, 5, -6, 4, 3, 6],
+        },
+    }
+
+
+def feeder_buses():
+    return {
+        **buses(),
+        "name": "embedded_feeder",
+        "buses": [
+            {"name": "can0", "bitrate": 1000000, "nodes": list(range(1, 8))},
+            {"name": "can1", "bitrate": 1000000, "nodes": list(range(8, 15))},
+        ],
+    }
+
+
 def micro():
     rows = [(90, 0, 0.28), (90, 0, 0.22), (0, 2.10, 0.20), (0, 2.10, 0), (90, 0, 0.20), (-90, 0, 0.22), (0, 0, 0.28)]
     return {
@@ -186,6 +236,8 @@ for name, make in (
     ("robot", robot),
     ("scene", scene),
     ("buses", buses),
+    ("feeder", feeder),
+    ("feeder_buses", feeder_buses),
     ("micro", micro),
     ("micro_buses", micro_buses),
 ):
