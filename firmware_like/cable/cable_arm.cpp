@@ -36,6 +36,7 @@ CableArm::CableArm(const RobotParams& table) noexcept
       declared_mu_(table.friction_mu),
       declared_tool_(table.tool),
       layout_(cable_layout(table)),
+      first_cable_(table.feed_count()),
       cables_with_cells_(cables_with_cells(table)),
       tension_watch_limits_(make_tension_watch_limits(table)) {
   for (Index c = 0; c < cables(); ++c) zero_payout_m_[c] = layout_.zero_length_m[c] + table.lead_m;
@@ -62,6 +63,7 @@ void CableArm::read(const DriveFeedbacks& drives, const LoadCells& cells) noexce
     payout_measured_m_[c] = payout_at_counts(table_.drive[c], zero_payout_m_[c], drive.position_counts);
     tension_measured_N_[c] = table_.drive[c].newtons_per_permille * drive.torque_permille;
   }
+  if (first_cable_ != 0) tension_measured_N_[0] = tension_measured_N_[1] = 0.0;
   if (cables_with_cells_ != 0) read_cells(cells);
   if (feedback_age_ticks_ == 0xFFFF) return;  // a drive was never heard
   estimate(table_, layout_, model_, ratio_, payout_measured_m_, tension_measured_N_, estimator_);
@@ -87,7 +89,7 @@ void CableArm::count_homing() noexcept {
 }
 
 bool CableArm::are_cables_taut() const noexcept {
-  for (Index c = 0; c < cables(); ++c) {
+  for (Index c = first_cable(); c < cables(); ++c) {
     if (!(estimator_.tension_N[c] >= kSlackCheckShare * table_.tension.floor_motor_N)) return false;
   }
   return true;
@@ -159,7 +161,7 @@ void CableArm::aim_tensions(const TensionPlan& plan) noexcept {
   for (Index k = 0; k < as_index(table_.theta_count()); ++k)
     load_change_Nm_[k] = (2.0 * plan.load_Nm[k] - planned_Nm_[k] - in_force_Nm[k]) / kPlanTicks;
   planned_Nm_ = plan.load_Nm;
-  for (Index c = 0; c < cables(); ++c) {
+  for (Index c = first_cable(); c < cables(); ++c) {
     const double ahead_N = smaller(table_.tension.ceiling_free_N, 2.0 * plan.motor_N[c] - planned_N_[c]);
     const double low_N = smaller(plan.motor_N[c], table_.tension.floor_motor_N + kAheadOver_N * table_.tension.scale());
     const double next_N = larger(larger(table_.tension.floor_motor_N, low_N), ahead_N);
@@ -306,7 +308,7 @@ std::uint32_t CableArm::limit_payout_speed(CableVector& wanted_m) const noexcept
 
 // Lengths that the cable speed keeps from what was planned give other tensions: those are told, not the planned ones.
 void CableArm::take_told_tensions(const CableVector& asked_m, const CableVector& told_m) noexcept {
-  for (Index c = 0; c < cables(); ++c) {
+  for (Index c = first_cable(); c < cables(); ++c) {
     const double more_N = table_.cable_EA_N * (asked_m[c] - told_m[c]) / asked_m[c];
     pull_N_[c] = clamp(pull_N_[c] + more_N, 0.0, table_.tension.ceiling_free_N);
   }

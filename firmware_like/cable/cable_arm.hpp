@@ -54,11 +54,13 @@ class CableArm {
   // One tick, in the order of these functions; arm.hpp says what each has to do.
   void read(const DriveFeedbacks& drives, const LoadCells& cells) noexcept;
   void watch_drive(WatchScope scope, bool follows, std::int32_t drive, Watch& out) noexcept {
-    const TensionReading now{tension_measured_N_[as_index(drive)], estimator_.tension_N[as_index(drive)], follows};
-    const WatchScope looked_for{scope.powered, scope.prepared && !may_be_slack(let_go_, layout_, drive)};
-    watch_tension(tension_watch_limits_, looked_for, now, drive, tension_watch_, out);
-    if (tension_watch_.slack_ticks[as_index(drive)] != 0 && is_missed(tension_watch_limits_, now)) missed_ = drive;
-    if ((cables_with_cells_ >> as_index(drive) & 1u) != 0) watch_load_cell(table_, scope, drive, load_cells_, out);
+    if (drive >= first_cable_) [[likely]] {
+      const TensionReading now{tension_measured_N_[as_index(drive)], estimator_.tension_N[as_index(drive)], follows};
+      const WatchScope looked_for{scope.powered, scope.prepared && !may_be_slack(let_go_, layout_, drive)};
+      watch_tension(tension_watch_limits_, looked_for, now, drive, tension_watch_, out);
+      if (tension_watch_.slack_ticks[as_index(drive)] != 0 && is_missed(tension_watch_limits_, now)) missed_ = drive;
+      if ((cables_with_cells_ >> as_index(drive) & 1u) != 0) watch_load_cell(table_, scope, drive, load_cells_, out);
+    }
     if (drive == 0) watch_body(scope, out);
   }
   bool lets_go(std::int32_t) const noexcept { return is_behind(let_go_); }
@@ -180,12 +182,14 @@ class CableArm {
   void take_told_tensions(const CableVector& asked_m, const CableVector& told_m) noexcept;
   void propose_payouts(DriveProposals& out) const noexcept;
   Index cables() const noexcept { return static_cast<Index>(layout_.cable_count); }
+  Index first_cable() const noexcept { return static_cast<Index>(first_cable_); }
 
   // As loaded, but for friction_mu, which the arm plans with, and the tool, which is all that hangs at the tip now.
   RobotParams table_{};
   double declared_mu_ = 0.0;
   TipLoad declared_tool_{};
   CableLayout layout_{};
+  std::int32_t first_cable_ = 0;  // after the drives of a base that feeds
   std::uint32_t cables_with_cells_ = 0;
   TensionWatchLimits tension_watch_limits_{};
   CableWatchLimits cable_watch_limits_{};

@@ -32,6 +32,50 @@ function actions.move_cp(fields)
   return giving("move_cp", fields, position(1))
 end
 
+local kFollowMargin_m = 0.005
+
+local waypoints_of = {} -- a curve's table -> the waypoints of its last plan, degrees
+
+local function check_curve(action, curve)
+  check_argument(action, "curve", curve, "table")
+  for field in pairs(curve) do
+    if field ~= "points" and field ~= "margin_m" then
+      error(("%s: curve.%s: allowed points, margin_m: correct its spelling"):format(action, tostring(field)), 3)
+    end
+  end
+  if type(curve.points) ~= "table" or #curve.points < 2 then
+    error(action .. ": curve.points: allowed 2 points or more, { {x, y, z}, ... }, metres in the base frame: correct the call", 3)
+  end
+end
+
+local function go_along(arm, curve, waypoints_deg)
+  arm.path_end_deg = waypoints_deg[#waypoints_deg]
+  arm.move_path { points_deg = waypoints_deg, margin_m = curve.margin_m or kFollowMargin_m }
+end
+
+-- Follow the leader: the tip goes along a curve { points = { {x, y, z}, ... }, margin_m = 0.005 } in the base frame, the body after
+-- it. The first point is where the tip is. The way is planned when the step runs, and lianad checks it. Every link keeps `margin_m`.
+function actions.follow_curve(curve)
+  check_curve("follow_curve", curve)
+  return action_requirements.noted(function(arm)
+    local margin_m = curve.margin_m or kFollowMargin_m
+    local plan = arm.plan_curve { from_deg = arm.state.setpoint_js_deg, points = curve.points, margin_m = margin_m }
+    waypoints_of[curve] = plan.waypoints_deg
+    go_along(arm, curve, plan.waypoints_deg)
+  end, { action = "follow_curve", at = position(1) })
+end
+
+-- Back along the curve that an earlier step has followed, given as the same table.
+function actions.follow_back(curve)
+  check_curve("follow_back", curve)
+  return action_requirements.noted(function(arm)
+    local there, back = waypoints_of[curve], {}
+    if there == nil then error("follow_back: no step has followed this curve: follow it first, by the same table", 0) end
+    for i = #there, 1, -1 do back[#back + 1] = there[i] end
+    go_along(arm, curve, back)
+  end, { action = "follow_back", at = position(1) })
+end
+
 -- Moves nodes by null-space targets { { node = 3, position_m = {x, y, z}, weight = 1, threshold_m = 0.01 }, ... } and pushes
 -- the arm's middle away from points { { center_m = {x, y, z}, distance_m = 0.3, weight = 1 }, ... } (optional). With `search` the arm
 -- first moves to the best of all shapes; it has to be at rest.

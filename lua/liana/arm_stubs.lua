@@ -46,6 +46,11 @@ function arm.holds_what_it_should() end
 ---@return number
 function arm.elapsed_s(since) end
 
+---Plans a curve for the arm to follow; `liana.follow_curve` calls it. Raises what is wrong with the curve.
+---@param request table from_deg, points {x, y, z} in the base frame [m], margin_m
+---@return table plan waypoints_deg, tip_off_m, curve_off_m, curve_off_segment, curve_off_along_m
+function arm.plan_curve(request) end
+
 -- ---- commanding, made by ./dev docs ----
 
 ---@class arm.acquire

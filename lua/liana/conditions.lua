@@ -8,6 +8,8 @@ local format_value = require "liana.format_value"
 
 local conditions = {}
 
+local kPathEnd_deg = 0.02 -- of every joint from the end of a path
+
 -- A condition of your own: what it says, and a function of arm that returns true when it is met, else false or nothing.
 function conditions.condition(text, met)
   check_argument("condition", "text", text, "string")
@@ -98,6 +100,17 @@ end
 -- The tool has carried out its last command.
 function conditions.tool_done()
   return condition("tool done", function(arm) return arm.state.tool ~= nil and arm.state.tool.phase == "done" end)
+end
+
+-- The arm is at rest at the end of the curve that `follow_curve` or `follow_back` of this step goes along.
+function conditions.curve_followed()
+  return condition("curve followed to its end", function(arm)
+    if arm.path_end_deg == nil or arm.state.path ~= nil or not arm.state.at_rest or arm.state.is_busy then return false end
+    for i, target_deg in ipairs(arm.path_end_deg) do
+      if math.abs(arm.state.setpoint_js_deg[i] - target_deg) > kPathEnd_deg then return false end
+    end
+    return true
+  end)
 end
 
 -- Every joint setpoint within tolerance_deg (default 0.02) of a named pose of the robot.

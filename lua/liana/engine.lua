@@ -38,12 +38,14 @@ local function tracked(commands, pending)
   return out
 end
 
--- A runner for a checked mission. `native` has commands (the bindings), progress(event), report(table) and attempt(function, ...),
--- which is pcall with a budget of its own; `name` is ours at lianad.
+-- A runner for a checked mission. `native` has commands (the bindings), progress(event), report(table), plan_curve(request) and
+-- attempt(function, ...), which is pcall with a budget of its own; `name` is ours at lianad.
 function engine.new(mission, welcome, native, name)
   local pending = {} -- request id -> command
+  local arm = arm_state.new(tracked(native.commands, pending), welcome)
+  arm.plan_curve = native.plan_curve
   return setmetatable({
-    mission = mission, native = native, name = name, arm = arm_state.new(tracked(native.commands, pending), welcome),
+    mission = mission, native = native, name = name, arm = arm,
     phase = "boot", index = 0, pending = pending, not_before = 0, first_retract_tick = nil, current_hold = {},
     index_to_begin = 1, single_step = false, taken = {}, -- of each way how often
     boot_reason = "state_command got no refusal",

@@ -54,6 +54,11 @@ local function rotation_z(angle)
   return { { c, -s, 0 }, { s, c, 0 }, { 0, 0, 1 } }
 end
 
+local function rotation_x(angle)
+  local c, s = math.cos(angle), math.sin(angle)
+  return { { 1, 0, 0 }, { 0, c, -s }, { 0, s, c } }
+end
+
 local function rotation_y(angle)
   local c, s = math.cos(angle), math.sin(angle)
   return { { c, 0, s }, { 0, 1, 0 }, { -s, 0, c } }
@@ -65,13 +70,20 @@ local function module_rotation(module, pitch, yaw)
   return times(rotation_y(yaw), rotation_z(pitch))
 end
 
--- Poses of the ends of all segments for theta in degrees; the last one is the tip.
+-- Poses of the ends of all segments for theta in degrees; the last one is the tip. A base that feeds is none of them, its
+-- slide and roll come first in theta.
 function geometry.segment_ends(robot, theta_deg)
   local rotation = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } }
   local position = { 0, 0, 0 }
+  local base = 0
+  if robot.base then
+    position[1] = robot.base.slide_m_per_deg * theta_deg[1]
+    rotation = rotation_x(math.rad(theta_deg[2]))
+    base = 2
+  end
   local ends = {}
   for m, segment in ipairs(robot.segments) do
-    local pitch, yaw = math.rad(theta_deg[2 * m - 1]), math.rad(theta_deg[2 * m])
+    local pitch, yaw = math.rad(theta_deg[base + 2 * m - 1]), math.rad(theta_deg[base + 2 * m])
     for i = 1, segment.modules do
       rotation = times(rotation, module_rotation(i, pitch, yaw))
       position = geometry.add(position, geometry.axis(rotation, 1), segment.module_length_m)
@@ -79,11 +91,6 @@ function geometry.segment_ends(robot, theta_deg)
     ends[m] = { position = position, rotation = rotation }
   end
   return ends
-end
-
-local function rotation_x(angle)
-  local c, s = math.cos(angle), math.sin(angle)
-  return { { 1, 0, 0 }, { 0, c, -s }, { 0, s, c } }
 end
 
 -- Ends of all links of a serial arm for joint angles in degrees, by its DH table; the last one is the tip.

@@ -44,7 +44,7 @@ end
 local kTipValues = 6 -- position and attitude, which the tip keeps while angles go to where they are held
 
 local function holds_fit(where, hold, robot)
-  local held, angles = 0, robot.segments and 2 * #robot.segments or #robot.joints
+  local held, angles = 0, robot.segments and 2 * #robot.segments + (robot.base and 2 or 0) or #robot.joints
   for _ in pairs(hold) do held = held + 1 end
   local most = math.max(0, angles - kTipValues)
   if held <= most then return end

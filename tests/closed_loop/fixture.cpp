@@ -44,6 +44,12 @@ cable::RobotParams lab_table(const Vec3& gravity_m_s2) {
   return table;
 }
 
+const cable::RobotParams& feeder_table() {
+  static const config::RobotConfig loaded = config::load_robot(
+      CLOSED_LOOP_DATA "/feeder.json", "nominal", config::load_buses(CLOSED_LOOP_DATA "/feeder_buses.json"));
+  return loaded.table;
+}
+
 cable::ThetaVector lab_pose_rad(const std::string& name) { return pose_rad(lab(), name); }
 cable::ThetaVector named_pose_rad(const std::string& name) { return pose_rad(robot("nominal"), name); }
 

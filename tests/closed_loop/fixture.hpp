@@ -15,6 +15,8 @@ const config::RobotConfig& robot(const std::string& physics = "nominal");
 const cable::RobotParams& robot_table(const std::string& physics = "nominal");
 // lab_1g, mounted so that gravity pulls that way in its base frame. Read once per process.
 cable::RobotParams lab_table(const Vec3& gravity_m_s2);
+// feeder, an arm on a base that feeds. Read once per process.
+const cable::RobotParams& feeder_table();
 // How users mount it: lying, hanging, standing, and lying with its back down.
 inline constexpr double kEarth_m_s2 = 9.80665;
 inline constexpr Vec3 kLying_m_s2{0.0, 0.0, -kEarth_m_s2}, kHanging_m_s2{kEarth_m_s2, 0.0, 0.0},

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "firmware_like/cable/arm/payout.hpp"
-#include "firmware_like/cable/arm/tension.hpp"
+#include "firmware_like/cable/arm/static_load.hpp"
 #include "firmware_like/cable_controller.hpp"
 #include "firmware_like/command/release.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
@@ -26,7 +26,7 @@ class IdealDrives {
     const ArmTrig trig = arm_trig(robot, theta_rad);
     const CableGeometry geometry = cable_geometry(robot, layout, trig);
     const TensionRatio ratio = tension_ratio(robot, layout, trig, SlipState{});
-    const CableVector motor_N = plan_tension(robot, geometry, ratio, SegmentVector{}).motor_N;
+    const CableVector motor_N = plan_at_rest(robot, layout, theta_rad).motor_N;
     const CableVector payout_m = payout_for(robot, layout, geometry.part_m, ratio, motor_N);
     for (std::size_t c = 0; c < count(); ++c) {
       const double zero_m = layout.zero_length_m[c] + robot.lead_m;
@@ -89,8 +89,8 @@ constexpr std::uint64_t kForever = 1000000;  // a tick after the end of every te
 
 // A controller and its drives, ticked together.
 struct Rig {
-  explicit Rig(const ThetaVector& theta = zhu2022::radians(zhu2022::kPrepare_deg))
-      : controller(robot), drives(robot, theta) {}
+  explicit Rig(const ThetaVector& theta = zhu2022::radians(zhu2022::kPrepare_deg)) : Rig(zhu2022::table(), theta) {}
+  Rig(const RobotParams& table, const ThetaVector& theta) : robot(table), controller(robot), drives(robot, theta) {}
 
   const Outputs& tick(Request request = Request::kNone, const Telecommand& telecommand = {}) {
     Inputs inputs = drives.inputs(now++);
@@ -128,7 +128,7 @@ struct Rig {
     return setpoint;
   }
 
-  RobotParams robot = zhu2022::table();
+  RobotParams robot;
   Controller controller;
   IdealDrives drives;
   Outputs out{};

@@ -87,6 +87,7 @@ void FakeLianad::converse() {
         {"period_s", 0.004},
         {"interval_ticks", 5},
         {"robot", robot_},
+        {"buses", table("buses", "embedded")},
         {"scene", scene_}});
   for (int interval = 0; interval < kMaxIntervals; ++interval) {
     if (behaviour_.vanish_in_step != 0 && step_ >= behaviour_.vanish_in_step) return;

@@ -356,6 +356,42 @@ TEST(Mission, AStopForAReasonTooLongForAPacketIsStillSent) {
   EXPECT_LT(run.ops("stop")[0].size(), 300u);
 }
 
+TEST(Mission, ACurveIsPlannedFromWhereTheArmStandsAndGoesToLianadAsAPath) {
+  const TemporaryFolder folder;
+  const MissionRun run = run_mission_against({}, one_step(folder, R"(
+    run = function(arm)
+      local curve = { points = { arm.tip(), { arm.tip()[1] + 0.02, arm.tip()[2], arm.tip()[3] } } }
+      liana.follow_curve(curve)(arm)
+      liana.follow_back(curve)(arm)
+    end,
+    exit = liana.condition('soon', function(arm) return arm.elapsed_s(arm.begin_tick) > 0.2 end),)"));
+  EXPECT_EQ(run.report["outcome"], "success") << run.ended.error;
+  const std::vector<std::string> paths = run.ops("move_path");
+  ASSERT_EQ(paths.size(), 2u);
+  const Json there = Json::parse(paths[0]), back = Json::parse(paths[1]);
+  ASSERT_GE(there.at("points_deg").size(), 2u);
+  EXPECT_EQ(there.at("points_deg").front(), back.at("points_deg").back());
+  EXPECT_EQ(there.at("points_deg").back(), back.at("points_deg").front());
+  EXPECT_EQ(there.value("margin_m", 0.0), 0.005);
+}
+
+TEST(Mission, ACurveThatCannotBeFollowedFailsTheStepAndSaysWhy) {
+  const auto reason_of = [](const std::string& run) {
+    const TemporaryFolder folder;
+    return run_mission_against({}, one_step(folder, run + ", exit = liana.curve_followed(),")).ended.error;
+  };
+  EXPECT_TRUE(names(reason_of("run = liana.follow_curve { points = { { 0, 0, 0 }, { 0.1, 0, 0 } } }"),
+                    {"error in run", "follow_curve", "begins", "mm from the tip"}));
+  EXPECT_TRUE(names(reason_of("run = liana.follow_curve { points = { { 0, 0, 0 }, { 0, 0, 0.0001 } } }"),
+                    {"follow_curve", "points[2]", "1 mm apart"}));
+  EXPECT_TRUE(names(reason_of("run = liana.follow_back { points = { { 0, 0, 0 }, { 1, 0, 0 } } }"),
+                    {"follow_back", "no step has followed"}));
+  EXPECT_TRUE(
+      names(reason_of("run = liana.follow_curve { point = 1 }"), {"given.lua:3", "follow_curve", "curve.point"}));
+  EXPECT_TRUE(
+      names(reason_of("run = liana.follow_curve { points = {} }"), {"given.lua:3", "follow_curve", "2 points"}));
+}
+
 TEST(Mission, AnErrorInAStepNamesFileAndLineAndHolds) {
   const TemporaryFolder folder;
   const MissionRun run = run_mission_against(

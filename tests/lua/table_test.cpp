@@ -159,9 +159,10 @@ TEST(Eval, RefusesWhatIsNoShapeFile) {
 TEST(Eval, NamesWhatThereIsWhenANameIsUnknown) {
   const Ended ended = run_program("eval buses can9");
   EXPECT_EQ(ended.code, 2);
-  EXPECT_TRUE(names(ended.error, {"can9", "embedded", "embedded_500", "embedded_lab_1g", "embedded_macro_micro",
-                                  "embedded_macro_micro_stiff", "embedded_micro", "embedded_micro_single",
-                                  "embedded_payload", "embedded_single", "embedded_three_segment_lab", "vcan"}));
+  EXPECT_TRUE(names(ended.error,
+                    {"can9", "embedded", "embedded_500", "embedded_feeder", "embedded_lab_1g", "embedded_macro_micro",
+                     "embedded_macro_micro_stiff", "embedded_micro", "embedded_micro_single", "embedded_payload",
+                     "embedded_single", "embedded_three_segment_lab", "vcan"}));
 }
 
 // req:A50 req:A52

@@ -48,6 +48,18 @@ double bend_angle(const SegmentTrig& t) noexcept {
   return arc_tangent(std::sqrt(y * y + z * z), t.cos_pitch * t.cos_yaw);
 }
 
+// Metres of its drives for each radian of slide and roll.
+std::array<double, 2> feed_m_rad(const SegmentParams& base) noexcept { return {base.slide_m_rad, base.roll_radius_m}; }
+
+[[gnu::noinline]] void take_feed(const SegmentParams& base, const CableLayout& layout, const SegmentTrig& t,
+                                 CableGeometry& out) noexcept {
+  const std::array<double, 2> m_rad = feed_m_rad(base), theta_rad{t.sin_pitch, t.cos_pitch};
+  for (Index i = 0; i < 2; ++i) {
+    out.jacobian_m_rad[i][i] = m_rad[i];
+    out.length_m[i] = out.part_m[i][0] = layout.zero_length_m[i] + m_rad[i] * theta_rad[i];
+  }
+}
+
 }  // namespace
 
 CableLayout cable_layout(const RobotParams& table) noexcept {
@@ -55,13 +67,19 @@ CableLayout cable_layout(const RobotParams& table) noexcept {
   Index cable = 0;
   for (std::int32_t m = 0; m < table.segment_count; ++m) {
     const SegmentParams& own = table.segment[static_cast<Index>(m)];
+    if (feeds(own)) {
+      layout.cable_count = table.feed_count();
+      for (; cable < static_cast<Index>(layout.cable_count); ++cable)
+        layout.zero_length_m[cable] = feed_m_rad(own)[cable] * own.theta_limit_rad;
+      continue;
+    }
     for (std::int32_t c = 0; c < own.cables; ++c, ++cable) {
       const SinCos phase = sin_cos(own.cable_phase_rad[static_cast<Index>(c)]);
       ++layout.cable_count;
       layout.segment[cable] = m;
       layout.hole_y_m[cable] = own.hole_radius_m * phase.cos;
       layout.hole_z_m[cable] = own.hole_radius_m * phase.sin;
-      for (std::int32_t j = 0; j <= m; ++j) {
+      for (std::int32_t j = table.feed_count() / 2; j <= m; ++j) {
         const SegmentParams& passed = table.segment[static_cast<Index>(j)];
         // The anchor is the last disc, so the last link of the own segment carries no cable.
         const std::int32_t links = j == m ? passed.modules - 1 : passed.modules;
@@ -85,6 +103,8 @@ void update_cable_geometry(const RobotParams& table, const CableLayout& layout, 
     path[j] = path_form(trig[j], table.segment[j].face_offset_m);
     slope[j] = slope_form(trig[j], table.segment[j].face_offset_m);
   }
+  const bool is_fed = feeds(table.segment[0]);
+  if (is_fed) path[0] = PathForm{1.0, 0.0, 0.0, 0.0, 0.0, 0.0}, slope[0] = SlopeForm{};  // no modules: no part
   for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
     const double y = layout.hole_y_m[c], z = layout.hole_z_m[c];
     const Pair squares{y * y, z * z};
@@ -99,6 +119,7 @@ void update_cable_geometry(const RobotParams& table, const CableLayout& layout, 
     }
     out.length_m[c] = length_m;
   }
+  if (is_fed) take_feed(table.segment[0], layout, trig[0], out);
 }
 
 void update_cable_solver(const RobotParams& table, const CableGeometry& geometry, CableSolver& solver) noexcept {
@@ -142,7 +163,7 @@ CableSolution solve_cables(const RobotParams& table, const CableGeometry& geomet
 
 SegmentVector cable_wraps(const RobotParams& table, const ArmTrig& trig) noexcept {
   SegmentVector wrap_rad{};
-  for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j)
+  for (Index j = static_cast<Index>(table.feed_count()) / 2; j < static_cast<Index>(table.segment_count); ++j)
     wrap_rad[j] = table.segment[j].modules * bend_angle(trig[j]);
   return wrap_rad;
 }

@@ -5,6 +5,8 @@
 // d_j(c) plus the straight parts:
 //   d^2 = 2 (g^2 + r^2) - 2 [-g^2 ca cb + g y sa (1 + cb) - g z sb (1 + ca) + y^2 ca + y z sa sb + z^2 cb],  y = r cos
 //   phase, z = r sin phase, r of segment m, g of segment j.
+// A base that feeds carries the drums: it changes none of these paths, and its own two drives have its slide's way and
+// its belt's as theirs, zero at the lower limit.
 #pragma once
 
 #include <array>

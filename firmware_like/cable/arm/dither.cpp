@@ -21,7 +21,7 @@ double advance_dither(double wanted, double tick_s, DitherState& state) noexcept
 }
 
 bool dither_fits(const RobotParams& table, const CableVector& planned_N, double share) noexcept {
-  for (std::int32_t c = 0; c < table.cable_count(); ++c) {
+  for (std::int32_t c = table.feed_count(); c < table.cable_count(); ++c) {
     const double planned = planned_N[as_index(c)];
     if (planned * (1.0 - share) < table.tension.floor_motor_N) return false;
     if (planned * (1.0 + share) > table.tension.ceiling_free_N) return false;

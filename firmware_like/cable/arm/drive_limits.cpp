@@ -9,9 +9,11 @@
 namespace liana::cable {
 namespace {
 
-// Most that bending can change the path of a cable of segment `segment` (0-based): no hole turns about a joint with a
-// larger arm than its distance from the joint centre, and a joint turns about two axes.
-double max_bend_m(const RobotParams& table, std::int32_t segment) noexcept {
+// Most that its angles can change the path of cable `cable` of segment `segment` (both 0-based): no hole turns about a
+// joint with a larger arm than its distance from the joint centre, and a joint turns about two axes.
+double max_bend_m(const RobotParams& table, std::int32_t segment, std::int32_t cable) noexcept {
+  if (const SegmentParams& base = table.segment[as_index(segment)]; feeds(base))
+    return (cable == 0 ? base.slide_m_rad : base.roll_radius_m) * base.theta_limit_rad;
   const double radius_m = table.segment[as_index(segment)].hole_radius_m;
   double offset_m = 0.0, turn_rad = 0.0;
   for (std::int32_t m = 0; m <= segment; ++m) {
@@ -47,10 +49,9 @@ GateLimits make_gate_limits(const RobotParams& table, const CableVector& zero_pa
   limits.drive_count = table.drive_count();
   std::int32_t cable = 0;
   for (std::int32_t segment = 0; segment < table.segment_count; ++segment) {
-    const double bend_m = max_bend_m(table, segment);
     for (std::int32_t c = 0; c < table.segment[as_index(segment)].cables; ++c, ++cable) {
       const std::size_t i = as_index(cable);
-      limits.drive[i] = limits_of(table, table.drive[i], zero_payout_m[i], bend_m);
+      limits.drive[i] = limits_of(table, table.drive[i], zero_payout_m[i], max_bend_m(table, segment, c));
     }
   }
   return limits;

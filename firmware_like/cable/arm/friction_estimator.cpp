@@ -103,7 +103,7 @@ bool watch_friction(const RobotParams& table, const CableLayout& layout, double 
   const double period_s = kFrictionTicks * table.tick_s;
   AxisBalance axis = balance_about(layout, now, turning_segments(table, now.rate_rad_s), state.mu, k);
   axis.torque_Nm += now.load_Nm;
-  if (now.moving) learn(axis, period_s, state);
+  if (now.moving && !feeds(table.segment[k / 2])) learn(axis, period_s, state);
   state.axis = k + 1 < static_cast<Index>(table.theta_count()) ? state.axis + 1 : 0;
   if (state.axis == 0) state.flagged = is_off(declared_mu, state);
   return state.axis == 0;

@@ -93,6 +93,13 @@ Quat odd_module(const SegmentTrig& t) noexcept {
 
 bool is_odd(const SegmentParams& segment) noexcept { return segment.modules % 2 == 1; }
 
+// A base that feeds: forward along x, then turned about it. In the frame it stands in.
+// Not inlined, like fed_rates: arms on a fixed base keep their registers.
+[[gnu::noinline]] Pose fed(const SegmentParams& base, const SegmentTrig& t) noexcept {
+  const double c = std::sqrt(0.5 * (1.0 + t.cos_yaw));
+  return {{base.slide_m_rad * t.sin_pitch, 0.0, 0.0}, {c, 0.5 * t.sin_yaw / c, 0.0, 0.0}};
+}
+
 // Pose of the end of a segment that starts at `root`, whose matrix is `frame`.
 inline Pose segment_end(const SegmentParams& segment, const SegmentTrig& t, const Bend& bend, const ChebyshevSums& c,
                         const Pose& root, const Rotation& frame) noexcept {
@@ -137,6 +144,14 @@ inline EndRates end_rates(const SegmentParams& segment, const SegmentTrig& t, co
   return rates;
 }
 
+// What the slide moves and the roll turns.
+[[gnu::noinline]] EndRates fed_rates(const SegmentParams& base) noexcept {
+  EndRates rates{};
+  rates.linear.x = Pair{base.slide_m_rad, 0.0};
+  rates.angular.x = Pair{0.0, 1.0};
+  return rates;
+}
+
 // Columns of the tip for a segment whose end is `lever` away from it.
 void put_columns(const EndRates& end, const Vec3& lever, Index first, Jacobian& J) noexcept {
   const PairVec& w = end.angular;
@@ -155,6 +170,7 @@ void update_trig(const RobotParams& table, const ThetaVector& theta_rad, ArmTrig
     const SinCosOf<Pair> angle = sin_cos(load_pair(&theta_rad[2 * m]));
     trig[m] = {angle.sin[0], angle.cos[0], angle.sin[1], angle.cos[1]};
   }
+  if (feeds(table.segment[0])) trig[0].sin_pitch = theta_rad[0], trig[0].cos_pitch = theta_rad[1];
 }
 
 ArmTrig arm_trig(const RobotParams& table, const ThetaVector& theta_rad) noexcept {
@@ -166,6 +182,8 @@ ArmTrig arm_trig(const RobotParams& table, const ThetaVector& theta_rad) noexcep
 void update_kinematics(const RobotParams& table, const ArmTrig& trig, ArmKinematics& out) noexcept {
   const Index segments = static_cast<Index>(table.segment_count);
   std::array<EndRates, kMaxSegments> end;
+  const bool is_fed = feeds(table.segment[0]);
+  if (is_fed) out.node_in_base[0] = fed(table.segment[0], trig[0]);  // it has no modules: node 1 is there, too
   for (Index i = 0; i < segments; ++i) {
     const SegmentParams& segment = table.segment[i];
     const Bend bend = bend_of(trig[i]);
@@ -176,6 +194,7 @@ void update_kinematics(const RobotParams& table, const ArmTrig& trig, ArmKinemat
     end[i] = {apply(frame, rates.linear), apply(frame, rates.angular)};
     out.node_in_base[i + 1] = segment_end(segment, trig[i], bend, sums, root, frame);
   }
+  if (is_fed) end[0] = fed_rates(table.segment[0]);
   out.tip_in_base = out.node_in_base[segments];
   for (Index i = 0; i < segments; ++i) {
     put_columns(end[i], subtract(out.tip_in_base.position_m, out.node_in_base[i + 1].position_m), 2 * i,
@@ -191,6 +210,7 @@ ArmKinematics forward_kinematics(const RobotParams& table, const ArmTrig& trig) 
 
 Pose tip_pose(const RobotParams& table, const ArmTrig& trig) noexcept {
   Pose tip;
+  if (feeds(table.segment[0])) tip = fed(table.segment[0], trig[0]);
   for (Index i = 0; i < static_cast<Index>(table.segment_count); ++i) {
     const SegmentParams& segment = table.segment[i];
     const Bend bend = bend_of(trig[i]);
@@ -217,6 +237,7 @@ LinkPoints link_points(const RobotParams& table, const ThetaVector& theta_rad) n
   const ArmTrig trig = arm_trig(table, theta_rad);
   const ArmKinematics arm = forward_kinematics(table, trig);
   out.count = 1;
+  out.point_in_base[0] = arm.node_in_base[0].position_m;
   for (std::int32_t m = 0; m < table.segment_count; ++m) {
     const Index i = static_cast<Index>(m);
     const SegmentTrig& t = trig[i];

@@ -14,7 +14,8 @@
 
 namespace liana::cable {
 
-// Trigonometry of one segment's two angles, shared by kinematics and cables.
+// Trigonometry of one segment's two angles, shared by kinematics and cables. A base that feeds (robot_params.hpp) has
+// its slide [rad] in place of the pitch's sine and its roll [rad] in place of the cosine.
 struct SegmentTrig {
   double sin_pitch, cos_pitch, sin_yaw, cos_yaw;
 };
@@ -32,7 +33,7 @@ struct Jacobian {
   std::array<Vec3, kMaxTheta> angular{};
 };
 
-// [0] = base, [m] = end of segment m; the last one is the tip.
+// [0] = base, where it has been fed to, [m] = end of segment m; the last one is the tip.
 using NodePoses = std::array<Pose, kMaxSegments + 1>;
 
 struct ArmKinematics {
@@ -54,7 +55,8 @@ Pose tip_pose(const RobotParams& table, const ArmTrig& trig) noexcept;
 // Linear Jacobian column of node `node` (1..segment_count) for theta `column`; zero for segments beyond the node.
 Vec3 node_jacobian_column(const ArmKinematics& kinematics, std::int32_t node, std::int32_t column) noexcept;
 
-// Joint centres and link ends of the whole arm: point 0 is the base, point i the end of link i (module i).
+// Joint centres and link ends of the whole arm: point 0 is the base, where it has been fed to, point i the end of link
+// i (module i).
 struct LinkPoints {
   std::array<Vec3, kMaxSegments * kMaxModules + 1> point_in_base{};
   std::int32_t count = 0;  // links + 1

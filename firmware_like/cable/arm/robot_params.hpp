@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 
 #include "firmware_like/drive/drive_io.hpp"
@@ -17,13 +18,16 @@ constexpr std::int32_t kMaxSegmentCables = 5;  // per segment
 constexpr std::int32_t kMaxTheta = 2 * kMaxSegments;
 constexpr std::int32_t kMaxCables = kMaxDrives;
 
-using ThetaVector = std::array<double, kMaxTheta>;   // pitch, yaw per segment [rad]
+using ThetaVector = std::array<double, kMaxTheta>;   // pitch, yaw per segment [rad]; slide, roll of a base that feeds
 using CableVector = std::array<double, kMaxCables>;  // segment 1 cable 0, 1, 2, segment 2 cable 0, ...
 
-// One segment: `modules` universal joints bent by the same two angles.
+// One segment: `modules` universal joints bent by the same two angles. The first one may be a base that feeds: without
+// modules, a slide along x and then a roll about x, each moved by a drive of its own in place of cables. Both are
+// angles like others: the slide stands at slide_m_rad times its angle, and a drive's "cable" is the slide's way, or the
+// belt that turns the roll, which nothing stretches and whose tension nobody plans.
 struct SegmentParams {
-  std::int32_t modules = 0;      // 1..kMaxModules; joint order alternates Rz Ry, Ry Rz
-  std::int32_t cables = 0;       // 3..kMaxSegmentCables
+  std::int32_t modules = 0;      // 1..kMaxModules; joint order alternates Rz Ry, Ry Rz; 0: a base that feeds
+  std::int32_t cables = 0;       // 3..kMaxSegmentCables; 2 drives of a base that feeds
   double module_length_m = 0.0;  // link length l
   double theta_limit_rad = 0.0;  // |theta| of both axes
   double module_mass_kg = 0.0;
@@ -33,7 +37,11 @@ struct SegmentParams {
   std::array<double, kMaxSegmentCables> cable_phase_rad{};  // angle of the hole from the pitch axis' y, see cables.hpp
   double hole_radius_m = 0.0;  // of the cables that end in this segment, in every disc that they pass
   double face_offset_m = 0.0;  // disc faces before and after a joint centre of this segment
+  double slide_m_rad = 0.0;    // of a base that feeds: way of its slide; 0: it bends
+  double roll_radius_m = 0.0;  // and radius of the wheel that its belt turns
 };
+
+inline constexpr bool feeds(const SegmentParams& segment) noexcept { return segment.slide_m_rad > 0.0; }
 
 // Tension limits of the robot, newtons (mission, A9).
 struct TensionLimits {
@@ -130,10 +138,18 @@ struct RobotParams {
     for (std::int32_t m = 0; m < segment_count; ++m) count += segment[static_cast<std::size_t>(m)].cables;
     return count;
   }
+  // Thetas, and drives, of a base that feeds, which come before all others: 2, or 0 where the arm's base is fixed.
+  constexpr std::int32_t feed_count() const { return segment_count > 0 && feeds(segment[0]) ? 2 : 0; }
   // Number of drives: one a cable.
   constexpr std::int32_t drive_count() const { return cable_count(); }
 };
 
 static_assert(std::is_trivially_copyable_v<RobotParams>);
+
+// The part that is cables': without drives of a base that feeds, and what lies beyond the table's.
+inline std::span<const double> of_cables(const RobotParams& table, const CableVector& all) noexcept {
+  const auto first = static_cast<std::size_t>(table.feed_count());
+  return {all.data() + first, static_cast<std::size_t>(table.cable_count()) - first};
+}
 
 }  // namespace liana::cable

@@ -141,7 +141,8 @@ TensionPlan plan_tension(const RobotParams& table, const CableGeometry& geometry
   const double margin_N =
       scale *
       (table.friction_mu > kMarginFriction ? kFloorMargin_N * kMarginFriction / table.friction_mu : kFloorMargin_N);
-  for (Index j = static_cast<Index>(table.segment_count); j-- > 0;) {
+  const Index last = static_cast<Index>(table.feed_count()) / 2;
+  for (Index j = static_cast<Index>(table.segment_count); j-- > last;) {
     const Index n = static_cast<Index>(table.segment[j].cables);
     const auto beyond = torque_beyond(table, solver, plan.motor_N, first, j);
     first -= n;
@@ -173,8 +174,8 @@ void keep_min_tension(const RobotParams& table, const CableVector& tension_N, Se
   const double scale = table.tension.scale();
   const double limit_N = scale * kLiftLimit_N * larger(0.0, 1.0 - table.friction_mu / kMarginFriction);
   const double enough_N = table.tension.floor_motor_N + scale * kLiftBelow_N;
-  Index c = 0;
-  for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j) {
+  Index c = as_index(table.feed_count());
+  for (Index j = c / 2; j < static_cast<Index>(table.segment_count); ++j) {
     double missing_N = 0.0;
     for (std::int32_t i = 0; i < table.segment[j].cables; ++i, ++c)
       missing_N = larger(missing_N, enough_N - tension_N[c]);
@@ -185,7 +186,7 @@ void keep_min_tension(const RobotParams& table, const CableVector& tension_N, Se
 void wind_in(const RobotParams& table, const CableVector& tension_N, CableVector& taut_N) noexcept {
   const double limit_N = kTautLimit_N * table.tension.scale();
   const double enough_N = table.tension.floor_motor_N + kTautBelow_N * table.tension.scale();
-  for (Index c = 0; c < static_cast<Index>(table.cable_count()); ++c) {
+  for (Index c = as_index(table.feed_count()); c < static_cast<Index>(table.cable_count()); ++c) {
     const double missing_N = larger(0.0, enough_N - tension_N[c]);
     taut_N[c] = one_tick_tighter(table, taut_N[c], kTautRate_1_s * missing_N, kTautLeak_s, limit_N);
   }

@@ -5,7 +5,7 @@
 // pulled so, and lengthened so, leave no swing behind. Segments are swept from the tip to the root: the cables of a
 // segment are the only ones left that turn its two angles, so each sweep solves two equations for its cables and has
 // freedom left to bring them near the planned tension and above the floor. All formulas are smooth, so that tensions
-// never jump.
+// never jump. The drives of a base that feeds have none: 0 N, whatever their axes carry.
 #pragma once
 
 #include <cstdint>

@@ -54,7 +54,7 @@ void watch_doubtful_tension(const TensionWatchLimits& limits, WatchScope scope, 
                             std::int32_t index, TensionMonitorState& state, Watch& out) noexcept;
 inline void watch_tension(const TensionWatchLimits& limits, WatchScope scope, const TensionReading& now,
                           std::int32_t index, TensionMonitorState& state, Watch& out) noexcept {
-  if (now.tension_N >= limits.slack_N && now.tension_N <= limits.alarm_N && now.tension_N <= limits.hard_limit_N) {
+  if (now.tension_N >= limits.slack_N && now.tension_N <= limits.alarm_N) {  // which the hard limit is beyond
     const std::size_t i = as_index(index);
     state.slack_ticks[i] = state.alarm_ticks[i] = state.overload_ticks[i] = 0;
   } else {

@@ -71,6 +71,10 @@ TorqueLimits make_torque_limits(const RobotParams& table) noexcept {
       inertia_kg_m2 += segment.module_length_m * segment.module_length_m * segment.module_mass_kg;
       moment_kg_m += reach_m;
     }
+    if (feeds(segment)) {
+      limits.aside_Nm[j] = kTorqueUnknown_Nm;
+      continue;
+    }
     limits.inertia[j] = segment.modules * std::sqrt(inertia_kg_m2);
     limits.aside_Nm[j] = kTorqueSwing_rad_s2 * segment.modules * inertia_kg_m2;
     if (gravity_m_s2 > 0.0)
@@ -117,6 +121,10 @@ void balance_axis(const RobotParams& table, const CableLayout& layout, const Tor
       const double friction = l / 2 == own ? state.own[c][own] : state.shared[c][l / 2];
       variance_Nm2[l] += pull_Nm * state.pull_Nm[l][c] * (reading + friction);
     }
+  }
+  if (feeds(table.segment[own])) {  // nobody measures what its drives give
+    torque_Nm = per_mu_Nm = 0.0;
+    variance_Nm2 = ThetaVector{};
   }
   state.per_mu_Nm[axis] = per_mu_Nm;
   for (Index l = 0; l <= axis; ++l) variance_Nm2[l] += square(now.mu_sd) * per_mu_Nm * state.per_mu_Nm[l];

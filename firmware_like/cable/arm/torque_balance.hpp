@@ -26,6 +26,7 @@ constexpr double kTorqueFloor_Nm = 1.0;       // about every angle
 constexpr double kTorqueSwing_rad_s2 = 1e-3;  // the body beyond an angle swings with so much, unmeasured
 constexpr double kTorqueTilt = 0.012;         // rad; weight pulls so far beside where the table has it
 constexpr double kTorqueInertia = 0.07;       // share of the most that commanded acceleration can ask for
+constexpr double kTorqueUnknown_Nm = 1e6;     // of a base that feeds: its axes say nothing
 constexpr double kTorqueCalm_s = 2.0;         // swing after an acceleration is forgotten in
 
 using TorqueMatrix = std::array<ThetaVector, kMaxTheta>;  // the lower triangle

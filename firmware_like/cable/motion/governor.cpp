@@ -217,6 +217,7 @@ void take_room(const RobotParams& table, const TensionPlan& plan, GovernorState&
       kLoadCeilingShare * limits.ceiling_free_N - limits.floor_motor_N - kGovernorKeep_N * limits.scale();
   for (Index j = 0; j < theta_total(table) / 2; ++j)
     state.room_N[j] = larger(kGovernorLeast_N * limits.scale(), 0.5 * (between_N - plan.spread_N[j]));
+  if (table.feed_count() != 0) state.room_N[0] = kGovernorFeed_N;
 }
 
 void look_at_load(const RobotParams& table, const CableGeometry& geometry, const TensionRatio& ratio,

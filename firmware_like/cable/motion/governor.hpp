@@ -19,6 +19,7 @@ namespace liana::cable {
 
 // Newtons below are those of an arm that plans 40 N, taken times TensionLimits::scale.
 constexpr double kGovernorKeep_N = 18.0;  // over the floor, for friction and swing that no plan knows
+constexpr double kGovernorFeed_N = 1e9;   // room of a base that feeds: as much as its limits of motion ask for
 constexpr double kGovernorLeast_N = 4.0;  // room where a pose leaves none: the way out of it
 constexpr double kGovernorAlone = 0.4;    // of a theta's acceleration limit, where it slows down by itself
 constexpr double kGovernorTip = 0.55;     // of room and rates, for the tip's way alone and for its turn alone

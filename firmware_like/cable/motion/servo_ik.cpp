@@ -176,7 +176,7 @@ IkResult report_of(const Task& e) noexcept {
 }
 
 double arm_length_m(const RobotParams& table) noexcept {
-  double length_m = 0.0;
+  double length_m = table.segment[0].slide_m_rad * table.segment[0].theta_limit_rad;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m)
     length_m += table.segment[m].modules * table.segment[m].module_length_m;
   return length_m;

@@ -9,14 +9,20 @@ namespace liana::api {
 
 namespace {
 
-// Two angles a segment, pitch then yaw, in one range.
-void add_segments(const Json& segments, RequestBounds& out) {
-  for (const Json& segment : segments) {
+// Slide and roll of a base that feeds, then two angles a segment, pitch then yaw, in one range.
+void add_segments(const Json& robot, RequestBounds& out) {
+  if (robot.contains("base")) {
+    const Json& base = robot.at("base");
+    const double limit_deg = base.at("limit_deg").get<double>();
+    out.angle_deg.insert(out.angle_deg.end(), 2, {-limit_deg, limit_deg});
+    out.reach_m += limit_deg * base.at("slide_m_per_deg").get<double>();
+  }
+  for (const Json& segment : robot.at("segments")) {
     const double limit_deg = segment.at("theta_limit_deg").get<double>();
     out.angle_deg.insert(out.angle_deg.end(), 2, {-limit_deg, limit_deg});
     out.reach_m += segment.at("modules").get<double>() * segment.at("module_length_m").get<double>();
   }
-  out.nodes = static_cast<std::int32_t>(segments.size()) - 1;
+  out.nodes = static_cast<std::int32_t>(out.angle_deg.size()) / 2 - 1;
 }
 
 void add_joints(const Json& joints, RequestBounds& out) {
@@ -57,7 +63,7 @@ RequestBounds request_bounds(const Json& robot) {
   if (out.arm == kSerialArm) {
     add_joints(robot.at("joints"), out);
   } else {
-    add_segments(robot.at("segments"), out);
+    add_segments(robot, out);
     out.angle_rate_deg_s = limits.at("theta_rate_deg_s").get<double>();
   }
   return out;

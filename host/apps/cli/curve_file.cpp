@@ -11,8 +11,7 @@
 namespace liana::cli {
 namespace {
 
-constexpr config::Range kPlace{-100, 100};          // m
-constexpr double kMinGap_m = 0.001 * (1.0 - 1e-9);  // between the curve's points: 1 mm in decimals counts as 1 mm
+constexpr config::Range kPlace{-100, 100};  // m
 
 std::vector<Vec3> points_of(const config::Field& curve) {
   curve.only({"points_m"});
@@ -24,7 +23,7 @@ std::vector<Vec3> points_of(const config::Field& curve) {
     points.push_back(rows.element(i).numbers<3>(kPlace));
     if (i == 0) continue;
     const double gap_m = norm(subtract(points[i], points[i - 1]));
-    if (gap_m < kMinGap_m)
+    if (gap_m < planner::kMinGap_m)
       rows.element(i).refuse(
           planner::text("points at least 1 mm apart; this is %.3f mm from the one before", 1000.0 * gap_m),
           "leave one of them out");
@@ -41,9 +40,11 @@ std::vector<Vec3> parse_curve(const std::string& text, const std::string& name) 
 
 std::vector<Vec3> read_curve(const std::string& path) {
   const std::string name = "--follow: " + path;
+  if (path.ends_with(".lua"))
+    return launcher::checked([&] { return parse_curve(launcher::evaluate_table("curve", path), name); });
   std::error_code unreadable;
   if (!std::filesystem::is_regular_file(path, unreadable))
-    throw launcher::BadInput(name + ": no such file; give a JSON file with points_m, or slit");
+    throw launcher::BadInput(name + ": no such file; give a JSON or Lua file with points_m, or slit");
   return launcher::checked([&] { return parse_curve(config::read_text_file(path), name); });
 }
 

@@ -34,6 +34,15 @@ void add_phase(const planner::HeldPhase& phase, const PlanOptions& options, plan
   request.held.push_back(phase);
 }
 
+// Joint angles, or a word that names a pose.
+cable::ThetaVector angles_of(const char* option, const std::string& text, const config::RobotConfig& robot) {
+  const auto named = robot.named_poses_deg.find(text);
+  if (named == robot.named_poses_deg.end()) return parse_theta_deg(option, text, robot.table);
+  cable::ThetaVector theta_rad{};
+  for (std::size_t k = 0; k < named->second.size(); ++k) theta_rad[k] = named->second[k] * kDegree;
+  return theta_rad;
+}
+
 void read_hold(const PlanOptions& options, planner::PlanRequest& request) {
   if (options.hold.empty()) return;
   for (const HoldArgument& held : parse_hold(options.hold, request.robot.table)) {
@@ -106,7 +115,7 @@ void read_goal(const PlanOptions& options, planner::PlanRequest& request) {
   if (request.follow && !request.follow->points_m.empty()) return;
   if (options.to_deg.empty() == options.tip.empty())
     throw launcher::BadInput("--to-deg, --tip: allowed: exactly one of them");
-  if (!options.to_deg.empty()) request.to_rad = parse_theta_deg("--to-deg", options.to_deg, request.robot.table);
+  if (!options.to_deg.empty()) request.to_rad = angles_of("--to-deg", options.to_deg, request.robot);
   if (!options.tip.empty()) request.tip_in_base = parse_pose("--tip", options.tip);
   if (request.tip_in_base) request.tip_in_base->quaternion = normalize(request.tip_in_base->quaternion);
 }
@@ -141,7 +150,7 @@ planner::PlanRequest request_of(const PlanOptions& options) {
   planner::PlanRequest request;
   request.robot = launcher::robot_for_kinematics(options.robot);
   request.scene = launcher::scene_of(options.scene);
-  request.from_rad = parse_theta_deg("--from-deg", options.from_deg, request.robot.table);
+  request.from_rad = angles_of("--from-deg", options.from_deg, request.robot);
   read_goal(options, request);
   read_hold(options, request);
   read_planar(options, request);
@@ -184,9 +193,16 @@ Json to_json(const planner::PlanRequest& request, const planner::PlanResult& res
   }
   if (result.follow) {
     const planner::FollowStatistics& figures = *result.follow;
-    answer["follow"] = {{"curve_length_m", figures.curve_length_m}, {"tip_off_m", figures.tip_off_m},
-                        {"body_off_m", figures.body_off_m},         {"mean_body_off_m", figures.mean_body_off_m},
-                        {"worst_link", figures.worst_link},         {"worst_tip_along_m", figures.worst_tip_along_m}};
+    answer["follow"] = {{"curve_length_m", figures.curve_length_m},
+                        {"tip_off_m", figures.tip_off_m},
+                        {"body_off_m", figures.body_off_m},
+                        {"mean_body_off_m", figures.mean_body_off_m},
+                        {"worst_link", figures.worst_link},
+                        {"worst_tip_along_m", figures.worst_tip_along_m},
+                        {"curve_off_m", figures.curve_off_m},
+                        {"curve_off_segment", figures.curve_off_segment},
+                        {"curve_off_along_m", figures.curve_off_along_m},
+                        {"curve_off_tip_along_m", figures.curve_off_tip_along_m}};
   }
   if (!result.constraint.empty()) answer["constraint"] = result.constraint;
   if (!result.reason.empty()) answer["reason"] = result.reason;
@@ -241,6 +257,9 @@ void print_plan(const Json& answer) {
       "average\n",
       follow["curve_length_m"].get<double>(), 1000.0 * follow["tip_off_m"].get<double>(),
       1000.0 * follow["body_off_m"].get<double>(), 1000.0 * follow["mean_body_off_m"].get<double>());
+  std::printf("farthest from curve and start line: segment %d by %.1f mm, %.3f m along the curve\n",
+              follow["curve_off_segment"].get<int>(), 1000.0 * follow["curve_off_m"].get<double>(),
+              follow["curve_off_along_m"].get<double>());
 }
 
 // What is planned nearer than the arm may be predicted wrongly is refused when the arm gets there.

@@ -59,7 +59,7 @@ void look_at_holes(const cable::RobotParams& table, Json& problems) {
   const cable::CableLayout layout = cable_layout(table);
   const auto cables = static_cast<std::size_t>(layout.cable_count);
   const config::DriveNames names(table);
-  for (std::size_t a = 0; a < cables; ++a) {
+  for (auto a = static_cast<std::size_t>(table.feed_count()); a < cables; ++a) {
     for (std::size_t b = a + 1; b < cables; ++b) {
       const double distance_m =
           std::hypot(layout.hole_y_m[a] - layout.hole_y_m[b], layout.hole_z_m[a] - layout.hole_z_m[b]);
@@ -95,6 +95,11 @@ void look_at_zero(const config::RobotConfig& robot, Json& problems) {
   }
 }
 
+// The first segment that bends.
+const cable::SegmentParams& first_bending(const cable::RobotParams& table) {
+  return table.segment[static_cast<std::size_t>(table.feed_count()) / 2];
+}
+
 // What the straight arm, turned about its base at the tip's acceleration, asks of one cable there: an arm that needs
 // more than the hard limit does not move as it is planned.
 void look_at_mass(const config::RobotConfig& robot, const Json& table, Json& problems) {
@@ -107,7 +112,7 @@ void look_at_mass(const config::RobotConfig& robot, const Json& table, Json& pro
     }
   }
   const double needed_N =
-      inertia_kgm2 * robot.table.limits.tip_accel_m_s2 / along_m / robot.table.segment[0].hole_radius_m;
+      inertia_kgm2 * robot.table.limits.tip_accel_m_s2 / along_m / first_bending(robot.table).hole_radius_m;
   if (needed_N <= robot.table.tension.hard_limit_N) return;
   problems.push_back(
       text("module.mass_kg: %g: a cable would pull %.0f N to turn the arm at limits.tip_accel_m_s2: allowed "
@@ -116,9 +121,10 @@ void look_at_mass(const config::RobotConfig& robot, const Json& table, Json& pro
 }
 
 // What nobody knows of a cable's length, times its stiffness, may not take the tension from what is planned to the
-// floor at the motor. The shortest cable, of segment 1, is the stiffest.
+// floor at the motor. The shortest cable, of the first segment, is the stiffest.
 void look_at_stiffness(const cable::RobotParams& table, Json& problems) {
-  const double shortest_m = table.segment[0].modules * table.segment[0].module_length_m + table.lead_m;
+  const cable::SegmentParams& first = first_bending(table);
+  const double shortest_m = first.modules * first.module_length_m + table.lead_m;
   const double change_N = kUnknown_m * table.cable_EA_N / shortest_m;
   const double allowed_N = table.tension.plan_N - table.tension.floor_motor_N;
   if (change_N <= allowed_N) return;
@@ -132,6 +138,7 @@ void look_at_stiffness(const cable::RobotParams& table, Json& problems) {
 void look_at_travel(const cable::RobotParams& table, Json& notes) {
   for (std::size_t j = 0; j < static_cast<std::size_t>(table.segment_count); ++j) {
     const cable::SegmentParams& segment = table.segment[j];
+    if (cable::feeds(segment)) continue;
     const double most_m = segment.hole_radius_m * segment.modules * segment.theta_limit_rad;
     if (most_m >= calibration::kMinChange_m) continue;
     notes.push_back(
@@ -152,6 +159,16 @@ void tell_weight(const cable::RobotParams& table, Json& notes) {
   if (std::fabs(gravity_m_s2 - kEarth_m_s2) > 0.1)
     note += text("; gravity_m_s2 is %.3g of the earth's, as a rig leaves it", gravity_m_s2 / kEarth_m_s2);
   notes.push_back(note);
+}
+
+void tell_base(const cable::RobotParams& table, Json& notes) {
+  if (table.feed_count() == 0) return;
+  const cable::SegmentParams& base = table.segment[0];
+  const double rate_rad_s = table.limits.theta_rate_rad_s;
+  notes.push_back(
+      text("base: its slide goes %.3g m either way at up to %.3g mm/s, its roll %.3g deg at up to %.3g deg/s",
+           base.slide_m_rad * base.theta_limit_rad, 1e3 * base.slide_m_rad * rate_rad_s, base.theta_limit_rad / kDegree,
+           rate_rad_s / kDegree));
 }
 
 Json workspace_of(const cable::RobotParams& table) {
@@ -193,6 +210,7 @@ Json checked_cable_robot(const config::RobotConfig& robot) {
   Json notes = Json::array();
   look_at_travel(table, notes);
   tell_weight(table, notes);
+  tell_base(table, notes);
   checked["problems"] = problems;
   checked["notes"] = notes;
   return checked;

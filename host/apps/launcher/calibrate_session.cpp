@@ -12,7 +12,7 @@ void add(const Json& state, calibration::CalibrationReading& sum) {
   std::size_t i = 0;
   for (const Json& drive : state.at("drives")) {
     sum.position_m[i] += drive.at("position_m").get<double>() / kStates;
-    sum.tension_N[i] += drive.at("tension_N").get<double>() / kStates;
+    sum.tension_N[i] += drive.value("tension_N", 0.0) / kStates;  // none: a base that feeds
     sum.serial[i] = drive.at("serial").get<std::uint32_t>();
     ++i;
   }

@@ -33,7 +33,7 @@ void add(const Json& state, calibration::FrictionFit& fit) {
   std::size_t i = 0;
   for (const Json& angle : state.at("setpoint_js_deg")) commanded_rad[i++] = angle.get<double>() * kDegree;
   i = 0;
-  for (const Json& tension : state.at("tension_N")) tension_N[i++] = tension.get<double>();
+  for (const Json& tension : state.at("tension_N")) tension_N[i++] = tension.is_number() ? tension.get<double>() : 0.0;
   fit.add(commanded_rad, tension_N, !state.value("at_rest", true));
 }
 

@@ -26,7 +26,8 @@ Degrees degrees(const cable::ThetaVector& theta_rad, std::size_t count) {
 void add(const Json& state, calibration::LoadReading& sum) {
   std::size_t k = 0, c = 0;
   for (const Json& angle : state.at("measured_js_deg")) sum.theta_rad[k++] += angle.get<double>() * kDegree / kReadings;
-  for (const Json& tension : state.at("tension_N")) sum.tension_N[c++] += tension.get<double>() / kReadings;
+  for (const Json& tension : state.at("tension_N"))
+    sum.tension_N[c++] += (tension.is_number() ? tension.get<double>() : 0.0) / kReadings;
 }
 
 }  // namespace

@@ -99,6 +99,17 @@ int send_report(lua_State* state) {
   });
 }
 
+// (request) -> the plan, see follow_plan.hpp; what is wrong with the curve is an error.
+int plan_curve(lua_State* state) {
+  const Json* plan = nullptr;
+  guarded(state, [&] {
+    plan = &sink_of(state).plan_curve(to_json(state, 1, "follow_curve"));
+    return 0;
+  });
+  push_json(state, *plan);
+  return 1;
+}
+
 void add_native(lua_State* state, RequestSink& sink, const char* name, lua_CFunction function) {
   lua_pushlightuserdata(state, &sink);
   lua_pushcclosure(state, function, 1);
@@ -132,6 +143,7 @@ void push_native(lua_State* state, RequestSink& sink) {
   lua_setfield(state, -2, "commands");
   add_native(state, sink, "progress", send_progress);
   add_native(state, sink, "report", send_report);
+  add_native(state, sink, "plan_curve", plan_curve);
   lua_pushcfunction(state, attempt);
   lua_setfield(state, -2, "attempt");
 }

@@ -25,10 +25,12 @@ class RequestSink {
   virtual void progress(const Json& event) = 0;
   // The report as far as it is known.
   virtual void report(const Json& report) = 0;
+  // A curve as waypoints, see follow_plan.hpp; valid until the next one.
+  virtual const Json& plan_curve(const Json& request) = 0;
 };
 
-// Pushes { commands = { name = function }, progress, report, attempt (script.hpp) = functions }; `sink` must outlive
-// the state.
+// Pushes { commands = { name = function }, progress, report, plan_curve, attempt (script.hpp) = functions }; `sink`
+// must outlive the state.
 void push_native(lua_State* state, RequestSink& sink);
 
 // The robot that shall do what a mission asks for.

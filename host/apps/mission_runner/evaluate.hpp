@@ -9,7 +9,8 @@
 
 namespace liana::mission_runner {
 
-// Canonical JSON of a robot, scene or buses table. Throws std::runtime_error with one message.
+// Canonical JSON of a robot, scene or buses table, or of a curve, whose content is not checked. Throws
+// std::runtime_error with one message.
 std::string evaluate(Script& script, const LuaFolders& lua_folders, const std::string& kind, const std::string& name);
 
 // Canonical JSON of the tables that a mission says it runs with: `robot`, `scene`, `bus`, each where it says one.

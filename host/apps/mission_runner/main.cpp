@@ -133,7 +133,8 @@ int main(int argc, char** argv) {
   std::string lua_dir;
   EvalOptions evaluated;
   liana::options::Command eval = line.command("eval", "check a table and print it as canonical JSON");
-  eval.option("kind", evaluated.kind, "robot, scene, buses, drive, budget, mission or mission_tables").required();
+  eval.option("kind", evaluated.kind, "robot, scene, buses, drive, budget, curve, mission or mission_tables")
+      .required();
   eval.option("name", evaluated.name, "a name in the Lua folder or a file").required();
   eval.option("--robot", evaluated.robot,
               "robot a mission is checked against: a name or exported JSON; where not given its own, else zhu2022");

@@ -17,9 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLargestScript = 1 << 20;
-const std::map<std::string, std::string> kFolders = {{"robot", "robots"},   {"scene", "scenes"},
-                                                     {"buses", "buses"},    {"drive", "drives"},
-                                                     {"budget", "budgets"}, {"mission", "missions"}};
+const std::map<std::string, std::string> kFolders = {
+    {"robot", "robots"},   {"scene", "scenes"},     {"buses", "buses"}, {"drive", "drives"},
+    {"budget", "budgets"}, {"mission", "missions"}, {"curve", "curves"}};
 
 ScriptFile read_script(const fs::path& path, const std::string& display) {
   std::error_code error;
@@ -72,7 +72,7 @@ ScriptFile find_script(const LuaFolders& lua_folders, const std::string& kind, c
   if (folder == kFolders.end())
     throw std::runtime_error(
         "kind: " + kind +
-        ": allowed robot, scene, buses, drive, budget, mission, mission_tables: use one of these words");
+        ": allowed robot, scene, buses, drive, budget, curve, mission, mission_tables: use one of these words");
   const bool is_file =
       name.find('/') != std::string::npos || name.ends_with(".lua") || (kind == "mission" && name.ends_with(".json"));
   if (is_file) return read_script(name, name);

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "host/api/server/request_error.hpp"
+#include "host/apps/mission_runner/follow_plan.hpp"
 
 namespace liana::mission_runner {
 namespace {
@@ -102,6 +103,12 @@ void MissionSession::report(const Json& report) {
   report_ = report;
   const std::string text = report.dump();
   if (text.size() < activity_.report.size()) put_text(activity_.report, text);
+}
+
+const Json& MissionSession::plan_curve(const Json& request) {
+  activity_.beat();
+  plan_ = follow_plan(welcome_, request);
+  return plan_;
 }
 
 }  // namespace liana::mission_runner

@@ -30,6 +30,7 @@ class MissionSession : public RequestSink {
   std::int64_t request(const api::RequestRow& row, Json fields) override;
   void progress(const Json& event) override;
   void report(const Json& report) override;
+  const Json& plan_curve(const Json& request) override;
 
  private:
   const MissionOptions& options_;
@@ -37,6 +38,7 @@ class MissionSession : public RequestSink {
   api::ApiClient client_;
   Json welcome_;
   Json report_;
+  Json plan_;  // the last one
   std::int64_t last_id_ = 0;
   int made_at_once_ = 0, max_at_once_ = 0;  // requests since the last message
 };

@@ -12,6 +12,7 @@ namespace liana::arbiter {
 // Share of the theta acceleration limit that planned moves use. All thetas together swing the whole arm: 1 deg/s2 would
 // take 100 N off a cable.
 constexpr double kThetaAccelShare = 0.02;
+constexpr double kFeedAccelShare = 0.2;  // of a base that feeds, whose drives hold it stiffly
 // Shares of the tip's limits, after a goal far ahead.
 constexpr double kGoalAccelShare = 0.45;
 constexpr double kGoalSpeedShare = 0.8;
@@ -36,8 +37,9 @@ struct ArmTraits<cable::CableArm> {
     return static_cast<std::size_t>(table.theta_count());
   }
   static double rate_rad_s(const cable::RobotParams& table, std::size_t) { return table.limits.theta_rate_rad_s; }
-  static double move_accel_rad_s2(const cable::RobotParams& table, std::size_t) {
-    return kThetaAccelShare * table.limits.theta_accel_rad_s2;
+  static double move_accel_rad_s2(const cable::RobotParams& table, std::size_t i) {
+    return (i < static_cast<std::size_t>(table.feed_count()) ? kFeedAccelShare : kThetaAccelShare) *
+           table.limits.theta_accel_rad_s2;
   }
   static JointRange range_rad(const cable::RobotParams& table, std::size_t theta) {
     const double max_rad = table.segment[theta / 2].theta_limit_rad;

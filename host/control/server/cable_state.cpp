@@ -11,6 +11,13 @@ Json first(const cable::CableVector& values, std::int32_t count) {
   return Json(std::vector<double>(values.begin(), values.begin() + count));
 }
 
+// Null for the drives of a base that feeds.
+Json tensions_json(const cable::RobotParams& table, const cable::CableVector& tension_N) {
+  Json out = first(tension_N, table.cable_count());
+  for (std::size_t i = 0; i < static_cast<std::size_t>(table.feed_count()); ++i) out[i] = Json();
+  return out;
+}
+
 Json nodes_json(const cable::RobotParams& table, const cable::Outputs& outputs) {
   Json nodes = Json::array();
   for (std::size_t m = 0; m < static_cast<std::size_t>(table.segment_count); ++m)
@@ -159,7 +166,7 @@ void CableArmServer::add_state(Json& state) const {
   state["node_m"] = nodes_json(table_, o);
   state["held"] = config::theta_numbers(o.held_mask);
   state["held_at_target"] = o.held_at_target != 0;
-  state["tension_N"] = first(o.tension_measured_N, table_.cable_count());
+  state["tension_N"] = tensions_json(table_, o.tension_measured_N);
   if (const std::uint32_t cells = cables_with_cells(table_); cells != 0)
     state["load_cells_lost"] = config::theta_numbers(cells & ~o.load_cells);
   state["friction"] = {{"mu", o.friction.mu},
@@ -174,7 +181,8 @@ void CableArmServer::add_state(Json& state) const {
 
 void CableArmServer::add_drive_state(std::size_t drive, Json& state) const {
   state["position_m"] = paid_out_m(table_.drive[drive], inputs().drive[drive]);
-  state["tension_N"] = reported_tension_N(table_.drive[drive], inputs().drive[drive]);
+  if (drive >= static_cast<std::size_t>(table_.feed_count()))
+    state["tension_N"] = reported_tension_N(table_.drive[drive], inputs().drive[drive]);
 }
 
 }  // namespace liana::server

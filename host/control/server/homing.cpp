@@ -71,7 +71,7 @@ cable::CableVector paid_out_m(const cable::RobotParams& table, const cable::Inpu
 
 cable::CableVector reported_tension_N(const cable::RobotParams& table, const cable::Inputs& inputs) {
   cable::CableVector out{};
-  for (Index i = 0; i < static_cast<Index>(table.cable_count()); ++i)
+  for (Index i = static_cast<Index>(table.feed_count()); i < static_cast<Index>(table.cable_count()); ++i)
     out[i] = reported_tension_N(table.drive[i], inputs.drive[i]);
   return out;
 }

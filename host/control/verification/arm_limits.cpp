@@ -13,7 +13,7 @@ namespace {
 constexpr double kPushBeyond_m = 0.001;  // a push that ends at its bound has stopped within this
 
 void judge_tension(const cable::RobotParams& table, const cable::Outputs& outputs, Judge& judge) {
-  for (std::size_t i = 0; i < static_cast<std::size_t>(table.cable_count()); ++i) {
+  for (auto i = static_cast<std::size_t>(table.feed_count()); i < static_cast<std::size_t>(table.cable_count()); ++i) {
     const double tension_N = outputs.tension_plan_N[i];
     judge.check(Refusal::kTension, "planned tension of cable", kNewtons, static_cast<int>(i), tension_N,
                 table.tension.ceiling_free_N);

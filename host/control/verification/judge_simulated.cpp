@@ -152,7 +152,7 @@ class MomentJudge {
   void cables(const Moment& moment, const Moment& anyway, const cable::CableVector& passed_share) {
     const cable::TensionLimits& limits = table_.tension;
     const double unsure_N = kSwingTension_N * limits.scale();
-    for (Index c = 0; c < static_cast<Index>(table_.cable_count()); ++c) {
+    for (Index c = static_cast<Index>(table_.feed_count()); c < static_cast<Index>(table_.cable_count()); ++c) {
       const double tension_N = moment.tension_N[c];
       const double left_N = (tension_N - unsure_N) * passed_share[c] - limits.floor_anywhere_N;
       judge_.check(Refusal::kSwingTension, "tension with inertia of cable", kNewtons, static_cast<int>(c),

@@ -26,7 +26,8 @@ constexpr double kPoseShare = 0.8, kApproachShare = 1.0 / 7.0;        // of the 
 // Planned tensions are between the motors' floor and the ceiling.
 bool is_borne(const RobotParams& table, const CableLayout& layout, const ThetaVector& theta_rad) {
   const TensionPlan plan = plan_at_rest(table, layout, theta_rad);
-  const auto [least, most] = std::minmax_element(plan.motor_N.begin(), plan.motor_N.begin() + table.cable_count());
+  const std::span<const double> tension_N = of_cables(table, plan.motor_N);
+  const auto [least, most] = std::minmax_element(tension_N.begin(), tension_N.end());
   return plan.balanced && *least >= table.tension.floor_motor_N && *most <= table.tension.ceiling_free_N;
 }
 

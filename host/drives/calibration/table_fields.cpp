@@ -12,6 +12,9 @@ namespace {
 using Index = std::size_t;
 using Slot = double* (*)(RobotParams&, Index);
 
+// Segments of the core before those of the table: a base that feeds.
+Index base_of(const RobotParams& table) { return static_cast<Index>(table.feed_count()) / 2; }
+
 std::string of_segment(Index j, const char* field) { return "segments[" + std::to_string(j) + "]." + field; }
 std::string at_index(const char* field, Index i) { return std::string(field) + "[" + std::to_string(i) + "]"; }
 
@@ -39,14 +42,14 @@ const FieldValue* of(const std::vector<FieldValue>& values, const std::string& f
 
 std::vector<TableField> geometry_fields(const RobotParams& table) {
   Fields out{table};
-  const auto segments = static_cast<Index>(table.segment_count);
-  for (Index j = 0; j < segments; ++j)
+  const Index base = base_of(table), segments = static_cast<Index>(table.segment_count);
+  for (Index j = base; j < segments; ++j)
     out.add_share(
-        of_segment(j, "module_length_m"), kPriorLength,
+        of_segment(j - base, "module_length_m"), kPriorLength,
         [](RobotParams& t, Index i) { return &t.segment[i].module_length_m; }, j);
-  for (Index j = 0; j < segments; ++j)
+  for (Index j = base; j < segments; ++j)
     out.add_share(
-        at_index("cables.hole_radius_m", j), kPriorHoleRadius,
+        at_index("cables.hole_radius_m", j - base), kPriorHoleRadius,
         [](RobotParams& t, Index i) { return &t.segment[i].hole_radius_m; }, j);
   out.add_share(
       "cables.EA_N", kPriorEA, [](RobotParams& t, Index) { return &t.cable_EA_N; }, 0);
@@ -56,19 +59,20 @@ std::vector<TableField> geometry_fields(const RobotParams& table) {
 std::vector<TableField> load_fields(const RobotParams& table) {
   Fields out{table};
   const double gravity = norm(table.gravity_m_s2);
-  for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j) {
+  const Index base = base_of(table);
+  for (Index j = base; j < static_cast<Index>(table.segment_count); ++j) {
     const SegmentParams& segment = table.segment[j];
     if (gravity > 0.0) {
       out.add_share(
-          of_segment(j, "module_mass_kg"), kPriorMass,
+          of_segment(j - base, "module_mass_kg"), kPriorMass,
           [](RobotParams& t, Index i) { return &t.segment[i].module_mass_kg; }, j);
       out.add(
-          of_segment(j, "module_center"), kPriorCenter_m / segment.module_length_m,
+          of_segment(j - base, "module_center"), kPriorCenter_m / segment.module_length_m,
           [](RobotParams& t, Index i) { return &t.segment[i].module_center; }, j);
     }
     if (segment.joint_stiffness_Nm_rad > 0.0)
       out.add_share(
-          of_segment(j, "joint_stiffness_Nm_per_rad"), kPriorStiffness,
+          of_segment(j - base, "joint_stiffness_Nm_per_rad"), kPriorStiffness,
           [](RobotParams& t, Index i) { return &t.segment[i].joint_stiffness_Nm_rad; }, j);
   }
   if (gravity > 0.0 && table.tool.mass_kg > 0.0) {

@@ -9,13 +9,14 @@ std::string drive_text(std::size_t drive, int segment) {
   return "drive " + std::to_string(drive + 1) + " (node " + std::to_string(node_of_drive(drive)) + where + ")";
 }
 
-DriveNames::DriveNames(const cable::RobotParams& table) {
+DriveNames::DriveNames(const cable::RobotParams& table) : feed_count_(static_cast<std::size_t>(table.feed_count())) {
   const cable::CableLayout layout = cable::cable_layout(table);
   for (std::size_t c = 0; c < static_cast<std::size_t>(layout.cable_count); ++c)
     segments_.push_back(layout.segment[c] + 1);
 }
 
 std::string DriveNames::cable(std::size_t cable) const {
+  if (cable < feed_count_) return cable == 0 ? "slide" : "roll";
   return "cable " + std::to_string(cable + 1) + " (segment " + std::to_string(segment_of(cable)) + ")";
 }
 

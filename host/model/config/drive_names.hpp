@@ -19,13 +19,14 @@ class DriveNames {
   explicit DriveNames(const cable::RobotParams& table);
 
   std::string drive(std::size_t drive) const { return drive_text(drive, segment_of(drive)); }
-  // "cable 4 (segment 2)"
+  // "cable 4 (segment 2)"; "slide" or "roll" of a base that feeds
   std::string cable(std::size_t cable) const;
   // From 1; 0 where there is none.
   int segment_of(std::size_t drive) const { return drive < segments_.size() ? segments_[drive] : 0; }
 
  private:
   std::vector<int> segments_;
+  std::size_t feed_count_ = 0;
 };
 
 }  // namespace liana::config

@@ -13,7 +13,7 @@ RobotConfig read_robot(const Json& json, const std::string& file, const std::str
   const Field table(json, file, "");
   check_kind(table, "robot", ", or serial for an arm of joints with their own drives");
   table.only({"format", "kind", "name", "segments", "module", "joint", "cables", "tension", "drives", "limits",
-              "named_poses_deg", "start_pose", "jig_poses", "gravity_m_s2", "tool"});
+              "named_poses_deg", "start_pose", "jig_poses", "gravity_m_s2", "tool", "base"});
   RobotConfig out;
   out.name = table.at("name").name(40);
   read_arm(table, out);

@@ -12,6 +12,7 @@ constexpr double kLongestTipLag_s = 5.0;
 
 constexpr Range kModuleMass{0.0001, 100};
 constexpr double kHeaviest_m_s2 = 30.0;
+constexpr double kRollMost_deg = 170.0;  // half a turn is the same either way
 
 bool has(const Field& table, const char* key) { return table.json().contains(key); }
 
@@ -67,6 +68,17 @@ void read_weight(const Field& table, cable::RobotParams& robot) {
                 tool.at("center_m").numbers<3>({-cable::kMaxTipLoad_m, cable::kMaxTipLoad_m})};
 }
 
+// What stands below the first segment, where the table has one: segment 1 of the core.
+void read_base(const Field& field, cable::RobotParams& robot) {
+  field.only({"limit_deg", "slide_m_per_deg", "roll_radius_m", "mass_kg"});
+  cable::SegmentParams& base = robot.segment[0];
+  base.cables = 2;
+  base.theta_limit_rad = field.at("limit_deg").number({0.1, kRollMost_deg}) * kDegree;
+  base.slide_m_rad = field.at("slide_m_per_deg").number({1e-5, 0.1}) / kDegree;
+  base.roll_radius_m = field.at("roll_radius_m").number({0.001, 1});
+  field.at("mass_kg").number({0.001, 1000});  // the bench's
+}
+
 // Cables can only pull: no half circle may be without one.
 bool surround(std::vector<double> phases_deg) {
   for (double& phase : phases_deg) phase -= 360.0 * std::floor(phase / 360.0);
@@ -99,23 +111,29 @@ void read_arm(const Field& table, RobotConfig& out) {
   read_weight(table, robot);
   out.joint_viscous_Nms_per_rad = table.at("joint").at("viscous_Nms_per_rad").number({0, 100});
 
+  const std::size_t base = has(table, "base") ? 1 : 0;
+  if (base != 0) read_base(table.at("base"), robot);
   const Field segments = table.at("segments");
-  const std::size_t count = segments.size(1, cable::kMaxSegments, "this build holds at most 8 segments (kMaxSegments)");
-  robot.segment_count = static_cast<std::int32_t>(count);
+  const std::size_t count =
+      segments.size(1, cable::kMaxSegments - base,
+                    base == 0 ? "this build holds at most 8 segments (kMaxSegments)"
+                              : "this build holds at most 8 segments (kMaxSegments), of which the base is one");
+  robot.segment_count = static_cast<std::int32_t>(base + count);
   const Field phases = table.at("cables").at("phase_deg");
   phases.size(count, count, "give one list of phases per segment");
   double shortest_m = 1.0;
   for (std::size_t m = 0; m < count; ++m) {
-    robot.segment[m] = each;
-    read_segment(segments.element(m), robot.segment[m]);
-    read_phases(phases.element(m), robot.segment[m]);
-    shortest_m = std::min(shortest_m, robot.segment[m].module_length_m);
+    cable::SegmentParams& segment = robot.segment[base + m];
+    segment = each;
+    read_segment(segments.element(m), segment);
+    read_phases(phases.element(m), segment);
+    shortest_m = std::min(shortest_m, segment.module_length_m);
   }
   if (robot.cable_count() > cable::kMaxCables)
     phases.refuse("at most 32 cables", "this build holds at most 32 drives (kMaxCables)");
   const Field radius = table.at("cables").at("hole_radius_m"), offset = table.at("cables").at("face_offset_m");
   for (std::size_t m = 0; m < count; ++m) {
-    cable::SegmentParams& segment = robot.segment[m];
+    cable::SegmentParams& segment = robot.segment[base + m];
     segment.hole_radius_m = number_of_segment(radius, m, count, {0.001, out.module_radius_m});
     segment.face_offset_m = number_of_segment(offset, m, count, {0.0001, 0.49 * shortest_m});
   }
@@ -157,7 +175,7 @@ void read_named_poses(const Field& field, RobotConfig& out) {
   const auto angles = static_cast<std::size_t>(out.table.theta_count());
   for (const auto& [name, list] : field.json().items()) {
     const Field pose = field.at(name);
-    pose.size(angles, angles, "give pitch and yaw of every segment, in degrees");
+    pose.size(angles, angles, "give pitch and yaw of every segment, in degrees, before them slide and roll of a base");
     std::vector<double> theta_deg;
     for (std::size_t i = 0; i < angles; ++i) {
       const double limit_deg = rounded_deg(out.table.segment[i / 2].theta_limit_rad);

@@ -45,8 +45,10 @@ void read_drive_lists(const Field& drives, RobotConfig& out) {
   const auto count = static_cast<std::size_t>(out.table.cable_count());
   const Field direction = drives.at("direction");
   const Field zero = drives.at("zero_counts");
-  direction.size(count, count, "one entry per cable, those of segment 1 first");
-  zero.size(count, count, "one entry per cable, those of segment 1 first");
+  direction.size(count, count,
+                 "one entry per drive: slide and roll of a base, then the cables, those of the first segment first");
+  zero.size(count, count,
+            "one entry per drive: slide and roll of a base, then the cables, those of the first segment first");
   for (std::size_t i = 0; i < count; ++i) {
     const std::int64_t sign = direction.element(i).integer(-1, 1);
     if (sign == 0) direction.element(i).refuse("1 or -1", "1 when counts grow while cable is paid out");

@@ -13,6 +13,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int kMaxTurns = 50;
+// Assumed, of a rack or a belt; what it is barely matters where nothing pushes.
+constexpr double kFeedStiffness_N_per_m = 3e5;
 constexpr double kFloorRounding_N = 1e-6;
 
 // A joint's turn, pitch first, and its derivatives. With yaw first the distances are the same, by reflection in the
@@ -56,15 +58,17 @@ CablePaths cable_paths(const ArmModel& model, const ThetaVector& theta_rad) {
   paths.stiffness_N_per_m.setConstant(cables, table.lead_m);  // the free length first
   paths.wrap_rad.setZero(cables);
   std::array<Turn, kMaxSegments> turns;
-  for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m)
+  const Index feed_count = static_cast<Index>(table.feed_count()), first = feed_count / 2;
+  paths.feed_count = table.feed_count();
+  for (Index m = first; m < static_cast<Index>(table.segment_count); ++m)
     turns[m] = turn_of(theta_rad[2 * m], theta_rad[2 * m + 1]);
-  Eigen::Index cable = 0;
-  for (Index anchor = 0; anchor < static_cast<Index>(table.segment_count); ++anchor) {
+  Eigen::Index cable = paths.feed_count;
+  for (Index anchor = first; anchor < static_cast<Index>(table.segment_count); ++anchor) {
     for (Index c = 0; c < static_cast<Index>(table.segment[anchor].cables); ++c, ++cable) {
       const double phase_rad = table.segment[anchor].cable_phase_rad[c];
       const double radius_m = table.segment[anchor].hole_radius_m;
       const double y_m = radius_m * std::cos(phase_rad), z_m = radius_m * std::sin(phase_rad);
-      for (Index m = 0; m <= anchor; ++m) {
+      for (Index m = first; m <= anchor; ++m) {
         const SegmentParams& segment = table.segment[m];
         const Gap gap = gap_of(turns[m], segment.face_offset_m, y_m, z_m);
         const auto pitch = static_cast<Eigen::Index>(2 * m);
@@ -82,6 +86,11 @@ CablePaths cable_paths(const ArmModel& model, const ThetaVector& theta_rad) {
     }
   }
   paths.stiffness_N_per_m = table.cable_EA_N * paths.stiffness_N_per_m.cwiseInverse();
+  if (feed_count != 0) {
+    paths.jacobian_m_rad(0, 0) = table.segment[0].slide_m_rad;
+    paths.jacobian_m_rad(1, 1) = table.segment[0].roll_radius_m;
+    paths.stiffness_N_per_m.head(paths.feed_count).setConstant(kFeedStiffness_N_per_m);
+  }
   return paths;
 }
 
@@ -94,8 +103,9 @@ CableColumn balanced_tensions(const CablePaths& paths, const CableColumn& wanted
   for (int turn = 0; turn < kMaxTurns; ++turn) {
     const eigen::ThetaColumn torque = load_Nm + jacobian.transpose().lazyProduct(tension_N);
     tension_N -= jacobian.lazyProduct(eigen::ThetaColumn(solver.solve(torque)));
-    if (tension_N.minCoeff() >= floor_N - kFloorRounding_N) break;
-    if (turn + 1 < kMaxTurns) tension_N = tension_N.cwiseMax(floor_N + 1.0);
+    auto cables_N = tension_N.tail(tension_N.size() - paths.feed_count);
+    if (cables_N.minCoeff() >= floor_N - kFloorRounding_N) break;
+    if (turn + 1 < kMaxTurns) cables_N = cables_N.cwiseMax(floor_N + 1.0);
   }
   return tension_N;
 }

@@ -17,13 +17,14 @@ struct CablePaths {
   CableMatrix jacobian_m_rad;     // d path / d theta; zero beyond a cable's own segment
   CableColumn stiffness_N_per_m;  // EA over the free length, drum to anchor
   CableColumn wrap_rad;           // change of direction at all holes together: what capstan friction goes by
+  Eigen::Index feed_count = 0;    // rows that are drives of a base that feeds: their tension is of no account
   CableMatrix wrap_to_rad;        // the same, from the drum to the middle of the segment of each theta
 };
 CablePaths cable_paths(const ArmModel& model, const ThetaVector& theta_rad);
 
 // Tensions [N] that give `load_Nm` about each theta, J^T t = -load, none below `floor_N`: nearest to `wanted_N`, by
-// turns projected on balance and raised to the floor. They are balanced to rounding; the floor is kept where 50 turns
-// reach it.
+// turns projected on balance and raised to the floor, which drives of a base that feeds need not keep. They are
+// balanced to rounding; the floor is kept where 50 turns reach it.
 CableColumn balanced_tensions(const CablePaths& paths, const CableColumn& wanted_N, double floor_N,
                               const eigen::ThetaColumn& load_Nm);
 inline CableColumn balanced_tensions(const CablePaths& paths, const CableColumn& wanted_N, double floor_N) {

@@ -36,6 +36,17 @@ struct JointSums {
   }
 };
 
+// Nothing has moved a point yet but a base that feeds.
+JointSums base_sums(const ArmModel& model, const Chain& chain) {
+  const Eigen::Index thetas = eigen::theta_count(model.table);
+  JointSums sums{eigen::SpaceColumns::Zero(3, thetas), eigen::SpaceColumns::Zero(3, thetas)};
+  const SegmentParams& base = model.table.segment[0];
+  if (!feeds(base)) return sums;
+  sums.moments.col(0) = -base.slide_m_rad * Vector3d::UnitX();
+  sums.add(1, Vector3d::UnitX(), chain.point_m[0]);
+  return sums;
+}
+
 // Six rows a link: velocity of its centre and rate of turn about its own axes, each times the root of what resists it.
 using LinkRows = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, kMaxTheta>;
 
@@ -64,6 +75,10 @@ void place(const ArmModel& model, const ThetaVector& theta_rad, Chain& chain) {
   Index link = 0;
   chain.point_m[0].setZero();
   chain.rotation[0].setIdentity();
+  if (const SegmentParams& base = model.table.segment[0]; feeds(base)) {
+    chain.point_m[0].x() = base.slide_m_rad * theta_rad[0];
+    chain.rotation[0] = Eigen::AngleAxisd(theta_rad[1], Vector3d::UnitX());
+  }
   for (Index m = 0; m < static_cast<Index>(model.table.segment_count); ++m) {
     const SegmentParams& segment = model.table.segment[m];
     const Turns turns = turns_of(theta_rad[2 * m], theta_rad[2 * m + 1]);
@@ -78,7 +93,7 @@ void place(const ArmModel& model, const ThetaVector& theta_rad, Chain& chain) {
 eigen::ThetaMatrix mass_matrix(const ArmModel& model, const Chain& chain) {
   const Eigen::Index thetas = eigen::theta_count(model.table);
   eigen::ThetaMatrix mass = eigen::ThetaMatrix::Zero(thetas, thetas);
-  JointSums sums{eigen::SpaceColumns::Zero(3, thetas), eigen::SpaceColumns::Zero(3, thetas)};
+  JointSums sums = base_sums(model, chain);
   Index link = 0;
   for (Index m = 0; m < static_cast<Index>(model.table.segment_count); ++m) {
     const SegmentParams& segment = model.table.segment[m];
@@ -108,7 +123,7 @@ eigen::ThetaColumn static_load(const ArmModel& model, const ThetaVector& theta_r
   const Eigen::Index thetas = eigen::theta_count(table);
   const Vector3d gravity(table.gravity_m_s2.data());
   eigen::ThetaColumn load = eigen::ThetaColumn::Zero(thetas);
-  JointSums sums{eigen::SpaceColumns::Zero(3, thetas), eigen::SpaceColumns::Zero(3, thetas)};
+  JointSums sums = base_sums(model, chain);
   const auto weigh = [&](double mass_kg, const Vector3d& at_m) {
     for (Eigen::Index i = 0; i < thetas; ++i)
       load(i) -= mass_kg * gravity.dot(sums.axes.col(i).cross(at_m) - sums.moments.col(i));

@@ -12,7 +12,8 @@ namespace liana::simulation {
 
 constexpr std::int32_t kMaxLinks = kMaxSegments * kMaxModules;
 
-// Where every link is. Point 0 is the base, point i the end of link i; the last one is the tip. Base frame.
+// Where every link is. Point 0 is the base, where it has been fed to, point i the end of link i; the last one is the
+// tip. Base frame.
 struct Chain {
   std::int32_t links = 0;
   std::array<Eigen::Vector3d, kMaxLinks + 1> point_m;

@@ -32,7 +32,7 @@ double largest_joint_limit_rad(const RobotParams& table) {
 double all_turns_rad(const ArmModel& model, const ThetaVector& from_rad, const ThetaVector& to_rad) {
   double sum_rad = 0.0;
   for (Index i = 0; i < static_cast<Index>(model.table.theta_count()); ++i)
-    sum_rad += model.table.segment[i / 2].modules * std::fabs(to_rad[i] - from_rad[i]);
+    sum_rad += std::max(1, model.table.segment[i / 2].modules) * std::fabs(to_rad[i] - from_rad[i]);
   return sum_rad;
 }
 

@@ -170,13 +170,22 @@ class Planner {
            found.reason);
     } else {
       tell(text("%d waypoints", static_cast<int>(found.theta_rad.size())));
-      if (accept(found.theta_rad)) accept_figures(follow_figures(room_.table(), found.theta_rad, curve));
+      if (accept(found.theta_rad)) accept_figures(follow_figures(room_.table(), found.theta_rad, curve), curve);
     }
     return result_;
   }
 
-  bool accept_figures(const FollowStatistics& figures) {
+  bool accept_figures(const FollowStatistics& figures, const Curve& curve) {
     result_.follow = figures;
+    if (room_.table().feed_count() > 0 && figures.curve_off_m > kFollowBodyOff_m) {
+      const Vec3 at = curve.at(figures.curve_off_along_m).position_m;
+      return fail(
+          PlanOutcome::limit, "curve",
+          text("segment %d leaves the curve by %.1f mm, %.3f m along it, at (%.3f, %.3f, %.3f); at most %.1f mm "
+               "are allowed: bend the curve less there (the arm bends to a radius of %.2f m)",
+               static_cast<int>(figures.curve_off_segment), 1000.0 * figures.curve_off_m, figures.curve_off_along_m,
+               at[0], at[1], at[2], 1000.0 * kFollowBodyOff_m, least_bend_radius_m(room_.table())));
+    }
     if (figures.tip_off_m <= kFollowTipOff_m * (1.0 + kRoundOff)) return true;
     return fail(PlanOutcome::limit, "tip",
                 text("between waypoints the tip leaves the curve by %.3f mm; allowed are %.3f mm",

@@ -67,7 +67,7 @@ ReachArm arm_of(const cable::RobotParams& table) {
     const cable::SegmentParams& segment = table.segment[m];
     arm.range[2 * m] = arm.range[2 * m + 1] = {-segment.theta_limit_rad, segment.theta_limit_rad};
     arm.angles_to[m + 1] = static_cast<std::int32_t>(2 * (m + 1));
-    arm.link_m[m + 1] = segment.modules * segment.module_length_m;
+    arm.link_m[m + 1] = segment.modules * segment.module_length_m + segment.slide_m_rad * segment.theta_limit_rad;
   }
   arm.motion = [table](std::int32_t node, const AngleVector& theta_rad) { return motion_of(table, node, theta_rad); };
   arm.centre_line = [table](const AngleVector& theta_rad) {

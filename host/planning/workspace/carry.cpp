@@ -26,9 +26,10 @@ constexpr int kRounds = 8;
 
 PoseTension tension_at(const RobotParams& table, const CableLayout& layout, const ThetaVector& theta_rad) {
   const TensionPlan plan = plan_at_rest(table, layout, theta_rad);
-  const auto first = plan.motor_N.begin();
-  const auto [least, most] = std::minmax_element(first, first + table.cable_count());
-  return {*most, *least, static_cast<Index>(most - first), static_cast<Index>(least - first), plan.balanced};
+  const std::span<const double> tension_N = of_cables(table, plan.motor_N);
+  const auto [least, most] = std::minmax_element(tension_N.begin(), tension_N.end());
+  const auto index = [&](auto at) { return static_cast<Index>(&*at - plan.motor_N.data()); };
+  return {*most, *least, index(most), index(least), plan.balanced};
 }
 
 // Above 1 over the ceiling, or below the floor.

@@ -80,8 +80,9 @@ void check_tick(const ImageReader& in, double tick_s) {
 void check(const ImageReader& in, const cable::RobotParams& table) {
   in.require("segment_count", table.segment_count, 1, cable::kMaxSegments);
   for (std::size_t m = 0; m < static_cast<std::size_t>(table.segment_count); ++m) {
-    in.require("segment.modules", table.segment[m].modules, 1, cable::kMaxModules);
-    in.require("segment.cables", table.segment[m].cables, 3, cable::kMaxSegmentCables);
+    const bool is_base = m == 0 && cable::feeds(table.segment[m]);
+    in.require("segment.modules", table.segment[m].modules, is_base ? 0 : 1, cable::kMaxModules);
+    in.require("segment.cables", table.segment[m].cables, is_base ? 2 : 3, is_base ? 2 : cable::kMaxSegmentCables);
   }
   in.require("interval_ticks", table.interval_ticks, 1, 100000);
   check_tick(in, table.tick_s);

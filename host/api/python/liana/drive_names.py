@@ -5,7 +5,8 @@ from typing import Optional
 def segments_of(robot: dict) -> list[int]:
     """The segment, from 1, of each drive of a robot table; empty for an arm without cables."""
     phases = robot.get("cables", {}).get("phase_deg", [])
-    return [number for number, cables in enumerate(phases, 1) for _ in cables]
+    base = [[0, 0]] if phases and "base" in robot else []  # a base that feeds is segment 1
+    return [number for number, cables in enumerate([*base, *phases], 1) for _ in cables]
 
 
 def drive_text(drive: int, robot: Optional[dict] = None) -> str:

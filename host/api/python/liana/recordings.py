@@ -207,7 +207,7 @@ class Recording(Mcap):
 
     def _sizes(self) -> dict[str, int]:
         robot = self.robot()
-        angles = len(robot["joints"]) if is_serial(robot) else 2 * len(robot["segments"])
+        angles = len(robot["joints"]) if is_serial(robot) else 2 * (len(robot["segments"]) + ("base" in robot))
         return {"drives": len(robot["drives"]["zero_counts"]), "angles": angles}
 
 

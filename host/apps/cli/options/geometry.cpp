@@ -49,13 +49,14 @@ void add_plan(CLI::App& app, Action& action) {
   auto [sub, plan] = add<PlanOptions>(app, action, "plan", plan_command);
   add_robot(sub, plan.robot);
   sub.add_option("--scene", plan.scene, "scene table: a name under lua/scenes, a file, or none")->capture_default_str();
-  sub.add_option("--from-deg", plan.from_deg, "joint angles to start from")->required();
-  sub.add_option("--to-deg", plan.to_deg, "goal as joint angles");
+  sub.add_option("--from-deg", plan.from_deg, "joint angles, or a named pose, to start from")->required();
+  sub.add_option("--to-deg", plan.to_deg, "goal as joint angles, or a named pose");
   sub.add_option("--tip", plan.tip, "goal as tip pose x,y,z,qw,qx,qy,qz");
-  sub.add_option("--follow", plan.follow,
-                 "follow the leader: the tip along the curve of a JSON file (points_m), the body after it; or slit: "
-                 "through the scene's slit "
-                 "to the goal");
+  sub.add_option(
+      "--follow", plan.follow,
+      "follow the leader: the tip along the curve of a JSON or Lua file (points_m), the body after it; or slit: "
+      "through the scene's slit "
+      "to the goal");
   sub.add_option("--hold", plan.hold,
                  "joint angles held, e.g. 7,9 or 7=0.5,9 (deg); one with another value than at the start is there "
                  "after a third of the way");

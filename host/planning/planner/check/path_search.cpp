@@ -13,6 +13,8 @@ using Index = std::size_t;
 double largest_motion_m(const RobotParams& table, const ThetaVector& a, const ThetaVector& b) {
   double lever_m = 0.0, motion_m = 0.0;
   for (Index m = static_cast<Index>(table.segment_count); m-- > 0;) {
+    if (const SegmentParams& base = table.segment[m]; feeds(base))
+      motion_m += base.slide_m_rad * std::fabs(b[0] - a[0]) + lever_m * std::fabs(b[1] - a[1]);
     lever_m += table.segment[m].modules * table.segment[m].module_length_m;
     const double turn = std::fabs(b[2 * m] - a[2 * m]) + std::fabs(b[2 * m + 1] - a[2 * m + 1]);
     motion_m += table.segment[m].modules * turn * lever_m;

@@ -52,6 +52,11 @@ Chain chain_of(const RobotParams& table, const ThetaVector& theta_rad) {
   Chain chain;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
     const SegmentParams& segment = table.segment[m];
+    if (feeds(segment)) {
+      const double c = std::cos(theta_rad[1]), s = std::sin(theta_rad[1]);
+      chain.link_end_m[0][0] = segment.slide_m_rad * theta_rad[0];
+      chain.tip = {Vector{1, 0, 0}, Vector{0, c, -s}, Vector{0, s, c}};
+    }
     const std::array<Rotation, 2> joint{joint_rotation(theta_rad[2 * m], theta_rad[2 * m + 1], true),
                                         joint_rotation(theta_rad[2 * m], theta_rad[2 * m + 1], false)};
     for (std::int32_t k = 0; k < segment.modules; ++k) {
@@ -83,6 +88,8 @@ std::vector<double> cable_lengths_m(const RobotParams& table, const ThetaVector&
     for (Index c = 0; c < static_cast<Index>(table.segment[m].cables); ++c) {
       const double phase = table.segment[m].cable_phase_rad[c], r = table.segment[m].hole_radius_m;
       double length_m = 0.0;
+      if (const SegmentParams& base = table.segment[m]; feeds(base))
+        length_m = c == 0 ? base.slide_m_rad * theta_rad[0] : base.roll_radius_m * theta_rad[1];
       for (Index j = 0; j <= m; ++j) {
         const double g = table.segment[j].face_offset_m;
         const Vector before{-g, r * std::cos(phase), r * std::sin(phase)}, after{g, before[1], before[2]};
@@ -224,7 +231,7 @@ void check_tension(const RobotParams& table, const std::vector<ThetaVector>& pat
   out.min_tension_N = 1e300;
   for (const ThetaVector& theta_rad : path_rad) {
     const TensionPlan plan = plan_at_rest(table, layout, theta_rad);
-    for (std::int32_t c = 0; c < table.cable_count(); ++c) {
+    for (std::int32_t c = table.feed_count(); c < table.cable_count(); ++c) {
       const double tension_N = plan.motor_N[static_cast<Index>(c)];
       if (tension_N < out.min_tension_N) out.min_tension_N = tension_N, out.min_tension_cable = c;
       if (tension_N > out.max_tension_N) out.max_tension_N = tension_N, out.max_tension_cable = c;

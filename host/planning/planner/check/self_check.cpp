@@ -37,8 +37,9 @@ double pieces_distance_m(const Vector& a, const Vector& a_end, const Vector& b, 
 // Joints between two links that can bend by half a turn at their limits: with fewer the links cannot touch.
 Index min_gap(const RobotParams& table) {
   double limit_rad = 0.0;
-  for (Index m = 0; m < Index(table.segment_count); ++m)
-    limit_rad = std::max(limit_rad, table.segment[m].theta_limit_rad);
+  for (Index m = 0; m < Index(table.segment_count); ++m) {
+    if (!feeds(table.segment[m])) limit_rad = std::max(limit_rad, table.segment[m].theta_limit_rad);
+  }
   return static_cast<Index>(std::ceil(std::numbers::pi / (std::numbers::sqrt2 * limit_rad)));
 }
 

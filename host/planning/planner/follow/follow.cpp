@@ -15,6 +15,14 @@ namespace {
 using Index = std::size_t;
 
 constexpr double kDraw_m2 = 0.01;     // towards the end pose on the way
+constexpr double kFedDraw_m2 = 1e-5;  // of an arm that is fed, towards the pose before
+constexpr double kStartLine = 0.1;  // what the body's distance counts before the curve's beginning: an arm with a fixed
+                                    // base has to take up length there and cannot stay on its line
+constexpr double kDirection_m2 = 0.05;      // weight of the tip's direction
+constexpr double kFedDirection_m2 = 0.002;  // of an arm that is fed, whose body is to be on the curve
+constexpr double kFedFar_m = 0.005;
+constexpr double kFedReach_m =
+    0.002;  // clearance beyond the margin that is wanted of it: the curve goes where there is room
 constexpr double kEndDraw_m2 = 1e-4;  // towards the seed while the end pose is looked for
 constexpr double kTurnDraw_m2 = 10.0;
 constexpr std::int32_t kEndIterations = 100;
@@ -23,6 +31,7 @@ constexpr double kSettled_rad = 0.003;
 constexpr std::int32_t kTurnSteps = 400;
 constexpr double kTurn_rad = 0.01;  // of a theta in each of them
 constexpr double kTipTolerance_m = 1e-6;
+constexpr double kAtLimit_rad = 1e-9;
 constexpr int kLooks = 8;        // at the tip between two waypoints
 constexpr int kMaxHalvings = 5;  // of the way between two poses, where the tip swings out or a step is too long
 
@@ -49,13 +58,14 @@ class Follower {
 
   FollowPath run(const std::optional<ThetaVector>& goal) {
     if (!is_possible()) return out_;
-    const ThetaVector end = goal ? *goal : end_pose();
-    if (tip_off_m(room_, curve_, curve_.length_m(), end) > kTipTolerance_m) {
+    // An arm that is fed has its length from its slide: every pose follows from the one before.
+    const std::optional<ThetaVector> end = goal || is_fed() ? goal : end_pose();
+    if (end && tip_off_m(room_, curve_, curve_.length_m(), *end) > kTipTolerance_m) {
       return failed("tip", text("no joint angles within the limits bring the tip to the end of the curve, %s",
                                 at(curve_.length_m()).c_str()));
     }
     std::vector<Stop> way{{request_.from_rad, 0.0}};
-    if (feed_in(end, way) && (!goal || turn_to(end, way))) out_.theta_rad = thinned(refined(way));
+    if (feed_in(end, way) && (!goal || turn_to(*goal, way))) out_.theta_rad = thinned(refined(way));
     return out_;
   }
 
@@ -71,6 +81,13 @@ class Follower {
     return out_;
   }
 
+  // From the base, or from the nearest place to which it can be fed.
+  double from_base_m(const Vec3& point_m) const {
+    const SegmentParams& base = room_.table().segment[0];
+    const double travel_m = is_fed() ? base.slide_m_rad * base.theta_limit_rad : 0.0;
+    return norm(subtract(point_m, {std::clamp(point_m[0], -travel_m, travel_m), 0.0, 0.0}));
+  }
+
   bool is_possible() {
     const Vec3 tip = tip_of(room_, request_.from_rad);
     const double off_m = norm(subtract(tip, curve_.at(0.0).position_m)), length_m = arm_length_m(room_.table());
@@ -82,9 +99,10 @@ class Follower {
     }
     for (double along_m = 0.0; along_m < curve_.length_m() + kFollowStep_m; along_m += kFollowStep_m) {
       const Vec3 here = curve_.at(along_m).position_m;
-      if (norm(here) > length_m) {
+      const double away_m = from_base_m(here);
+      if (away_m > length_m) {
         failed("curve", text("the curve leaves the arm's reach: %.3f m from the base %s; the arm is %.3f m long",
-                             norm(here), at(along_m).c_str(), length_m));
+                             away_m, at(along_m).c_str(), length_m));
         return false;
       }
       for (std::int32_t i = 0; i < clearance::obstacle_count(room_.scene()); ++i) {
@@ -99,8 +117,16 @@ class Follower {
     return true;
   }
 
+  bool is_fed() const { return room_.table().feed_count() > 0; }
+
+  double wanted_clearance_m() const { return request_.margin_m + (is_fed() ? kFedReach_m : kRelaxReach_m); }
+
   FollowAim aim(double along_m, const ThetaVector& to, double draw, double body = 1.0) const {
-    return {along_m, to, draw, held_mask(request_), request_.margin_m + kRelaxReach_m, body};
+    FollowAim out{along_m, to, draw, held_mask(request_), wanted_clearance_m(), body};
+    out.start_line = is_fed() ? 1.0 : kStartLine;
+    out.direction_m2 = is_fed() ? kFedDirection_m2 : kDirection_m2;
+    out.far_m = is_fed() ? kFedFar_m : 0.0;
+    return out;
   }
 
   // From fixed seeds: the pose whose body is nearest to the curve, a free one when there is any.
@@ -115,7 +141,7 @@ class Follower {
       const ThetaVector theta =
           follow_pose(room_, track_, aim(curve_.length_m(), from, kEndDraw_m2), from, kEndIterations);
       if (tip_off_m(room_, curve_, curve_.length_m(), theta) > kTipTolerance_m) continue;
-      const double cost = misfit_m2(room_, track_, curve_.length_m(), theta) +
+      const double cost = misfit_m2(room_, track_, aim(curve_.length_m(), from, kEndDraw_m2), theta) +
                           (room_.look(theta).nearest.distance_m < request_.margin_m ? 1e3 : 0.0);
       if (cost < least) least = cost, best = theta;
     }
@@ -124,24 +150,37 @@ class Follower {
 
   // Appends poses with the tip ever farther along the curve; where the arm has to change its shape, several with the
   // tip in one place.
-  bool feed_in(const ThetaVector& end, std::vector<Stop>& way) {
+  bool feed_in(const std::optional<ThetaVector>& end, std::vector<Stop>& way) {
     const std::int32_t steps = static_cast<std::int32_t>(std::ceil(curve_.length_m() / kFollowStep_m));
     for (std::int32_t s = 1; s <= steps; ++s) {
       if (control_.cancelled != nullptr && control_.cancelled->load()) return false;
       const double along_m = curve_.length_m() * s / steps;
       for (std::int32_t i = 0; i < kPosesPerStep; ++i) {
         const ThetaVector before = way.back().theta_rad;
-        way.push_back({follow_pose(room_, track_, aim(along_m, end, kDraw_m2), before, 1), along_m});
+        const FollowAim there = is_fed() ? aim(along_m, before, kFedDraw_m2) : aim(along_m, *end, kDraw_m2);
+        way.push_back({follow_pose(room_, track_, there, before, 1), along_m});
         if (largest_change(way.back().theta_rad, before) < kSettled_rad) break;
       }
       if (tip_off_m(room_, curve_, along_m, way.back().theta_rad) < kTipTolerance_m) continue;
+      if (slide_is_out(way.back().theta_rad)) return false;
       const clearance::ArmClearance near = room_.look(way.back().theta_rad);
-      const bool pushed = near.nearest.distance_m < request_.margin_m + kRelaxReach_m;
+      const bool pushed = near.nearest.distance_m < wanted_clearance_m();
       const std::string what =
           pushed ? "'" + clearance::obstacle_name(room_.scene(), near.obstacle) + "'" : "the limits of the joints";
       failed(pushed ? "clearance" : "tip", text("%s keep the tip off the curve %s", what.c_str(), at(along_m).c_str()));
       return false;
     }
+    return true;
+  }
+
+  // Whether the slide that feeds stands at its front end; that is then what failed.
+  bool slide_is_out(const ThetaVector& theta_rad) {
+    const SegmentParams& base = room_.table().segment[0];
+    if (!is_fed() || theta_rad[0] < base.theta_limit_rad - kAtLimit_rad) return false;
+    failed("curve",
+           text("the slide has %.3f m of travel left at the start and the curve is %.3f m long; start with the "
+                "slide farther back, or shorten the curve",
+                base.slide_m_rad * (base.theta_limit_rad - request_.from_rad[0]), curve_.length_m()));
     return true;
   }
 

@@ -1,10 +1,13 @@
-// Follow-the-leader: the tip goes along a curve and the body stays on the path the tip took, as well as an arm with a
-// fixed base can.
+// Follow-the-leader: the tip goes along a curve and the body stays on the path the tip took, as well as the arm can.
 //
-// Such an arm cannot follow exactly. Ten angles bend 40 links, and the part that is not on the curve yet has to give
-// the length that the tip goes forwards: its bends become flatter. So the tip is exact, and every link end is as near
-// as it can be to the track: the arm's own line at the start, then the curve (follow_pose.hpp). How far off the body
-// is, is measured (follow_figures.hpp).
+// An arm on a base that feeds takes its length from the slide. Every link end is as near as it can be to the track: the
+// slide's axis, the arm's own line at the start, then the curve (follow_pose.hpp). A body that leaves the curve by more
+// than kFollowBodyOff_m is refused.
+//
+// An arm with a fixed base cannot follow exactly. Ten angles bend 40 links, and the part that is not on the curve yet
+// has to give the length that the tip goes forwards: its bends become flatter. So the tip is exact, and every link end
+// is as near as it can be to the track: the arm's own line at the start, then the curve (follow_pose.hpp). How far off
+// the body is, is measured (follow_statistics.hpp).
 #pragma once
 
 #include <string>
@@ -18,6 +21,7 @@ using namespace cable;  // this room serves the cable arm only
 
 constexpr double kFollowStep_m = 0.01;       // of the tip along the curve
 constexpr double kFollowTipOff_m = 0.002;    // of the tip from the curve between waypoints
+constexpr double kFollowBodyOff_m = 0.015;   // of the body of an arm that is fed from the curve behind the tip
 constexpr double kFollowMostLengths = 2.0;   // of the arm: no body stays on a longer curve
 constexpr double kFollowStartOff_m = 0.001;  // how far from the tip a curve may begin
 

@@ -14,14 +14,12 @@ using Index = std::size_t;
 // Against the square of a link end's distance from the track.
 constexpr double kTipWeight = 1e8;
 constexpr double kPushWeight = 1e3;     // of missing clearance
-constexpr double kDirection_m2 = 0.05;  // of the tip's direction against the curve's
 constexpr double kDamping_m2 = 0.1;     // of the step; ten times more while a theta would move by more than
 constexpr double kStepMost_rad = 0.03;  // this: the tip's path bends, and it has to stay where it is
 constexpr double kTipDamping_m2 = 1e4;  // of the last steps, which bring the tip onto its place
 constexpr std::int32_t kTipSteps = 8;
-constexpr double kRamp_m = 0.1;     // a link end counts fully when it is so far past the curve's beginning
-constexpr double kStartLine = 0.1;  // and so much before it: an arm that takes up length there cannot stay on its line
-constexpr double kWindow_m = 0.2;   // how far a link end may be from where it can be on the track
+constexpr double kRamp_m = 0.1;    // a link end counts fully when it is so far past the curve's beginning
+constexpr double kWindow_m = 0.2;  // how far a link end may be from where it can be on the track
 constexpr double kMaxDamping_m2 = 1e9;
 constexpr double kTipThere_m = 1e-8;
 constexpr double kStepSettled_rad = 1e-6;
@@ -32,11 +30,13 @@ struct Quadratic {
   explicit Quadratic(Eigen::Index thetas)
       : hessian(eigen::ThetaMatrix::Zero(thetas, thetas)), rhs(eigen::ThetaColumn::Zero(thetas)) {}
 
-  // Adds weight |J dtheta + error|^2 / 2, of the error's part across `along` when that is a unit vector.
-  void add(const Eigen::Ref<const Eigen::Matrix3Xd>& J, const Vec3& error, const Vec3& along, double weight) {
+  // Adds weight |J dtheta + error|^2 / 2, of the error's part across `along` when that is a unit vector. `bend` times
+  // as much in the second derivative: 1 where the weight is constant.
+  void add(const Eigen::Ref<const Eigen::Matrix3Xd>& J, const Vec3& error, const Vec3& along, double weight,
+           double bend = 1.0) {
     const eigen::SpaceColumns across = J - eigen::view(along) * (eigen::view(along).transpose() * J).eval();
     rhs.noalias() -= weight * across.transpose() * eigen::view(error);
-    hessian.noalias() += weight * across.transpose() * J;
+    hessian.noalias() += bend * weight * across.transpose() * J;
   }
 };
 
@@ -72,8 +72,14 @@ double largest(const ThetaVector& step) {
   return most;
 }
 
-double body_weight(double along_m, double behind_m) {
-  return std::clamp((along_m - behind_m) / kRamp_m, kStartLine, 1.0);
+double body_weight(const FollowAim& aim, double behind_m) {
+  return std::clamp((aim.along_m - behind_m) / kRamp_m, aim.start_line, 1.0);
+}
+
+// What a distance counts more than its square says: a body all along which is off by little is wanted, not one that is
+// off by much in one place.
+double more_when_far(const FollowAim& aim, const Vec3& off) {
+  return aim.far_m > 0.0 ? 1.0 + dot(off, off) / (aim.far_m * aim.far_m) : 1.0;
 }
 
 // Nearest on the track to a link end so far behind the tip along the arm: between where it was at the start and where
@@ -105,12 +111,14 @@ Quadratic model(const Room& room, const FollowTrack& track, const FollowAim& aim
       const double facing =
           std::max(0.0, dot(link, place.tangent));  // a tip that would have to turn round goes sideways or backwards
       q.add(turning, subtract(link, place.tangent), {},
-            aim.body * kDirection_m2 * facing * std::min(1.0, aim.along_m / kRamp_m));
+            aim.body * aim.direction_m2 * facing * std::min(1.0, aim.along_m / kRamp_m));
     }
     if (aim.body == 0.0) break;
     const CurvePlace on = body_place(track, aim.along_m, behind_m, here.position_m);
-    q.add(eigen::view(here.by_theta, n), subtract(here.position_m, on.position_m), on.tangent,
-          aim.body * body_weight(aim.along_m, behind_m));
+    const Vec3 off = subtract(here.position_m, on.position_m);
+    const double more = more_when_far(aim, off);  // grows with the square: three times its growth is the bend
+    q.add(eigen::view(here.by_theta, n), off, on.tangent, aim.body * body_weight(aim, behind_m) * more,
+          3.0 - 2.0 / more);
   }
   const PoseModel push = push_model(room, theta, aim.clearance_m, true);
   q.rhs += aim.draw * (eigen::view(aim.drawn_to_rad, n) - eigen::view(theta, n)) - kPushWeight * push.gradient;
@@ -121,14 +129,14 @@ Quadratic model(const Room& room, const FollowTrack& track, const FollowAim& aim
 
 }  // namespace
 
-double misfit_m2(const Room& room, const FollowTrack& track, double along_m, const ThetaVector& theta_rad) {
+double misfit_m2(const Room& room, const FollowTrack& track, const FollowAim& aim, const ThetaVector& theta_rad) {
   const LinkPoints points = link_points(room.table(), theta_rad);
   double sum_m2 = 0.0, behind_m = 0.0;
   for (Index i = Index(points.count) - 1; i-- > 1;) {
     const Vec3& here = points.point_in_base[i];
     behind_m += norm(subtract(points.point_in_base[i + 1], here));
-    const Vec3 off = subtract(here, body_place(track, along_m, behind_m, here).position_m);
-    sum_m2 += body_weight(along_m, behind_m) * dot(off, off);
+    const Vec3 off = subtract(here, body_place(track, aim.along_m, behind_m, here).position_m);
+    sum_m2 += body_weight(aim, behind_m) * dot(off, off);
   }
   return sum_m2;
 }

@@ -20,6 +20,13 @@ struct FollowStatistics {
   double mean_body_off_m = 0.0;    // over all link ends and poses
   std::int32_t worst_link = 0;     // from 1: the link whose end is farthest off
   double worst_tip_along_m = 0.0;  // where on the curve the tip was then
+
+  // Of any point of the arm's axis from the curve behind the tip; before the curve's beginning from the arm's line at
+  // the start, and behind a base that feeds from the slide's axis.
+  double curve_off_m = 0.0;
+  std::int32_t curve_off_segment = 0;  // from 1: where on the arm that is
+  double curve_off_along_m = 0.0;      // the place on the curve that is nearest, below 0 before its beginning
+  double curve_off_tip_along_m = 0.0;  // and that of the tip then
 };
 
 // Figures of waypoints [rad] against a curve. Cost: about 0.1 s for 200 waypoints.

@@ -3,12 +3,23 @@
 namespace liana::planner {
 namespace {
 
+constexpr double kLeastFeed_rad = 1e-3;  // in front of its rear end a slide stands at it
+
 Curve center_line(const Room& room, const ThetaVector& theta_rad) {
   const LinkPoints points = link_points(room.table(), theta_rad);
-  return Curve({points.point_in_base.begin(), points.point_in_base.begin() + points.count});
+  std::vector<Vec3> line = feed_line(room.table(), theta_rad);
+  line.insert(line.end(), points.point_in_base.begin(), points.point_in_base.begin() + points.count);
+  return Curve(line);
 }
 
 }  // namespace
+
+std::vector<Vec3> feed_line(const RobotParams& table, const ThetaVector& theta_rad) {
+  if (table.feed_count() == 0) return {};
+  const SegmentParams& base = table.segment[0];
+  if (theta_rad[0] + base.theta_limit_rad < kLeastFeed_rad) return {};
+  return {{-base.slide_m_rad * base.theta_limit_rad, 0.0, 0.0}};
+}
 
 FollowTrack::FollowTrack(const Room& room, const ThetaVector& from_rad, const Curve& curve)
     : start_line_(center_line(room, from_rad)), curve_(curve) {}

@@ -1,4 +1,5 @@
-// What a following arm keeps to: its own centre line at the start, and from its tip on the curve.
+// What a following arm keeps to: its own centre line at the start, and from its tip on the curve. Behind a base that
+// feeds the slide's axis goes on.
 #pragma once
 
 #include "host/planning/planner/follow/curve.hpp"
@@ -7,6 +8,9 @@
 namespace liana::planner {
 
 using namespace cable;  // this room serves the cable arm only
+
+// Where a base that feeds can go back to from a pose: the rear end of its slide, or nothing.
+std::vector<Vec3> feed_line(const RobotParams& table, const ThetaVector& theta_rad);
 
 class FollowTrack {
  public:
@@ -20,7 +24,7 @@ class FollowTrack {
   CurvePlace nearest(const Vec3& point_m, double from_m, double until_m) const;
 
  private:
-  Curve start_line_;  // from the base
+  Curve start_line_;  // from the base, or from the rear end of its slide
   Curve curve_;
 };
 

@@ -21,7 +21,14 @@ JetQuat odd_module(const JetQuat& q, const Jet& pitch, const Jet& yaw) {
           q[0] * o[2] - q[1] * o[3] + q[2] * o[0] + q[3] * o[1], q[0] * o[3] + q[1] * o[2] - q[2] * o[1] + q[3] * o[0]};
 }
 
+// A base that feeds: no links, what it carries stands forward and turned.
+LocalSegment local_base(const SegmentParams& base, double slide_rad, double roll_rad) {
+  const Jet slide = pitch_variable(slide_rad), half = 0.5 * yaw_variable(roll_rad);
+  return {{{base.slide_m_rad * slide, {}, {}}}, {cos(half), sin(half), {}, {}}};
+}
+
 LocalSegment local_segment(const SegmentParams& segment, double pitch_rad, double yaw_rad) {
+  if (feeds(segment)) return local_base(segment, pitch_rad, yaw_rad);
   const Jet pitch = pitch_variable(pitch_rad), yaw = yaw_variable(yaw_rad);
   const Jet w = cos(pitch) * cos(yaw), y = sin(yaw), z = sin(pitch) * cos(yaw);
   const double l = segment.module_length_m;
@@ -173,11 +180,22 @@ CableDerivatives cable_derivatives(const RobotParams& table, const ThetaVector& 
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
     for (Index c = 0; c < static_cast<Index>(table.segment[m].cables); ++c) {
       const double phase = table.segment[m].cable_phase_rad[c], r = table.segment[m].hole_radius_m;
+      if (feeds(table.segment[m])) {
+        const Jet way = c == 0 ? table.segment[m].slide_m_rad * pitch_variable(theta_rad[0])
+                               : table.segment[m].roll_radius_m * yaw_variable(theta_rad[1]);
+        out.length_m.push_back(way.value);
+        out.by_segment_m.push_back({way});
+        continue;
+      }
       const double y = r * std::cos(phase), z = r * std::sin(phase);
       std::vector<Jet> parts;
       double length_m = 0.0;
       for (Index j = 0; j <= m; ++j) {
         const SegmentParams& passed = table.segment[j];
+        if (feeds(passed)) {  // carries the cables' drums
+          parts.push_back(constant(0.0));
+          continue;
+        }
         const double g = passed.face_offset_m;
         const Jet pitch = pitch_variable(theta_rad[2 * j]), yaw = yaw_variable(theta_rad[2 * j + 1]);
         const Jet sa = sin(pitch), ca = cos(pitch), sb = sin(yaw), cb = cos(yaw), one = constant(1.0);

@@ -105,7 +105,7 @@ void add_tensions(const PlanRequest& request, const Path& path, PlanRows& rows) 
   const std::int32_t end = static_cast<std::int32_t>(path.size()) - (request.tip_in_base ? 0 : 1);
   for (std::int32_t w = 1; w < end; ++w) {
     const CableVector here_N = tension.at(path[Index(w)]);
-    for (std::int32_t c = 0; c < table.cable_count(); ++c) {
+    for (std::int32_t c = table.feed_count(); c < table.cable_count(); ++c) {
       const bool low = here_N[Index(c)] < table.tension.floor_motor_N + kNearFloor_N;
       if (low || here_N[Index(c)] > table.tension.ceiling_free_N - kNearCeiling_N) rows.tension.push_back({w, c});
     }

@@ -56,8 +56,9 @@ void PlannedTension::add_hessian(const ThetaVector& theta_rad, const CableVector
 }
 
 double PlannedTension::excess_N(const ThetaVector& theta_rad) const {
-  const CableVector tension_N = at(theta_rad);
-  const auto [least, most] = std::minmax_element(tension_N.begin(), tension_N.begin() + table_.cable_count());
+  const CableVector planned_N = at(theta_rad);
+  const std::span<const double> tension_N = of_cables(table_, planned_N);
+  const auto [least, most] = std::minmax_element(tension_N.begin(), tension_N.end());
   return std::max(table_.tension.floor_motor_N - *least, *most - table_.tension.ceiling_free_N);
 }
 

@@ -20,6 +20,7 @@ double Room::motion_m(const ThetaVector& a, const ThetaVector& b) const {
   double lever_m = 0.0, motion = 0.0;
   for (Index m = static_cast<Index>(robot_.table.segment_count); m-- > 0;) {
     const SegmentParams& segment = robot_.table.segment[m];
+    if (feeds(segment)) motion += segment.slide_m_rad * std::fabs(b[0] - a[0]) + lever_m * std::fabs(b[1] - a[1]);
     lever_m += segment.modules * segment.module_length_m;
     motion += segment.modules * lever_m * std::hypot(b[2 * m] - a[2 * m], b[2 * m + 1] - a[2 * m + 1]);
   }
@@ -42,6 +43,15 @@ double arm_length_m(const RobotParams& table) {
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m)
     length_m += table.segment[m].modules * table.segment[m].module_length_m;
   return length_m;
+}
+
+double least_bend_radius_m(const RobotParams& table) {
+  double least_m = 1e300;
+  for (Index m = static_cast<Index>(table.feed_count()) / 2; m < static_cast<Index>(table.segment_count); ++m) {
+    const SegmentParams& segment = table.segment[m];
+    least_m = std::min(least_m, 0.5 * segment.module_length_m / std::tan(0.5 * segment.theta_limit_rad));
+  }
+  return least_m;
 }
 
 ThetaVector between(const ThetaVector& a, const ThetaVector& b, double share) {

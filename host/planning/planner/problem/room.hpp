@@ -38,6 +38,9 @@ class Room {
 // From the base to the tip of the straight arm [m].
 double arm_length_m(const RobotParams& table);
 
+// Of the narrowest circle on which a segment can lie: both of its ends and its joints [m].
+double least_bend_radius_m(const RobotParams& table);
+
 // Pose at `share` (0..1) between a and b.
 ThetaVector between(const ThetaVector& a, const ThetaVector& b, double share);
 

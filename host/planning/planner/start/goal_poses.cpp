@@ -95,7 +95,11 @@ ThetaVector seed_pose(const RobotParams& table, const ThetaVector& from, std::in
   ThetaVector theta{};
   for (Index k = 0; k < Index(table.theta_count()); ++k) {
     const double sign = (Index(seed) * (k + 1) * 2654435761u >> 7) % 2 == 0 ? 1.0 : -1.0;
-    if (seed > 1) theta[k] = 0.5 * sign * table.segment[k / 2].theta_limit_rad;
+    if (k < Index(table.feed_count())) {
+      theta[k] = from[k];  // a base that feeds stays: the arm's shape is sought
+    } else if (seed > 1) {
+      theta[k] = 0.5 * sign * table.segment[k / 2].theta_limit_rad;
+    }
   }
   return theta;
 }

@@ -1,5 +1,6 @@
 """`liana plan` as users call it: answers, exit codes, cancelling, the kept file. Usage: test_plan_command.py BIN."""
 import json
+import math
 import pathlib
 import signal
 import subprocess
@@ -121,6 +122,26 @@ class PlanCommand(Messages, unittest.TestCase):
         self.assertLess(answer["follow"]["tip_off_m"], 0.002001)
         self.assertLess(answer["follow"]["mean_body_off_m"], answer["follow"]["body_off_m"])
         self.assertGreaterEqual(answer["checked"]["min_clearance_m"], 0.005)
+
+    def test_an_arm_that_is_fed_keeps_its_body_on_the_curve(self):
+        bend = [[0.475 + 0.25 * math.sin(a), 0.25 - 0.25 * math.cos(a), 0] for a in (0.1 * i for i in range(11))]
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "curve.json"
+            path.write_text(json.dumps({"points_m": [[0.375, 0, 0], *bend]}), encoding="utf-8")
+            options = ("--robot=feeder", "--scene=none", "--from-deg=back", f"--follow={path}")
+            done = call(*options)
+            script = pathlib.Path(folder) / "curve.lua"
+            points = ", ".join(f"{{ {x!r}, {y!r}, {z!r} }}" for x, y, z in ([0.375, 0, 0], *bend))
+            script.write_text(f"return {{ points_m = {{ {points} }} }}", encoding="utf-8")
+            by_script = json.loads(call(*options[:-1], f"--follow={script}").stdout)
+            said = subprocess.run(words(*options)[:-1], capture_output=True, text=True, check=False).stdout
+        self.assertEqual(done.returncode, 0, done.stderr)
+        answer = json.loads(done.stdout)
+        self.assertEqual(answer["waypoints_deg"][0][:2], [-85, 0])
+        self.assertEqual(answer["hash"], by_script["hash"])
+        self.assertLess(answer["follow"]["curve_off_m"], 0.015)
+        self.assertIn(answer["follow"]["curve_off_segment"], (2, 3, 4, 5))
+        self.assertIn(f"segment {answer['follow']['curve_off_segment']}", said)
 
     def test_a_curve_that_is_none_ends_with_2_and_one_message(self):
         with tempfile.TemporaryDirectory() as folder:

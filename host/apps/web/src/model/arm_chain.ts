@@ -1,5 +1,5 @@
 // Where every straight piece of an arm is for given angles, from the robot table; columns as WebGL wants them.
-import type { CableRobot, Robot, SerialRobot } from './robot';
+import { feedCount, type CableRobot, type Robot, type SerialRobot } from './robot';
 
 const DEG = Math.PI / 180;
 
@@ -16,7 +16,7 @@ export interface ArmChain {
   readonly pieces: Piece[];
   readonly matrices: Float32Array; // of each piece's frame in the base frame, 16 each, column by column
   readonly tip: Float32Array; // 16: the tip's frame
-  readonly nodes: Float32Array; // 3 for each segment: where it ends
+  readonly nodes: Float32Array; // 3 for each segment: where it ends; a base that feeds is one
   // Moves all to these angles; angles beyond those given are 0. About 5 us, nothing is allocated.
   set(theta_deg: ArrayLike<number>): void;
 }
@@ -92,23 +92,31 @@ abstract class Chain implements ArmChain {
   protected abstract walk(rows: Rows, theta_deg: ArrayLike<number>): void;
 }
 
-// Segments of equal-angled modules: odd modules turn Rz(pitch) Ry(yaw), even ones Ry(yaw) Rz(pitch).
+// A base that feeds, then segments of equal-angled modules: odd modules turn Rz(pitch) Ry(yaw), even ones Ry(yaw) Rz(pitch).
 class CableChain extends Chain {
-  constructor({ segments }: CableRobot) {
+  constructor(private readonly robot: CableRobot) {
+    const { segments } = robot;
     const lengths = segments.map((s) => new Array<number>(s.modules).fill(s.module_length_m));
-    super(piecesOf(lengths), segments.length);
+    super(piecesOf(lengths), feedCount(robot) / 2 + segments.length);
   }
 
   protected override walk(rows: Rows, theta_deg: ArrayLike<number>): void {
+    const { base } = this.robot;
+    const first = feedCount(this.robot);
+    if (base) {
+      advance(rows, 0, base.slide_m_per_deg * atOrZero(theta_deg, 0));
+      turn(rows, 1, 2, atOrZero(theta_deg, 1) * DEG);
+      this.endOf(0, rows);
+    }
     this.pieces.forEach(({ length_m, segment }, k) => {
-      const pitch = atOrZero(theta_deg, 2 * segment) * DEG;
-      const yaw = atOrZero(theta_deg, 2 * segment + 1) * DEG;
+      const pitch = atOrZero(theta_deg, first + 2 * segment) * DEG;
+      const yaw = atOrZero(theta_deg, first + 2 * segment + 1) * DEG;
       if (k % 2 === 0) turn(rows, 0, 1, pitch);
       turn(rows, 2, 0, yaw);
       if (k % 2 === 1) turn(rows, 0, 1, pitch);
       write(rows, this.matrices, 16 * k);
       advance(rows, 0, length_m);
-      this.endOf(segment, rows);
+      this.endOf(first / 2 + segment, rows);
     });
   }
 }

@@ -1,9 +1,11 @@
 // How drives and cables are written in every text: counted from 1, with node and segment.
-import type { Robot } from './robot';
+import { feedCount, type Robot } from './robot';
 
 // Segment (from 1) of each drive, in their order; empty for an arm without cables.
 export function segmentsOf(robot: Robot): number[] {
-  return robot.kind === 'serial' ? [] : robot.cables.phase_deg.flatMap((cables, m) => cables.map(() => m + 1));
+  if (robot.kind === 'serial') return [];
+  const base = feedCount(robot) === 0 ? [] : [1, 1]; // a base that feeds is segment 1
+  return [...base, ...robot.cables.phase_deg.flatMap((cables, m) => cables.map(() => m + 1 + base.length / 2))];
 }
 
 // "drive 4 (node 4, segment 2)" of the drive with this index, from 0.

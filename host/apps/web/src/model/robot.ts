@@ -3,12 +3,18 @@
 export interface CableRobot {
   name: string;
   kind: 'robot';
+  base?: { limit_deg: number; slide_m_per_deg: number }; // feeds: slide and roll are the first two angles and drives
   segments: { modules: number; module_length_m: number; theta_limit_deg: number }[];
   module: { radius_m: number };
   cables: { hole_radius_m: number | number[]; face_offset_m: number | number[]; phase_deg: number[][] };
   tension: { plan_N: number; floor_motor_N: number; ceiling_free_N: number; alarm_N: number; hard_limit_N: number };
   limits: TipLimits & { theta_rate_deg_s: number; tip_speed_slit_m_s: number };
   named_poses_deg: Record<string, number[]>;
+}
+
+// How many angles and drives a base that feeds has.
+export function feedCount(robot: Robot): number {
+  return robot.kind === 'robot' && robot.base ? 2 : 0;
 }
 
 // Of segment `m`: a number is that of all segments, a list has one for each.
@@ -86,24 +92,26 @@ export interface Scene {
 
 // How many angles the arm has.
 export function angleCount(robot: Robot): number {
-  return robot.kind === 'serial' ? robot.joints.length : 2 * robot.segments.length;
+  return robot.kind === 'serial' ? robot.joints.length : feedCount(robot) + 2 * robot.segments.length;
 }
 
 // Range of angle `i` (from 0) [deg].
 export function angleRange_deg(robot: Robot, i: number): [number, number] {
   if (robot.kind === 'serial') return [robot.joints[i].low_deg, robot.joints[i].high_deg];
-  const limit = robot.segments[i >> 1].theta_limit_deg;
+  const limit = robot.base && i < 2 ? robot.base.limit_deg : robot.segments[(i - feedCount(robot)) >> 1].theta_limit_deg;
   return [-limit, limit];
 }
 
 // What people call angle `i` (from 0).
 export function angleName(robot: Robot, i: number): string {
   if (robot.kind === 'serial') return `joint ${i + 1}`;
-  return `${i % 2 === 0 ? 'pitch' : 'yaw'} ${(i >> 1) + 1}`;
+  if (i < feedCount(robot)) return i === 0 ? 'slide' : 'roll';
+  return `${i % 2 === 0 ? 'pitch' : 'yaw'} ${(i >> 1) + 1}`; // a base that feeds is segment 1
 }
 
 // Farthest that the tip can be from the base [m].
 export function reach_m(robot: Robot): number {
   if (robot.kind === 'serial') return robot.joints.reduce((sum, j) => sum + Math.abs(j.a_m) + Math.abs(j.d_m), 0);
-  return robot.segments.reduce((sum, s) => sum + s.modules * s.module_length_m, 0);
+  const fed_m = robot.base ? robot.base.slide_m_per_deg * robot.base.limit_deg : 0;
+  return robot.segments.reduce((sum, s) => sum + s.modules * s.module_length_m, fed_m);
 }

@@ -1,6 +1,6 @@
 // Which numbers stand together on a strip, with their colours.
 import { segmentsOf } from '../model/drive_names';
-import type { Robot } from '../model/robot';
+import { feedCount, type Robot } from '../model/robot';
 import { segmentColour } from '../scene/palette';
 import type { Curve } from './strip';
 
@@ -17,6 +17,8 @@ export interface Group {
   most?: number; // values beyond it are not worth the room
 }
 
+const AXIS_COLOURS = ['#e0564a', '#57b894', '#4e9bd6']; // x, y, z, as in the scene
+
 type Has = (field: string, index: number) => boolean;
 
 function source(field: string, index: number, label: string, colour: string, factor = 1, dashed = false): Source {
@@ -28,8 +30,12 @@ function angleGroups(robot: Robot): Group[] {
     const joints = robot.joints.map((_, i) => source('measured_js_deg', i, String(i + 1), segmentColour(i)));
     return [{ name: 'angles', title: 'joints [deg]', sources: joints }];
   }
-  const ofAxis = (axis: number) => robot.segments.map((_, m) => source('measured_js_deg', 2 * m + axis, String(m + 1), segmentColour(m)));
+  const base = feedCount(robot);
+  const ofAxis = (axis: number) =>
+    robot.segments.map((_, m) => source('measured_js_deg', base + 2 * m + axis, String(base / 2 + m + 1), segmentColour(m)));
+  const fed = ['slide', 'roll'].map((name, i) => source('measured_js_deg', i, name, AXIS_COLOURS[i]));
   return [
+    ...(base === 0 ? [] : [{ name: 'base', title: 'slide and roll of the base [deg]', sources: fed }]),
     { name: 'pitch', title: 'pitch of segments [deg]', sources: ofAxis(0) },
     { name: 'yaw', title: 'yaw of segments [deg]', sources: ofAxis(1) },
   ];
@@ -48,11 +54,11 @@ function forceGroups(robot: Robot): Group[] {
     const joints = robot.joints.map((_, i) => source('torque_Nm', i, String(i + 1), segmentColour(i)));
     return [{ name: 'torque', title: 'joint torque [N m]', sources: joints }];
   }
-  const cables = segmentsOf(robot).map((segment, i) => source('tension_N', i, String(i + 1), segmentColour(segment - 1)));
+  const cables = segmentsOf(robot)
+    .map((segment, i) => source('tension_N', i, String(i + 1), segmentColour(segment - 1)))
+    .slice(feedCount(robot));
   return [{ name: 'tension', title: 'cable tension, in the colours of the segments [N]', sources: cables }];
 }
-
-const AXIS_COLOURS = ['#e0564a', '#57b894', '#4e9bd6']; // x, y, z, as in the scene
 
 function axes(field: string, factor = 1): Source[] {
   return ['x', 'y', 'z'].map((axis, i) => source(field, i, axis, AXIS_COLOURS[i], factor));

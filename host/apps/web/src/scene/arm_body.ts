@@ -1,7 +1,7 @@
 // The arm as it is: links, discs in the colours of their segments, cables in the colour of their tension.
 import * as THREE from 'three';
 import { chainOf, type ArmChain } from '../model/arm_chain';
-import { numberOfSegment, type CableRobot, type Robot } from '../model/robot';
+import { feedCount, numberOfSegment, type CableRobot, type Robot } from '../model/robot';
 import { scaleOf, tensionColour, type TensionScale } from '../model/tension_colour';
 import { segmentColour } from './palette';
 import { paint, shaded } from './shade';
@@ -126,9 +126,11 @@ class Cables {
   private readonly colours: Float32Array;
   private readonly scale: TensionScale;
   private readonly faces: Faces[];
+  private readonly first: number; // of the drives that are cables'
 
   constructor(robot: CableRobot, private readonly chain: ArmChain) {
     this.scale = scaleOf(robot.tension);
+    this.first = feedCount(robot);
     this.faces = facesOf(robot, chain.pieces);
     let at = 0;
     let pieces = 0;
@@ -153,7 +155,7 @@ class Cables {
   set(tension_N: ArrayLike<number>): void {
     const { matrices } = this.chain;
     this.runs.forEach((run, cable) => {
-      const colour = tensionColour(tension_N[cable] ?? NaN, this.scale);
+      const colour = tensionColour(tension_N[this.first + cable] ?? NaN, this.scale);
       const points = 2 * run.pieces;
       let vertex = run.at;
       for (let p = 0; p < points; ++p) {

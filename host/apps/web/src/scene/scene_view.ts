@@ -2,6 +2,7 @@
 import * as THREE from 'three';
 import { isKnown, value, values, type Facts, type Sample } from '../data/sample';
 import { isAtSite, payloadPlace } from '../model/payload_place';
+import { segmentsOf } from '../model/drive_names';
 import type { Robot, Scene } from '../model/robot';
 import { lengthText } from '../model/sentence';
 import { distance } from '../model/vector';
@@ -243,7 +244,7 @@ export class SceneView {
     if (this.payload) labels.push({ text: 'payload', place_m: this.payload.centre_m });
     if (scene.adapter) labels.push({ text: 'adapter', place_m: scene.adapter.position_m });
     for (const body of scene.spheres ?? []) labels.push({ text: body.name, place_m: body.center_m });
-    labels.push({ text: this.robot.kind === 'serial' ? 'base' : `base: ${3 * this.robot.segments.length} motors`, place_m: [-0.16, 0, 0.1] });
+    labels.push({ text: this.robot.kind === 'serial' ? 'base' : `base: ${segmentsOf(this.robot).length} motors`, place_m: [-0.16, 0, 0.1] });
     if (this.tipLabel) labels.push({ text: this.tipLabel, place_m: chain.tip.subarray(12, 15) });
     for (const body of scene.convex ?? []) {
       const at = body.points_m?.[0] ?? body.cylinder?.from_m ?? body.chain?.points_m[0];

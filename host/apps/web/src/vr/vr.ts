@@ -5,7 +5,7 @@ import type { Connection } from '../live/connection';
 import type { Live } from '../live/live';
 import type { Answer } from '../live/protocol';
 import type { Condition } from '../model/alarms';
-import { reach_m, type CableRobot } from '../model/robot';
+import { angleCount, reach_m, type CableRobot } from '../model/robot';
 import { lengthText, sentenceOf } from '../model/sentence';
 import type { SceneView } from '../scene/scene_view';
 import { Board } from './board';
@@ -40,9 +40,14 @@ export class Vr {
   private said = '';
 
   constructor(private readonly robot: CableRobot, private readonly live: Live, private readonly connection: Connection, private readonly view: SceneView, private readonly stop: () => void) {
-    this.node = Math.min(3, robot.segments.length - 1);
+    this.node = Math.min(3, this.lastNode());
     this.rig = new Rig(reach_m(robot));
     this.rings = reachRings(reach_m(robot), '#6db3f2');
+  }
+
+  // The end of the last segment but one.
+  private lastNode(): number {
+    return angleCount(this.robot) / 2 - 1;
   }
 
   static async isThere(): Promise<boolean> {
@@ -162,7 +167,7 @@ export class Vr {
   private act(action: 'hold' | 'stop' | 'mode' | 'scale'): void {
     if (action === 'stop') return this.stop();
     if (action === 'hold') return void this.connection.request({ op: 'hold' });
-    if (action === 'mode') this.node = nextNode(this.node, this.robot.segments.length - 1);
+    if (action === 'mode') this.node = nextNode(this.node, this.lastNode());
     if (action === 'scale') this.scale = nextScale(this.scale);
     this.useDevice();
   }
