@@ -1,4 +1,5 @@
--- What an action needs of the robot, as far as it is known before it runs: { pose = name, command = "shape", fields = { ... } }, all optional.
+-- What an action needs of the robot, as far as it is known before it runs, all optional:
+-- { pose = name, command = "shape", fields = { ... }, is_for_cables = true }.
 -- A mission is refused before it starts when the robot cannot do it. Of functions of your own nothing is known until they run.
 local uses = {}
 

@@ -55,6 +55,7 @@ end
 
 -- Follow the leader: the tip goes along a curve { points = { {x, y, z}, ... }, margin_m = 0.005 } in the base frame, the body after
 -- it. The first point is where the tip is. The way is planned when the step runs, and lianad checks it. Every link keeps `margin_m`.
+-- For cable arms only.
 function actions.follow_curve(curve)
   check_curve("follow_curve", curve)
   return action_requirements.noted(function(arm)
@@ -62,7 +63,7 @@ function actions.follow_curve(curve)
     local plan = arm.plan_curve { from_deg = arm.state.setpoint_js_deg, points = curve.points, margin_m = margin_m }
     waypoints_of[curve] = plan.waypoints_deg
     go_along(arm, curve, plan.waypoints_deg)
-  end, { action = "follow_curve", at = position(1) })
+  end, { action = "follow_curve", is_for_cables = true, at = position(1) })
 end
 
 -- Back along the curve that an earlier step has followed, given as the same table.
@@ -73,7 +74,7 @@ function actions.follow_back(curve)
     if there == nil then error("follow_back: no step has followed this curve: follow it first, by the same table", 0) end
     for i = #there, 1, -1 do back[#back + 1] = there[i] end
     go_along(arm, curve, back)
-  end, { action = "follow_back", at = position(1) })
+  end, { action = "follow_back", is_for_cables = true, at = position(1) })
 end
 
 -- Moves nodes by null-space targets { { node = 3, position_m = {x, y, z}, weight = 1, threshold_m = 0.01 }, ... } and pushes

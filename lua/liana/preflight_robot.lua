@@ -35,6 +35,9 @@ local function action_suits(where, field, action, own, robot, refusal_of)
   local use = action_requirements.of(action)
   where = at_call(where, use.at, own)
   has_pose(where, field, use.pose, robot)
+  if use.is_for_cables and robot.kind == "serial" then
+    refuse(where, field, use.action, "for cable arms only (robot " .. robot.name .. ")", "use move_path, or a cable arm")
+  end
   if not use.command then return end
   local fields = { goal_deg = use.pose and robot.named_poses_deg[use.pose] }
   for key, value in pairs(use.fields) do fields[key] = value end

@@ -147,7 +147,7 @@ void watch_contact(const RobotParams& table, const ArmKinematics& kinematics, co
   const double push_N = norm(tip.force_N);
   const Vec3 explained_N = push_N > kContactTip_N ? scale(tip.force_N, kContactTip_N / push_N) : tip.force_N;
   contact.torque_Nm = 0.0;
-  const Index told_by = n - as_index(table.feed_count());
+  const Index told_by = n - static_cast<Index>(table.feed_count());
   for (Index k = n - told_by; k < n; ++k) {
     const double left_Nm = balance.torque_Nm[k] - dot(kinematics.tip_jacobian.linear[k], explained_N);
     contact.torque_Nm = larger(contact.torque_Nm, std::fabs(left_Nm));

@@ -26,11 +26,11 @@ using CableVector = std::array<double, kMaxCables>;  // segment 1 cable 0, 1, 2,
 // angles like others: the slide stands at slide_m_rad times its angle, and a drive's "cable" is the slide's way, or the
 // belt that turns the roll, which nothing stretches and whose tension nobody plans.
 struct SegmentParams {
-  std::int32_t modules = 0;      // 1..kMaxModules; joint order alternates Rz Ry, Ry Rz; 0: a base that feeds
-  std::int32_t cables = 0;       // 3..kMaxSegmentCables; 2 drives of a base that feeds
-  double module_length_m = 0.0;  // link length l
-  double theta_limit_rad = 0.0;  // |theta| of both axes
-  double module_mass_kg = 0.0;
+  std::int32_t modules = 0;                // 1..kMaxModules; joint order alternates Rz Ry, Ry Rz; 0: a base that feeds
+  std::int32_t cables = 0;                 // 3..kMaxSegmentCables; 2 drives of a base that feeds
+  double module_length_m = 0.0;            // link length l
+  double theta_limit_rad = 0.0;            // |theta| of both axes
+  double module_mass_kg = 0.0;             // of a base that feeds: the carriage, which no cable carries
   double module_center = 0.5;              // centre of mass along a module, of its length from the root's side
   double joint_stiffness_Nm_rad = 0.0;     // of one joint, about both of its axes: backbone or spring
   std::array<double, 2> joint_rest_rad{};  // pitch and yaw of one joint at which it gives no torque

@@ -174,7 +174,7 @@ void keep_min_tension(const RobotParams& table, const CableVector& tension_N, Se
   const double scale = table.tension.scale();
   const double limit_N = scale * kLiftLimit_N * larger(0.0, 1.0 - table.friction_mu / kMarginFriction);
   const double enough_N = table.tension.floor_motor_N + scale * kLiftBelow_N;
-  Index c = as_index(table.feed_count());
+  Index c = static_cast<Index>(table.feed_count());
   for (Index j = c / 2; j < static_cast<Index>(table.segment_count); ++j) {
     double missing_N = 0.0;
     for (std::int32_t i = 0; i < table.segment[j].cables; ++i, ++c)
@@ -186,7 +186,7 @@ void keep_min_tension(const RobotParams& table, const CableVector& tension_N, Se
 void wind_in(const RobotParams& table, const CableVector& tension_N, CableVector& taut_N) noexcept {
   const double limit_N = kTautLimit_N * table.tension.scale();
   const double enough_N = table.tension.floor_motor_N + kTautBelow_N * table.tension.scale();
-  for (Index c = as_index(table.feed_count()); c < static_cast<Index>(table.cable_count()); ++c) {
+  for (Index c = static_cast<Index>(table.feed_count()); c < static_cast<Index>(table.cable_count()); ++c) {
     const double missing_N = larger(0.0, enough_N - tension_N[c]);
     taut_N[c] = one_tick_tighter(table, taut_N[c], kTautRate_1_s * missing_N, kTautLeak_s, limit_N);
   }

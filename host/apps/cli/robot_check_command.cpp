@@ -134,6 +134,22 @@ void look_at_stiffness(const cable::RobotParams& table, Json& problems) {
            table.cable_EA_N, shortest_m, change_N, 1e3 * kUnknown_m, allowed_N, allowed_N * shortest_m / kUnknown_m));
 }
 
+// The slide carries what stands on it, along x; its drive has the torque of all.
+void look_at_slide(const config::RobotConfig& robot, Json& problems) {
+  const cable::RobotParams& table = robot.table;
+  if (table.feed_count() == 0) return;
+  double mass_kg = table.segment[0].module_mass_kg + table.tool.mass_kg;
+  for (std::size_t j = 1; j < static_cast<std::size_t>(table.segment_count); ++j)
+    mass_kg += table.segment[j].modules * table.segment[j].module_mass_kg;
+  const double needed_N = mass_kg * std::fabs(table.gravity_m_s2[0]);
+  const double allowed_N = robot.rated_torque_Nm / robot.drum_radius_m;
+  if (needed_N <= allowed_N) return;
+  problems.push_back(
+      text("base: the slide carries %.3g kg, %.0f N along x: allowed up to drives.rated_torque_Nm over drum_radius_m, "
+           "%.0f N: mount the arm level, use stronger drives or a lighter carriage",
+           mass_kg, needed_N, allowed_N));
+}
+
 // Cables that move too little between any two poses do not tell their drives' directions.
 void look_at_travel(const cable::RobotParams& table, Json& notes) {
   for (std::size_t j = 0; j < static_cast<std::size_t>(table.segment_count); ++j) {
@@ -207,6 +223,7 @@ Json checked_cable_robot(const config::RobotConfig& robot) {
   look_at_zero(robot, problems);
   look_at_mass(robot, written, problems);
   look_at_stiffness(table, problems);
+  look_at_slide(robot, problems);
   Json notes = Json::array();
   look_at_travel(table, notes);
   tell_weight(table, notes);

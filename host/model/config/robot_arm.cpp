@@ -76,7 +76,7 @@ void read_base(const Field& field, cable::RobotParams& robot) {
   base.theta_limit_rad = field.at("limit_deg").number({0.1, kRollMost_deg}) * kDegree;
   base.slide_m_rad = field.at("slide_m_per_deg").number({1e-5, 0.1}) / kDegree;
   base.roll_radius_m = field.at("roll_radius_m").number({0.001, 1});
-  field.at("mass_kg").number({0.001, 1000});  // the bench's
+  base.module_mass_kg = field.at("mass_kg").number({0.001, 1000});
 }
 
 // Cables can only pull: no half circle may be without one.

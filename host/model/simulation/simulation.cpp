@@ -23,7 +23,7 @@ double length_m(const RobotParams& table) {
 
 double largest_joint_limit_rad(const RobotParams& table) {
   double largest_rad = 0.0;
-  for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m)
+  for (Index m = static_cast<Index>(table.feed_count()) / 2; m < static_cast<Index>(table.segment_count); ++m)
     largest_rad = std::max(largest_rad, table.segment[m].theta_limit_rad);
   return largest_rad;
 }

@@ -182,7 +182,8 @@ class Planner {
       return fail(
           PlanOutcome::limit, "curve",
           text("segment %d leaves the curve by %.1f mm, %.3f m along it, at (%.3f, %.3f, %.3f); at most %.1f mm "
-               "are allowed: bend the curve less there (the arm bends to a radius of %.2f m)",
+               "are allowed: bend the curve less there, or put a straight piece between its bends (the arm bends to a "
+               "radius of %.2f m)",
                static_cast<int>(figures.curve_off_segment), 1000.0 * figures.curve_off_m, figures.curve_off_along_m,
                at[0], at[1], at[2], 1000.0 * kFollowBodyOff_m, least_bend_radius_m(room_.table())));
     }
