@@ -27,6 +27,7 @@ constexpr double kEndDraw_m2 = 1e-4;  // towards the seed while the end pose is 
 constexpr double kTurnDraw_m2 = 10.0;
 constexpr std::int32_t kEndIterations = 100;
 constexpr std::int32_t kPosesPerStep = 12;
+constexpr std::int32_t kFedIterations = 60;
 constexpr double kSettled_rad = 0.003;
 constexpr std::int32_t kTurnSteps = 400;
 constexpr double kTurn_rad = 0.01;  // of a theta in each of them
@@ -155,11 +156,10 @@ class Follower {
     for (std::int32_t s = 1; s <= steps; ++s) {
       if (control_.cancelled != nullptr && control_.cancelled->load()) return false;
       const double along_m = curve_.length_m() * s / steps;
-      for (std::int32_t i = 0; i < kPosesPerStep; ++i) {
-        const ThetaVector before = way.back().theta_rad;
-        const FollowAim there = is_fed() ? aim(along_m, before, kFedDraw_m2) : aim(along_m, *end, kDraw_m2);
-        way.push_back({follow_pose(room_, track_, there, before, 1), along_m});
-        if (largest_change(way.back().theta_rad, before) < kSettled_rad) break;
+      if (is_fed()) {
+        push_settled(along_m, way);
+      } else {
+        push_settling(along_m, *end, way);
       }
       if (tip_off_m(room_, curve_, along_m, way.back().theta_rad) < kTipTolerance_m) continue;
       if (slide_is_out(way.back().theta_rad)) return false;
@@ -171,6 +171,21 @@ class Follower {
       return false;
     }
     return true;
+  }
+
+  // An arm that is fed is best near where it was, and only the best pose counts: those on the way to it would have it
+  // swing about the curve.
+  void push_settled(double along_m, std::vector<Stop>& way) const {
+    const ThetaVector& before = way.back().theta_rad;
+    way.push_back({follow_pose(room_, track_, aim(along_m, before, kFedDraw_m2), before, kFedIterations), along_m});
+  }
+
+  void push_settling(double along_m, const ThetaVector& end, std::vector<Stop>& way) const {
+    for (std::int32_t i = 0; i < kPosesPerStep; ++i) {
+      const ThetaVector before = way.back().theta_rad;
+      way.push_back({follow_pose(room_, track_, aim(along_m, end, kDraw_m2), before, 1), along_m});
+      if (largest_change(way.back().theta_rad, before) < kSettled_rad) break;
+    }
   }
 
   // Whether the slide that feeds stands at its front end; that is then what failed.
