@@ -29,6 +29,10 @@ local liana = require "liana"
 local way = { points = %s }
 return liana.mission "drawn" {
   robot = "feeder", bus = "embedded_feeder", scene = "none",
+  liana.step "to its begin" {
+    device = "none", run = liana.move_to "back", exit = liana.all { liana.at_pose "back", liana.at_rest() },
+    time_limit_s = 120, on_fail = "hold",
+  },
   liana.step "along" {
     device = "none", enter = liana.at_rest(), run = liana.follow_curve(way), exit = liana.curve_followed(),
     time_limit_s = 600, on_fail = "hold",
@@ -77,13 +81,14 @@ def away(p, a, b):
 
 
 def true_body_off_m(recording, points):
-    """Greatest distance of the true joint centres from the slide's axis and the curve, over the whole run; of the tip."""
+    """Greatest distance of the true joint centres from the slide's axis and the curve, while the arm follows; of the tip."""
     truth = Truth(recording / "truth.bin")
     robot = json.loads((recording / "robot.json").read_text())
     line = [[-2.0, 0.0, 0.0], *points]
     pieces = list(zip(line, line[1:]))
+    along = json.loads((recording / "mission.json").read_text())["steps"][-1]
     body_m = tip_m = 0.0
-    for row in range(0, len(truth.rows), EVERY):
+    for row in range(along["start_tick"], min(along["end_tick"], len(truth.rows)), EVERY):
         centres = joint_centres_m(robot, truth.theta_deg(row))
         offs = [min(away(p, a, b) for a, b in pieces) for p in centres]
         body_m, tip_m = max(body_m, *offs[:-1]), max(tip_m, offs[-1])
