@@ -1,9 +1,5 @@
 #include "host/apps/cli/curve_file.hpp"
 
-#include <filesystem>
-
-#include "host/apps/launcher/errors.hpp"
-#include "host/apps/launcher/tables.hpp"
 #include "host/model/config/field.hpp"
 #include "host/planning/planner/plan.hpp"
 #include "host/planning/planner/text.hpp"
@@ -36,16 +32,6 @@ std::vector<Vec3> points_of(const config::Field& curve) {
 std::vector<Vec3> parse_curve(const std::string& text, const std::string& name) {
   const Json json = config::parse_json(text, name, "write {\"points_m\": [[x, y, z], ...]}, metres in the base frame");
   return points_of(config::Field(json, name, ""));
-}
-
-std::vector<Vec3> read_curve(const std::string& path) {
-  const std::string name = "--follow: " + path;
-  if (path.ends_with(".lua"))
-    return launcher::checked([&] { return parse_curve(launcher::evaluate_table("curve", path), name); });
-  std::error_code unreadable;
-  if (!std::filesystem::is_regular_file(path, unreadable))
-    throw launcher::BadInput(name + ": no such file; give a JSON or Lua file with points_m, or slit");
-  return launcher::checked([&] { return parse_curve(config::read_text_file(path), name); });
 }
 
 }  // namespace liana::cli

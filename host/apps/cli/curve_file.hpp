@@ -8,11 +8,8 @@
 
 namespace liana::cli {
 
-// The points of a curve's file (docs/reference/formats.md): 2 to 1000, base frame, m, neighbours at least 1 mm apart.
-// Throws BadInput, which names the point, counted from 1.
-std::vector<Vec3> read_curve(const std::string& path);
-
-// The same from the text of such a file, which messages call `name`. Throws std::runtime_error.
+// The points in the text of a curve's file (docs/reference/formats.md), which messages call `name`: 2 to 1000, base
+// frame, m, neighbours at least 1 mm apart. Throws std::runtime_error, which names the point, counted from 1.
 std::vector<Vec3> parse_curve(const std::string& text, const std::string& name);
 
 }  // namespace liana::cli

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include "firmware_like/math/trig.hpp"
 #include "host/apps/cli/arguments.hpp"
@@ -15,6 +16,7 @@
 #include "host/apps/launcher/silence.hpp"
 #include "host/apps/launcher/tables.hpp"
 #include "host/base/json/json.hpp"
+#include "host/model/config/field.hpp"
 #include "host/planning/planner/plan.hpp"
 
 namespace liana::cli {
@@ -32,6 +34,17 @@ void add_phase(const planner::HeldPhase& phase, const PlanOptions& options, plan
                                "': allowed: angles that --hold and --planar name once");
   }
   request.held.push_back(phase);
+}
+
+// The points of a curve's file, JSON or Lua. Throws BadInput.
+std::vector<Vec3> read_curve(const std::string& path) {
+  const std::string name = "--follow: " + path;
+  if (path.ends_with(".lua"))
+    return launcher::checked([&] { return parse_curve(launcher::evaluate_table("curve", path), name); });
+  std::error_code unreadable;
+  if (!std::filesystem::is_regular_file(path, unreadable))
+    throw launcher::BadInput(name + ": no such file; give a JSON or Lua file with points_m, or slit");
+  return launcher::checked([&] { return parse_curve(config::read_text_file(path), name); });
 }
 
 // Joint angles, or a word that names a pose.
