@@ -15,6 +15,7 @@ import tempfile
 
 import folders
 from page import table
+from planning_follow import away
 
 sys.path.append(str(folders.ROOT / "hil/scenarios"))
 from liana.recordings import Truth  # noqa: E402
@@ -70,14 +71,6 @@ def drawn_curve(seed):
         on(draw.uniform(0.25, 0.4) * turn, turn)
         on(draw.uniform(0.02, 0.06))
     return points
-
-
-def away(p, a, b):
-    """Distance of a point from a straight piece."""
-    piece = [y - x for x, y in zip(a, b)]
-    square = sum(x * x for x in piece)
-    share = min(1.0, max(0.0, sum((x - y) * z for x, y, z in zip(p, a, piece)) / square)) if square > 0 else 0.0
-    return math.dist(p, [x + share * z for x, z in zip(a, piece)])
 
 
 def true_body_off_m(recording, points):
