@@ -7,15 +7,10 @@
 #include "firmware_like/cable/arm/kinematics.hpp"
 #include "firmware_like/math/trig.hpp"
 #include "fixture.hpp"
+#include "host/model/config/theta_numbers.hpp"
 
 namespace liana::closed_loop {
 namespace {
-
-cable::ThetaVector in_rad(const std::vector<double>& angles_deg) {
-  cable::ThetaVector theta_rad{};
-  for (std::size_t k = 0; k < angles_deg.size(); ++k) theta_rad[k] = angles_deg[k] * kDegree;
-  return theta_rad;
-}
 
 PlantSetup feeder_setup(std::uint64_t seed) { return {"nominal", seed, true, "back", CLOSED_LOOP_DATA "/feeder.json"}; }
 
@@ -38,7 +33,7 @@ TEST(Feeder, SlidesAndRollsWithItsWeightOnItAndNothingIsTakenForAFault) {
     FeederArm arm(seed);
     for (const auto& goal_deg : {kForward_deg, kRolled_deg}) {
       arm.plant().take_load();
-      arm.move_joints(in_rad(goal_deg), 35.0);
+      arm.move_joints(config::theta_rad(goal_deg), 35.0);
       arm.hold(2.0);
       ASSERT_EQ(arm.outputs().faults.count, 0) << seed << ", fault " << int(arm.outputs().faults.fault[0].number);
       EXPECT_NEAR(arm.plant().theta_rad()[0], goal_deg[0] * kDegree, 1e-3);
@@ -59,7 +54,7 @@ TEST(Feeder, HoldsWhereItStandsWhenACableBreaksOrItsSlidesDriveIsLost) {
     Vec3 from_m{};
     double most_mm = 0.0;
     int tick = 0;
-    arm.move_joints(in_rad(kRolled_deg), 40.0, [&](ArmUnderControl& now) {
+    arm.move_joints(config::theta_rad(kRolled_deg), 40.0, [&](ArmUnderControl& now) {
       if (++tick == 5000) {
         slide ? now.lose_drive(0) : now.plant().loosen(4, 1.0);
         from_m = now.plant().tip_in_base().position_m;

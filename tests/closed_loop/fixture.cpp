@@ -9,6 +9,7 @@
 
 #include "firmware_like/cable/arm/kinematics.hpp"
 #include "firmware_like/math/trig.hpp"
+#include "host/model/config/theta_numbers.hpp"
 
 namespace liana::closed_loop {
 
@@ -25,9 +26,7 @@ const cable::RobotParams& robot_table(const std::string& physics) { return robot
 namespace {
 
 cable::ThetaVector pose_rad(const config::RobotConfig& robot, const std::string& name) {
-  cable::ThetaVector theta{};
-  std::ranges::transform(robot.named_poses_deg.at(name), theta.begin(), [](double deg) { return deg * kDegree; });
-  return theta;
+  return config::theta_rad(robot.named_poses_deg.at(name));
 }
 
 const config::RobotConfig& lab() {

@@ -109,12 +109,9 @@ CableWatchLimits make_cable_watch_limits(const RobotParams& table, const CableVe
   for (Index j = 0; j < as_index(table.segment_count); ++j) {
     wrap_rad += table.segment[j].modules * table.segment[j].theta_limit_rad;
     for (std::int32_t i = 0; i < table.segment[j].cables; ++i, ++c) {
-      if (feeds(table.segment[j])) {  // its two lengths agree with any angles, and no tension goes with them
-        limits.contradiction_m[c] = table.cable_monitor.contradiction_m;
-        continue;
-      }
-      limits.stiffness_N_m[c] = table.cable_EA_N / zero_payout_m[c];
       limits.contradiction_m[c] = table.cable_monitor.contradiction_m;
+      if (feeds(table.segment[j])) continue;  // no tension goes with its lengths
+      limits.stiffness_N_m[c] = table.cable_EA_N / zero_payout_m[c];
       limits.hidden_m_N[c] = wrap_rad / limits.stiffness_N_m[c];
     }
   }

@@ -48,9 +48,6 @@ double bend_angle(const SegmentTrig& t) noexcept {
   return arc_tangent(std::sqrt(y * y + z * z), t.cos_pitch * t.cos_yaw);
 }
 
-// Metres of its drives for each radian of slide and roll.
-std::array<double, 2> feed_m_rad(const SegmentParams& base) noexcept { return {base.slide_m_rad, base.roll_radius_m}; }
-
 [[gnu::noinline]] void take_feed(const SegmentParams& base, const CableLayout& layout, const SegmentTrig& t,
                                  CableGeometry& out) noexcept {
   const std::array<double, 2> m_rad = feed_m_rad(base), theta_rad{t.sin_pitch, t.cos_pitch};
@@ -79,7 +76,7 @@ CableLayout cable_layout(const RobotParams& table) noexcept {
       layout.segment[cable] = m;
       layout.hole_y_m[cable] = own.hole_radius_m * phase.cos;
       layout.hole_z_m[cable] = own.hole_radius_m * phase.sin;
-      for (std::int32_t j = table.feed_count() / 2; j <= m; ++j) {
+      for (std::int32_t j = table.first_bending(); j <= m; ++j) {
         const SegmentParams& passed = table.segment[static_cast<Index>(j)];
         // The anchor is the last disc, so the last link of the own segment carries no cable.
         const std::int32_t links = j == m ? passed.modules - 1 : passed.modules;
@@ -163,7 +160,7 @@ CableSolution solve_cables(const RobotParams& table, const CableGeometry& geomet
 
 SegmentVector cable_wraps(const RobotParams& table, const ArmTrig& trig) noexcept {
   SegmentVector wrap_rad{};
-  for (Index j = static_cast<Index>(table.feed_count()) / 2; j < static_cast<Index>(table.segment_count); ++j)
+  for (Index j = static_cast<Index>(table.first_bending()); j < static_cast<Index>(table.segment_count); ++j)
     wrap_rad[j] = table.segment[j].modules * bend_angle(trig[j]);
   return wrap_rad;
 }

@@ -147,12 +147,12 @@ void watch_contact(const RobotParams& table, const ArmKinematics& kinematics, co
   const double push_N = norm(tip.force_N);
   const Vec3 explained_N = push_N > kContactTip_N ? scale(tip.force_N, kContactTip_N / push_N) : tip.force_N;
   contact.torque_Nm = 0.0;
-  const Index told_by = n - static_cast<Index>(table.feed_count());
-  for (Index k = n - told_by; k < n; ++k) {
+  const Index first = static_cast<Index>(table.feed_count());  // what feeds tells nothing
+  for (Index k = first; k < n; ++k) {
     const double left_Nm = balance.torque_Nm[k] - dot(kinematics.tip_jacobian.linear[k], explained_N);
     contact.torque_Nm = larger(contact.torque_Nm, std::fabs(left_Nm));
   }
-  name_segment(misfit(n, columns, contact.torque, explained_N) > kContactMisfit * static_cast<double>(told_by),
+  name_segment(misfit(n, columns, contact.torque, explained_N) > kContactMisfit * static_cast<double>(n - first),
                contact);
   contact.best_place = -1;
 }

@@ -13,7 +13,7 @@ namespace {
 // joint with a larger arm than its distance from the joint centre, and a joint turns about two axes.
 double max_bend_m(const RobotParams& table, std::int32_t segment, std::int32_t cable) noexcept {
   if (const SegmentParams& base = table.segment[as_index(segment)]; feeds(base))
-    return (cable == 0 ? base.slide_m_rad : base.roll_radius_m) * base.theta_limit_rad;
+    return feed_m_rad(base)[as_index(cable)] * base.theta_limit_rad;
   const double radius_m = table.segment[as_index(segment)].hole_radius_m;
   double offset_m = 0.0, turn_rad = 0.0;
   for (std::int32_t m = 0; m <= segment; ++m) {

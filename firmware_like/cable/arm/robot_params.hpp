@@ -43,6 +43,11 @@ struct SegmentParams {
 
 inline constexpr bool feeds(const SegmentParams& segment) noexcept { return segment.slide_m_rad > 0.0; }
 
+// What the drives of slide and roll move for each radian of theirs.
+inline constexpr std::array<double, 2> feed_m_rad(const SegmentParams& base) noexcept {
+  return {base.slide_m_rad, base.roll_radius_m};
+}
+
 // Tension limits of the robot, newtons (mission, A9).
 struct TensionLimits {
   double plan_N = 0.0;            // what the plan aims at
@@ -140,6 +145,8 @@ struct RobotParams {
   }
   // Thetas, and drives, of a base that feeds, which come before all others: 2, or 0 where the arm's base is fixed.
   constexpr std::int32_t feed_count() const { return segment_count > 0 && feeds(segment[0]) ? 2 : 0; }
+  // The first segment that bends: 1 after a base that feeds, else 0.
+  constexpr std::int32_t first_bending() const { return feed_count() / 2; }
   // Number of drives: one a cable.
   constexpr std::int32_t drive_count() const { return cable_count(); }
 };

@@ -141,7 +141,7 @@ TensionPlan plan_tension(const RobotParams& table, const CableGeometry& geometry
   const double margin_N =
       scale *
       (table.friction_mu > kMarginFriction ? kFloorMargin_N * kMarginFriction / table.friction_mu : kFloorMargin_N);
-  const Index last = static_cast<Index>(table.feed_count()) / 2;
+  const Index last = static_cast<Index>(table.first_bending());
   for (Index j = static_cast<Index>(table.segment_count); j-- > last;) {
     const Index n = static_cast<Index>(table.segment[j].cables);
     const auto beyond = torque_beyond(table, solver, plan.motor_N, first, j);

@@ -17,6 +17,7 @@
 #include "host/apps/launcher/tables.hpp"
 #include "host/base/json/json.hpp"
 #include "host/model/config/field.hpp"
+#include "host/model/config/theta_numbers.hpp"
 #include "host/planning/planner/plan.hpp"
 
 namespace liana::cli {
@@ -50,10 +51,8 @@ std::vector<Vec3> read_curve(const std::string& path) {
 // Joint angles, or a word that names a pose.
 cable::ThetaVector angles_of(const char* option, const std::string& text, const config::RobotConfig& robot) {
   const auto named = robot.named_poses_deg.find(text);
-  if (named == robot.named_poses_deg.end()) return parse_theta_deg(option, text, robot.table);
-  cable::ThetaVector theta_rad{};
-  for (std::size_t k = 0; k < named->second.size(); ++k) theta_rad[k] = named->second[k] * kDegree;
-  return theta_rad;
+  const bool is_named = named != robot.named_poses_deg.end();
+  return is_named ? config::theta_rad(named->second) : parse_theta_deg(option, text, robot.table);
 }
 
 void read_hold(const PlanOptions& options, planner::PlanRequest& request) {

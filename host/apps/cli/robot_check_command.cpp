@@ -97,7 +97,7 @@ void look_at_zero(const config::RobotConfig& robot, Json& problems) {
 
 // The first segment that bends.
 const cable::SegmentParams& first_bending(const cable::RobotParams& table) {
-  return table.segment[static_cast<std::size_t>(table.feed_count()) / 2];
+  return table.segment[static_cast<std::size_t>(table.first_bending())];
 }
 
 // What the straight arm, turned about its base at the tip's acceleration, asks of one cable there: an arm that needs

@@ -6,12 +6,12 @@
 #include "host/base/json/json.hpp"
 #include "host/model/config/config.hpp"
 #include "host/model/config/field.hpp"
+#include "host/planning/planner/follow/curve_points.hpp"
 #include "host/planning/planner/plan.hpp"
 
 namespace liana::mission_runner {
 namespace {
 
-constexpr config::Range kPlace{-100, 100};  // m
 constexpr const char* kCommand = "follow_curve";
 
 cable::ThetaVector from_rad(const config::Field& list, const cable::RobotParams& table) {
@@ -22,18 +22,6 @@ cable::ThetaVector from_rad(const config::Field& list, const cable::RobotParams&
   return theta_rad;
 }
 
-planner::FollowRequest curve_of(const config::Field& points) {
-  planner::FollowRequest follow;
-  const std::size_t count =
-      points.size(2, planner::kMaxFollowPoints, "give the points in order, the tip's place first");
-  for (std::size_t i = 0; i < count; ++i) {
-    follow.points_m.push_back(points.element(i).numbers<3>(kPlace));
-    if (i > 0 && norm(subtract(follow.points_m[i], follow.points_m[i - 1])) < planner::kMinGap_m)
-      points.element(i).refuse("points at least 1 mm apart", "leave one of them out");
-  }
-  return follow;
-}
-
 planner::PlanRequest plan_request(const Json& welcome, const Json& request) {
   const config::Field fields(request, kCommand, "");
   fields.only({"from_deg", "points", "margin_m"});
@@ -42,7 +30,7 @@ planner::PlanRequest plan_request(const Json& welcome, const Json& request) {
                                   config::parse_buses(welcome.at("buses").dump(), "buses"));
   out.scene = config::parse_scene(welcome.at("scene").dump(), "scene");
   out.from_rad = from_rad(fields.at("from_deg"), out.robot.table);
-  out.follow = curve_of(fields.at("points"));
+  out.follow.emplace().points_m = planner::curve_points(fields.at("points"));
   out.margin_m = fields.at("margin_m").number({0, 0.5});
   out.max_step_rad = planner::kFollowMaxStep_rad;
   return out;

@@ -6,10 +6,10 @@
 #include <stdexcept>
 
 #include "firmware_like/cable/arm/tension.hpp"
-#include "firmware_like/math/trig.hpp"
 #include "host/base/options/nearest.hpp"
 #include "host/drives/calibration/text.hpp"
 #include "host/model/config/drive_names.hpp"
+#include "host/model/config/theta_numbers.hpp"
 
 namespace liana::calibration {
 
@@ -45,9 +45,7 @@ ThetaVector named_pose_rad(const config::RobotConfig& robot, const std::string& 
   if (found == robot.named_poses_deg.end())
     throw std::runtime_error("pose '" + name + "': allowed are the named poses of robot " + robot.name + ": " +
                              options::allowed_names(name, options::names_of(robot.named_poses_deg)));
-  ThetaVector theta_rad{};
-  for (Index i = 0; i < found->second.size(); ++i) theta_rad[i] = found->second[i] * kDegree;
-  return theta_rad;
+  return config::theta_rad(found->second);
 }
 
 CableVector beyond_zero_m(const RobotParams& table, const ThetaVector& theta_rad, const CableVector& tension_N) {

@@ -12,9 +12,6 @@ namespace {
 using Index = std::size_t;
 using Slot = double* (*)(RobotParams&, Index);
 
-// Segments of the core before those of the table: a base that feeds.
-Index base_of(const RobotParams& table) { return static_cast<Index>(table.feed_count()) / 2; }
-
 std::string of_segment(Index j, const char* field) { return "segments[" + std::to_string(j) + "]." + field; }
 std::string at_index(const char* field, Index i) { return std::string(field) + "[" + std::to_string(i) + "]"; }
 
@@ -42,7 +39,7 @@ const FieldValue* of(const std::vector<FieldValue>& values, const std::string& f
 
 std::vector<TableField> geometry_fields(const RobotParams& table) {
   Fields out{table};
-  const Index base = base_of(table), segments = static_cast<Index>(table.segment_count);
+  const Index base = static_cast<Index>(table.first_bending()), segments = static_cast<Index>(table.segment_count);
   for (Index j = base; j < segments; ++j)
     out.add_share(
         of_segment(j - base, "module_length_m"), kPriorLength,
@@ -59,7 +56,7 @@ std::vector<TableField> geometry_fields(const RobotParams& table) {
 std::vector<TableField> load_fields(const RobotParams& table) {
   Fields out{table};
   const double gravity = norm(table.gravity_m_s2);
-  const Index base = base_of(table);
+  const Index base = static_cast<Index>(table.first_bending());
   for (Index j = base; j < static_cast<Index>(table.segment_count); ++j) {
     const SegmentParams& segment = table.segment[j];
     if (gravity > 0.0) {

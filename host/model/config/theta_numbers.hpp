@@ -1,10 +1,11 @@
-// Which joint angles a mask names, as everything outside writes them: counted from 1.
+// Joint angles as everything outside writes them: in degrees, and counted from 1 where a mask names them.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "firmware_like/cable/arm/robot_params.hpp"
+#include "firmware_like/math/trig.hpp"
 
 namespace liana::config {
 
@@ -15,6 +16,13 @@ inline std::vector<int> theta_numbers(std::uint32_t mask) {
     if (((mask >> i) & 1u) != 0) numbers.push_back(i + 1);
   }
   return numbers;
+}
+
+// Those of a named pose, say; at most kMaxTheta.
+inline cable::ThetaVector theta_rad(const std::vector<double>& angles_deg) {
+  cable::ThetaVector out{};
+  for (std::size_t k = 0; k < angles_deg.size(); ++k) out[k] = angles_deg[k] * kDegree;
+  return out;
 }
 
 }  // namespace liana::config

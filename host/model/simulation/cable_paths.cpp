@@ -58,7 +58,7 @@ CablePaths cable_paths(const ArmModel& model, const ThetaVector& theta_rad) {
   paths.stiffness_N_per_m.setConstant(cables, table.lead_m);  // the free length first
   paths.wrap_rad.setZero(cables);
   std::array<Turn, kMaxSegments> turns;
-  const Index feed_count = static_cast<Index>(table.feed_count()), first = feed_count / 2;
+  const Index feed_count = static_cast<Index>(table.feed_count()), first = static_cast<Index>(table.first_bending());
   paths.feed_count = table.feed_count();
   for (Index m = first; m < static_cast<Index>(table.segment_count); ++m)
     turns[m] = turn_of(theta_rad[2 * m], theta_rad[2 * m + 1]);

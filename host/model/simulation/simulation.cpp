@@ -23,12 +23,12 @@ double length_m(const RobotParams& table) {
 
 double largest_joint_limit_rad(const RobotParams& table) {
   double largest_rad = 0.0;
-  for (Index m = static_cast<Index>(table.feed_count()) / 2; m < static_cast<Index>(table.segment_count); ++m)
+  for (Index m = static_cast<Index>(table.first_bending()); m < static_cast<Index>(table.segment_count); ++m)
     largest_rad = std::max(largest_rad, table.segment[m].theta_limit_rad);
   return largest_rad;
 }
 
-// What all joints of all modules together turn by between two poses.
+// What all joints of all modules together turn by between two poses; slide and roll of a base count as one each.
 double all_turns_rad(const ArmModel& model, const ThetaVector& from_rad, const ThetaVector& to_rad) {
   double sum_rad = 0.0;
   for (Index i = 0; i < static_cast<Index>(model.table.theta_count()); ++i)

@@ -48,7 +48,6 @@ struct FollowRequest {
 
 constexpr std::int32_t kMaxWaypoints = 100;
 constexpr std::size_t kMaxFollowPoints = 1000;
-constexpr double kMinGap_m = 0.001 * (1.0 - 1e-9);  // between them: 1 mm in decimals counts as 1 mm
 constexpr std::size_t kMaxControlPoints = 4;
 constexpr double kDefaultMargin_m = 0.005;
 

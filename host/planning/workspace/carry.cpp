@@ -8,6 +8,7 @@
 #include "firmware_like/math/trig.hpp"
 #include "host/base/random/random.hpp"
 #include "host/model/config/drive_names.hpp"
+#include "host/model/config/theta_numbers.hpp"
 
 namespace liana::workspace {
 
@@ -77,12 +78,6 @@ void add_harder(const RobotParams& table, const CableLayout& layout, Order& orde
     poses.push_back(harder(table, layout, poses[order[i].second]));
 }
 
-ThetaVector in_rad(const std::vector<double>& angles_deg) {
-  ThetaVector theta_rad{};
-  for (Index k = 0; k < angles_deg.size(); ++k) theta_rad[k] = kDegree * angles_deg[k];
-  return theta_rad;
-}
-
 RobotParams with_payload(const RobotParams& table, double mass_kg) {
   RobotParams out = table;
   out.tool = cable::joined(table.tool, {mass_kg, {}});
@@ -137,7 +132,7 @@ Payload payload_of_hardest(const RobotParams& table, const CableLayout& layout, 
 }  // namespace
 
 PoseTension tension_at(const config::RobotConfig& robot, const std::string& name) {
-  return tension_at(robot.table, in_rad(robot.named_poses_deg.at(name)));
+  return tension_at(robot.table, config::theta_rad(robot.named_poses_deg.at(name)));
 }
 
 std::string refusal_of_pose(const config::RobotConfig& robot, const std::string& name) {
@@ -187,7 +182,7 @@ Carried what_it_carries(const config::RobotConfig& robot, const Mounting& mounti
   Carried out;
   out.mounting = mounting;
   Poses named;
-  for (const auto& [name, angles_deg] : robot.named_poses_deg) named.push_back(in_rad(angles_deg));
+  for (const auto& [name, angles_deg] : robot.named_poses_deg) named.push_back(config::theta_rad(angles_deg));
   Poses all = drawn(table, samples, seed);
   Order order;
   for (Index i = 0; i < all.size(); ++i) {

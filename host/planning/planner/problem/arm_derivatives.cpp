@@ -181,8 +181,8 @@ CableDerivatives cable_derivatives(const RobotParams& table, const ThetaVector& 
     for (Index c = 0; c < static_cast<Index>(table.segment[m].cables); ++c) {
       const double phase = table.segment[m].cable_phase_rad[c], r = table.segment[m].hole_radius_m;
       if (feeds(table.segment[m])) {
-        const Jet way = c == 0 ? table.segment[m].slide_m_rad * pitch_variable(theta_rad[0])
-                               : table.segment[m].roll_radius_m * yaw_variable(theta_rad[1]);
+        const Jet way =
+            feed_m_rad(table.segment[m])[c] * (c == 0 ? pitch_variable(theta_rad[0]) : yaw_variable(theta_rad[1]));
         out.length_m.push_back(way.value);
         out.by_segment_m.push_back({way});
         continue;

@@ -47,7 +47,7 @@ double arm_length_m(const RobotParams& table) {
 
 double least_bend_radius_m(const RobotParams& table) {
   double least_m = 1e300;
-  for (Index m = static_cast<Index>(table.feed_count()) / 2; m < static_cast<Index>(table.segment_count); ++m) {
+  for (Index m = static_cast<Index>(table.first_bending()); m < static_cast<Index>(table.segment_count); ++m) {
     const SegmentParams& segment = table.segment[m];
     least_m = std::min(least_m, 0.5 * segment.module_length_m / std::tan(0.5 * segment.theta_limit_rad));
   }
