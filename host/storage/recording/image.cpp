@@ -81,6 +81,8 @@ void check(const ImageReader& in, const cable::RobotParams& table) {
   in.require("segment_count", table.segment_count, 1, cable::kMaxSegments);
   for (std::size_t m = 0; m < static_cast<std::size_t>(table.segment_count); ++m) {
     const bool is_base = m == 0 && cable::feeds(table.segment[m]);
+    if (m > 0 && cable::feeds(table.segment[m]))
+      in.refuse("segment.slide_m_rad", std::to_string(table.segment[m].slide_m_rad), "0 but in the first segment");
     in.require("segment.modules", table.segment[m].modules, is_base ? 0 : 1, cable::kMaxModules);
     in.require("segment.cables", table.segment[m].cables, is_base ? 2 : 3, is_base ? 2 : cable::kMaxSegmentCables);
   }

@@ -134,6 +134,8 @@ TEST(Image, ATableThatWouldLeadTheCoreOutOfItsArraysIsRefused) {
   EXPECT_NE(said([](cable::RobotParams& t) { t.segment_count = 9; }).find("segment_count: 9"), std::string::npos);
   EXPECT_NE(said([](cable::RobotParams& t) { t.segment[2].cables = cable::kMaxSegmentCables + 1; }), "");
   EXPECT_NE(said([](cable::RobotParams& t) { t.segment[0].modules = 17; }), "");
+  EXPECT_NE(said([](cable::RobotParams& t) { t.segment[1].slide_m_rad = 0.1; }).find("segment.slide_m_rad: 0.1"),
+            std::string::npos);
   EXPECT_NE(said([](cable::RobotParams& t) { t.interval_ticks = 0; }), "");
   EXPECT_NE(said([](cable::RobotParams& t) { t.tick_s = -0.0; }), "");
 }
