@@ -16,6 +16,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TARGETS = pathlib.Path(__file__).resolve().parent / "target"
+NODE = ["node", "--no-warnings", TARGETS / "wasi.mjs"]
 QEMU_M7 = [
     "qemu-system-arm",
     "-M",
@@ -31,9 +32,11 @@ QEMU_M7 = [
     "shift=5",
     "-kernel",
 ]
+WASM = "clang++ --target=wasm32-wasi"
 TOOLCHAINS = {
     "arm-none-eabi-g++": ("cortex_m7.cmake", "arm-none-eabi-"),
     "aarch64-linux-gnu-g++": ("aarch64.cmake", "aarch64-linux-gnu-"),
+    WASM: ("wasm32.cmake", "llvm-"),
 }
 # What rounds once where source rounds twice: FMA3, FMA4 and AVX-512 on x86, scalar, vector and complex ones on ARM,
 # the library's function. Not vmla and vmls of 32-bit ARM: they round the product.
@@ -71,11 +74,12 @@ class Failed(Exception):
 
 
 class Target:
-    """One build of the core and its player; with plays=False only looked through: not every machine can run it."""
+    """One build of the core and its player; with plays=False only looked through: not every machine can run it. With
+    fuses=False only played: its machine has no fused operation."""
 
-    def __init__(self, name, compiler, options, quick=False, emulator=(), plays=True):
+    def __init__(self, name, compiler, options, quick=False, emulator=(), plays=True, fuses=True):
         self.name, self.compiler, self.options, self.quick = name, compiler, options, quick
-        self.emulator, self.plays = emulator, plays
+        self.emulator, self.plays, self.fuses = emulator, plays, fuses
         self.toolchain, prefix = TOOLCHAINS.get(compiler, (None, ""))
         self.objdump = prefix + "objdump"
         self.is_m7 = compiler == "arm-none-eabi-g++"
@@ -155,6 +159,7 @@ ALL_TARGETS = [
     Target("gcc_bdver4_O3", "g++", "-O3 -march=bdver4", plays=False),
     Target("aarch64_O2", "aarch64-linux-gnu-g++", "-O2", quick=True, emulator=["qemu-aarch64"]),
     Target("aarch64_v9_O3", "aarch64-linux-gnu-g++", "-O3 -march=armv9-a", emulator=["qemu-aarch64", "-cpu", "max"]),
+    Target("wasm32_O2", WASM, "-O2", quick=True, emulator=NODE, fuses=False),
     Target("cortex_m7_O2", "arm-none-eabi-g++", "-O2", quick=True, emulator=QEMU_M7),
 ]
 
@@ -310,7 +315,7 @@ def measure(options, place, pool):
         "targets": results["cable"],
         "costly": results["costly"],
         "serial": results["serial"],
-        "disassembly": [target.look_through(built[target].result()) for target in targets],
+        "disassembly": [target.look_through(built[target].result()) for target in targets if target.fuses],
         "refused": {flags: refusal(flags, named) for flags, named in REFUSED.items()},
         "planted": {what: each.result() for what, each in found.items()},
         "cortex_m7": figures(
