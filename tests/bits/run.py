@@ -36,7 +36,7 @@ WASM = "clang++ --target=wasm32-wasi"
 TOOLCHAINS = {
     "arm-none-eabi-g++": ("cortex_m7.cmake", "arm-none-eabi-"),
     "aarch64-linux-gnu-g++": ("aarch64.cmake", "aarch64-linux-gnu-"),
-    WASM: ("wasm32.cmake", "llvm-"),
+    WASM: (ROOT / "host/apps/web/core/wasm32.cmake", "llvm-"),
 }
 # What rounds once where source rounds twice: FMA3, FMA4 and AVX-512 on x86, scalar, vector and complex ones on ARM,
 # the library's function. Not vmla and vmls of 32-bit ARM: they round the product.

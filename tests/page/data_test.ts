@@ -4,6 +4,7 @@ import { RecordReader, type Layout } from '../../host/apps/web/src/data/record';
 import { lastBefore, Run, type RunHead } from '../../host/apps/web/src/data/run';
 import { telemetryOf } from '../../host/apps/web/src/data/telemetry';
 import { chainOf } from '../../host/apps/web/src/model/arm_chain';
+import { crc32 } from '../../host/apps/web/src/run/replay';
 import { decimated } from '../../host/apps/web/src/plots/decimate';
 import { ARM, near } from './support';
 
@@ -105,4 +106,9 @@ test('of a run each moment has the facts of its time, which are told by their ch
   const chain = chainOf(ARM);
   chain.set(angles_mdeg.map((a) => a / 1000));
   for (let r = 0; r < 3; ++r) assert.ok(near(sample.numbers.get('measured_cp')![r], chain.tip[12 + r], 1e-5));
+});
+
+test('the checksum is that of IEEE 802.3', () => {
+  assert.equal(crc32(new TextEncoder().encode('123456789')), 0xcbf43926); // its check value
+  assert.equal(crc32(new Uint8Array()), 0);
 });

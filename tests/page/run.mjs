@@ -32,7 +32,7 @@ if (unknown.length > 0) {
 }
 const isWanted = (name) => wanted.length === 0 || wanted.includes(name);
 
-const isBuilt = run('build', process.execPath, ['build.mjs'], page);
+const isBuilt = run('build', 'bash', ['bundle'], page);
 if (isBuilt && isWanted('unit')) {
   run('types', process.execPath, [join('node_modules', 'typescript', 'bin', 'tsc'), '--noEmit', '-p', '.'], page);
   run('style', 'npm', ['run', '--silent', 'lint'], page);

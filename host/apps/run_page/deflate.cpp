@@ -8,9 +8,9 @@
 namespace liana::run_page {
 
 std::string deflated(std::string_view bytes) {
-  constexpr int kRaw = -15, kMaxMemory = 9;
+  constexpr int kRaw = -15, kMaxMemory = 9, kLevel = 7;
   z_stream stream{};
-  if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kRaw, kMaxMemory, Z_DEFAULT_STRATEGY) != Z_OK)
+  if (deflateInit2(&stream, kLevel, Z_DEFLATED, kRaw, kMaxMemory, Z_DEFAULT_STRATEGY) != Z_OK)
     throw std::runtime_error("no memory to compress " + std::to_string(bytes.size()) + " bytes");
   std::string out(deflateBound(&stream, bytes.size()), '\0');
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));  // zlib does not write there

@@ -6,7 +6,8 @@
 
 namespace liana::run_page {
 
-// Raw deflate (RFC 1951), zlib's best. Throws std::runtime_error when there is no memory.
+// Raw deflate (RFC 1951), zlib's level 7: the last two cost much and gain little. Throws std::runtime_error when there
+// is no memory.
 std::string deflated(std::string_view bytes);
 
 // RFC 4648, with padding.

@@ -10,6 +10,7 @@
 #include "host/api/telemetry/record.hpp"
 #include "host/apps/report/command_json.hpp"
 #include "host/apps/run_page/columns.hpp"
+#include "host/apps/run_page/deflate.hpp"
 #include "host/apps/run_page/time_grid.hpp"
 
 namespace liana::run_page {
@@ -170,6 +171,26 @@ std::string in_page(const Json& json) {
   return out;
 }
 
+bool has_replay(const RunData& run) { return !run.core.empty() && run.ticks.ticks > 0; }
+
+std::string packed_script(const char* id, const std::string& bytes) {
+  return std::string("<script type=\"text/plain\" id=\"") + id + "\">" + base64(deflated(bytes)) + "</script>\n";
+}
+
+Json replay_json(const RunData& run) {
+  if (!has_replay(run)) return nullptr;
+  return {{"is_serial", run.ticks.is_serial},
+          {"recorded", run.ticks.recorded},
+          {"ticks", run.ticks.ticks},
+          {"start_bytes", run.ticks.start.size()}};
+}
+
+std::string replay_scripts(const RunData& run) {
+  if (!has_replay(run)) return "";
+  return packed_script("liana-core", run.core) +
+         packed_script("liana-ticks", run.ticks.start + run.ticks.sizes + run.ticks.checksums + run.ticks.inputs);
+}
+
 }  // namespace
 
 std::string page_of(const RunData& run, const std::string& page) {
@@ -190,12 +211,13 @@ std::string page_of(const RunData& run, const std::string& page) {
                   {"events", run.events},
                   {"commands", commands_json(run)},
                   {"facts", facts_json(run)},
+                  {"replay", replay_json(run)},
                   {"telemetry",
                    {{"rows", grid.rows},
                     {"ticks", {{"first", grid.first}, {"every", grid.every}}},
                     {"columns", columns_json(columns)}}}};
-  return page.substr(0, mark) + "<script type=\"application/json\" id=\"liana-run\">" + in_page(json) +
-         "</script>\n<script type=\"text/plain\" id=\"liana-telemetry\">" + packed(columns) + "</script>" +
+  return page.substr(0, mark) + "<script type=\"application/json\" id=\"liana-run\">" + in_page(json) + "</script>\n" +
+         replay_scripts(run) + "<script type=\"text/plain\" id=\"liana-telemetry\">" + packed(columns) + "</script>" +
          page.substr(mark + kMark.size());
 }
 

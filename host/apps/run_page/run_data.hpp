@@ -10,6 +10,7 @@
 #include "host/api/telemetry/layout.hpp"
 #include "host/apps/report/command_lives.hpp"
 #include "host/apps/report/truth.hpp"
+#include "host/apps/run_page/recorded_ticks.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::run_page {
@@ -25,6 +26,8 @@ struct RunData {
   std::vector<Json> events;                           // as the API tells them, in order
   std::vector<report::CommandRecord> commands;
   std::optional<report::TruthLog> truth;  // of the bench
+  RecordedTicks ticks;
+  std::string core;  // what replays them, as WebAssembly; empty: not built, and the page holds no ticks
 };
 
 // The page: `page` with its line `<!-- liana-run -->` replaced by the run. Numbers are shown 25 times a second of arm

@@ -56,6 +56,10 @@ RunData run_in(const std::string& folder) {
   std::size_t unread = 0;
   run.commands = report::command_lives(commands, unread);
   if (fs::exists(truth)) run.truth = report::TruthLog::load(truth);
+  if (const std::string core = install_paths::page_file("core.wasm"); fs::exists(core)) {
+    run.core = text_of(core);
+    run.ticks = recorded_ticks_in(folder, run.robot.value("kind", "") == "serial");
+  }
   return run;
 }
 

@@ -14,7 +14,6 @@
 namespace liana::recording {
 
 constexpr const char* kRecordingFile = "ticks.mcap";
-constexpr const char* kImagesFile = "snapshots.mcap";
 constexpr const char* kStartTopic = "start";
 constexpr const char* kInputsTopic = "inputs";
 constexpr const char* kOutputsTopic = "outputs";
@@ -56,17 +55,5 @@ class Recording {
 
 // Which kind of arm a recording is of, by the table of its robot.
 bool is_of_serial_arm(const std::string& robot_json);
-
-// Content of a start or controller_snapshot message.
-template <class Arm>
-struct ControllerSnapshot {
-  std::uint64_t next_tick = 0;
-  bool fresh = false;  // the Controller has not ticked yet: the table says all
-  typename Arm::Table table{};
-  std::string_view state;  // of the Controller (image.hpp), empty when fresh; only the same build can use it
-};
-// Throws std::runtime_error with file (`source`), field, value and what is allowed, when the table would harm the core.
-template <class Arm>
-ControllerSnapshot<Arm> parse_image(std::string_view data, const std::string& source = kImagesFile);
 
 }  // namespace liana::recording

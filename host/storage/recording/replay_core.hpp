@@ -9,7 +9,6 @@
 #include "firmware_like/serial_controller.hpp"
 #include "host/storage/recording/codec.hpp"
 #include "host/storage/recording/image.hpp"
-#include "host/storage/recording/recording.hpp"
 #include "host/storage/recording/serialise.hpp"
 #include "host/storage/recording/tick_packet.hpp"
 #include "host/storage/recording/visit.hpp"

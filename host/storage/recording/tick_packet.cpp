@@ -92,4 +92,25 @@ LIANA_PACKETS(cable::CableArm)
 LIANA_PACKETS(serial::SerialArm)
 #undef LIANA_PACKETS
 
+template <class Arm>
+ControllerSnapshot<Arm> parse_image(std::string_view data, const std::string& source) {
+  ControllerSnapshot<Arm> image;
+  std::uint8_t fresh = 0;
+  Reader reader(data);
+  reader("next_tick", image.next_tick);
+  reader("fresh", fresh);
+  if (fresh > 1)
+    throw std::runtime_error("recording " + source + ": controller image: field fresh: " + std::to_string(fresh) +
+                             "; allowed is 0..1; take a good copy of the file");
+  image.fresh = fresh != 0;
+  const std::string_view rest = data.substr(reader.position());
+  std::size_t used = 0;
+  image.table = checked_table<typename Arm::Table>(rest, source, used);
+  image.state = rest.substr(used);
+  return image;
+}
+
+template ControllerSnapshot<cable::CableArm> parse_image(std::string_view, const std::string&);
+template ControllerSnapshot<serial::SerialArm> parse_image(std::string_view, const std::string&);
+
 }  // namespace liana::recording

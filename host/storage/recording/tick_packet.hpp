@@ -22,6 +22,9 @@ enum class TickPacket : std::uint8_t {
 template <class Arm>
 std::string tick_packet(const TickRecord<Arm>& record, std::uint64_t dropped, const RecordedCounts& counts);
 
+// The file that holds what image packets carry.
+constexpr const char* kImagesFile = "snapshots.mcap";
+
 // One packet before the first tick (of the table alone: the Controller has not ticked yet) and every kImageEveryTicks.
 constexpr std::uint64_t kImageEveryTicks = 1000;
 template <class Arm>
@@ -39,5 +42,17 @@ TickParts split_tick_packet(std::string_view packet);
 
 // Which packet this is; throws std::runtime_error when it is none.
 TickPacket tick_packet_kind(std::string_view packet);
+
+// Content of a start or controller_snapshot message.
+template <class Arm>
+struct ControllerSnapshot {
+  std::uint64_t next_tick = 0;
+  bool fresh = false;  // the Controller has not ticked yet: the table says all
+  typename Arm::Table table{};
+  std::string_view state;  // of the Controller (image.hpp), empty when fresh; only the same build can use it
+};
+// Throws std::runtime_error with file (`source`), field, value and what is allowed, when the table would harm the core.
+template <class Arm>
+ControllerSnapshot<Arm> parse_image(std::string_view data, const std::string& source = kImagesFile);
 
 }  // namespace liana::recording

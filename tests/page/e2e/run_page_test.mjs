@@ -1,15 +1,15 @@
 // The page of a run, opened from the disk: everything is in it.
 import assert from 'node:assert/strict';
-import { mkdtempSync, rmSync, statSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { writeFileSync } from 'node:fs';
+import { deflateRawSync, inflateRawSync } from 'node:zlib';
 import { openBrowser, openPage, picture, seriousFindings } from './browser.mjs';
-import { liana, start } from './system.mjs';
+import { liana, root, start } from './system.mjs';
 
-const MAX_BYTES = 750000;
+const MAX_BYTES = 2000000; // most of it are the ticks that it replays
 
 let folder, chromium;
 
@@ -31,6 +31,50 @@ async function run(name, mission, ...args) {
 
 const text = (page, selector) => page.textContent(selector);
 
+// What the page says of its ticks once all are replayed.
+async function replayed(page) {
+  await page.waitForFunction(() => / identical|cannot/.test(document.querySelector('.replay')?.textContent), null, { timeout: 120000 });
+  return (await text(page, '.replay')).replaceAll(',', '');
+}
+
+// The same page with one byte of the script `id` changed, `at` bytes from its start as it was before it was packed.
+function planted(file, id, at) {
+  const html = readFileSync(file, 'utf8');
+  const [whole, packed] = html.match(new RegExp(`id="${id}">([^<]*)<`));
+  const bytes = inflateRawSync(Buffer.from(packed, 'base64'));
+  bytes[at(bytes)] ^= 1;
+  const other = file.replace('.html', '_planted.html');
+  writeFileSync(other, html.replace(whole, () => `id="${id}">${deflateRawSync(bytes).toString('base64')}<`));
+  return other;
+}
+
+test('the page of a run replays its own ticks, and finds a changed one', async () => {
+  const file = await run('short', join(root, 'tests/system/missions/short.lua'));
+  const address = pathToFileURL(file).href;
+  const page = await openPage(chromium.browser, address);
+  const [, same, all] = (await replayed(page)).match(/^(\d+) of (\d+) ticks identical$/);
+  const { replay } = JSON.parse(await text(page, '#liana-run'));
+  assert.ok(replay.ticks > 1000 && replay.ticks === replay.recorded);
+  assert.deepEqual([Number(same), Number(all)], [replay.ticks, replay.ticks]);
+  assert.deepEqual(page.requests, [address]);
+  assert.deepEqual(page.errors, []);
+  await page.close();
+
+  // One bit of a checksum in the middle: that tick alone.
+  const middle = Math.floor(replay.ticks / 2);
+  const checksum = planted(file, 'liana-ticks', () => replay.start_bytes + 2 * replay.ticks + 4 * middle);
+  const other = await openPage(chromium.browser, pathToFileURL(checksum).href);
+  const said = await replayed(other);
+  assert.match(said, new RegExp(`^${all - 1} of ${all} ticks identical; .* ${middle + 1}$`));
+  await other.close();
+
+  // One bit of the number of the first tick: none of them follows the start.
+  const input = planted(file, 'liana-ticks', () => replay.start_bytes + 6 * replay.ticks);
+  const third = await openPage(chromium.browser, pathToFileURL(input).href);
+  assert.match(await replayed(third), new RegExp(`^0 of ${all} `));
+  await third.close();
+});
+
 test('a crossing leaves one file that shows it from the disk, without any request', async () => {
   const file = await run('crossing', 'slit_crossing');
   assert.ok(statSync(file).size <= MAX_BYTES, `${statSync(file).size} bytes`);
@@ -38,6 +82,7 @@ test('a crossing leaves one file that shows it from the disk, without any reques
   await page.waitForSelector('.page.run');
   await page.waitForFunction(() => /step 4 of 6/.test(document.querySelector('.sentence').textContent));
   assert.match(await text(page, '.finding'), /^Success: \d+\.\d s, at least [\d.]+ mm clear/);
+  assert.match(await replayed(page), /^(\d+) of \1 ticks identical$/);
   assert.deepEqual(page.requests.filter((url) => !url.startsWith('file:') && !url.startsWith('data:')), []);
   assert.equal(await page.isVisible('.push'), false); // nothing of pushes where none can be
   assert.doesNotMatch(await text(page, '.plots .filter'), /wrist|servo/);

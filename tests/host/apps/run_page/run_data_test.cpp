@@ -78,6 +78,16 @@ TEST(PageOfARun, IsMadeOfARunThatLeftNothing) {
   EXPECT_TRUE(json_of(run)["report"].is_null());
 }
 
+TEST(PageOfARun, HoldsItsTicksOnlyWithTheCoreThatReplaysThem) {
+  RunData run = short_run();
+  run.ticks = {false, 3, 2, "start", "sizes", "inputs", "checksums"};
+  EXPECT_TRUE(json_of(run)["replay"].is_null());
+  run.core = "core";
+  EXPECT_EQ(json_of(run)["replay"], Json::parse(R"({"is_serial":false,"recorded":3,"start_bytes":5,"ticks":2})"));
+  run.ticks.ticks = 0;
+  EXPECT_TRUE(json_of(run)["replay"].is_null());
+}
+
 TEST(PageOfARun, IsRefusedWithoutItsMark) { EXPECT_THROW(page_of(short_run(), "<body></body>"), std::runtime_error); }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // A recorded run: what `liana view` wrote into its page.
 import { chainOf, type ArmChain } from '../model/arm_chain';
 import type { Robot, Scene } from '../model/robot';
+import type { ReplayHead } from '../run/replay';
 import type { Facts, LianaEvent, Sample } from './sample';
 import { inflated, telemetryOf, type Telemetry, type TelemetryHead } from './telemetry';
 import { withDerivedEvents } from './derived_events';
@@ -45,6 +46,7 @@ export interface RunHead {
   events: LianaEvent[];
   commands: Command[];
   facts: { tick: number; state: Facts }[]; // the first whole, of later ones what is another than before
+  replay?: ReplayHead | null;
   telemetry: TelemetryHead;
 }
 

@@ -11,6 +11,7 @@ import { themeButton, themeNow } from '../ui/theme';
 import { CommandList } from './command_list';
 import { EventList } from './event_list';
 import { outcomeOf, type Outcome } from './outcome';
+import { replayLine } from './replay_line';
 import { reportPanel } from './report_panel';
 import { RunPlots } from './run_plots';
 import { TimeLine } from './time_line';
@@ -113,7 +114,7 @@ export class RunPage {
 
 // What failed, where, why and what to do; of a success one line.
 function finding(outcome: Outcome, run: Run, goTo: (time_s: number) => void): HTMLElement {
-  if (outcome.success) return h('section', { class: 'finding good', 'aria-label': 'Outcome' }, h('p', {}, outcome.what));
+  if (outcome.success) return h('section', { class: 'finding good', 'aria-label': 'Outcome' }, h('p', {}, outcome.what), replayLine(run.head));
   const { tick } = outcome;
   const there = tick === null ? null : h('button', { type: 'button', onclick: () => goTo(tick * run.head.period_s) }, 'show that moment');
   return h('section', { class: 'finding bad', 'aria-label': 'Outcome' },
@@ -121,5 +122,6 @@ function finding(outcome: Outcome, run: Run, goTo: (time_s: number) => void): HT
     h('dl', {},
       ...(outcome.where ? [h('dt', {}, 'Where'), h('dd', {}, outcome.where, ' ', there)] : []),
       ...(outcome.why ? [h('dt', {}, 'Why'), h('dd', {}, outcome.why)] : []),
-      h('dt', {}, 'What to do'), h('dd', {}, outcome.todo.join(' '))));
+      h('dt', {}, 'What to do'), h('dd', {}, outcome.todo.join(' '))),
+    replayLine(run.head));
 }
