@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -15,9 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // How the names begin: beside a file of SQLite may lie two that belong to it.
-constexpr std::array<std::string_view, 12> kLasting{"archive.db",  "telemetry-", "ring-",      "robot.json",
-                                                    "scene.json",  "buses.json", "events.txt", "commands.txt",
-                                                    "report.json", "truth.bin",  "page.html",  "mission_files"};
+constexpr std::array<std::string_view, 13> kLasting{
+    "archive.db",   "telemetry-",  "ring-",     "robot.json", "scene.json",    "buses.json", "events.txt",
+    "commands.txt", "report.json", "truth.bin", "page.html",  "mission_files", kLockFile};
 
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
@@ -36,6 +39,41 @@ fs::file_time_type newest_change(const fs::path& run) {
     if (!gone) newest = std::max(newest, when);
   }
   return newest;
+}
+
+constexpr std::string_view kNameBegins = "liana-run-";
+constexpr std::uint64_t kMaxNumber = std::uint64_t{1} << 53;  // more was not written by a run
+
+// The number of a folder that a run made and that has the name which it had then; a copy of it has another one.
+std::optional<std::uint64_t> number_of_run(const fs::path& folder) {
+  std::error_code gone;
+  if (!fs::is_directory(fs::symlink_status(folder, gone)) ||
+      !fs::is_regular_file(fs::symlink_status(folder / kLockFile, gone)))
+    return std::nullopt;
+  std::ifstream file(folder / kLockFile);
+  std::string name;
+  std::uint64_t number = 0;
+  if (!(file >> name >> number) || name != folder.filename() || number > kMaxNumber) return std::nullopt;
+  return number;
+}
+
+struct NumberedRun {
+  std::uint64_t number;
+  fs::file_time_type when;  // of equals, as runs that began together are
+  std::string folder;
+  auto operator<=>(const NumberedRun&) const = default;
+};
+
+// The newest first.
+std::vector<NumberedRun> numbered_runs(const std::string& folder) {
+  std::vector<NumberedRun> runs;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    const auto number = number_of_run(entry.path());
+    if (number) runs.push_back({*number, newest_change(entry.path()), entry.path()});
+  }
+  std::sort(runs.rbegin(), runs.rend());
+  return runs;
 }
 
 }  // namespace
@@ -58,15 +96,18 @@ std::vector<std::string> kept_runs(const std::string& folder) {
   return runs;
 }
 
-std::string make_run_folder(const std::string& folder) {
+RunFolder make_run_folder(const std::string& folder) {
   if (folder.empty())
     throw std::runtime_error("neither XDG_STATE_HOME nor HOME is set: set one, for the folder of runs");
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw std::runtime_error(folder + ": cannot be made: " + error.message());
-  std::string name = folder + "/liana-run-XXXXXX";
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(folder + ": no folder can be made there");
-  return name;
+  const std::vector<NumberedRun> others = numbered_runs(folder);
+  const std::uint64_t number = others.empty() ? 1 : others.front().number + 1;
+  std::string path = folder + "/" + std::string(kNameBegins) + "XXXXXX";
+  if (mkdtemp(path.data()) == nullptr) throw std::runtime_error(folder + ": no folder can be made there");
+  const std::string name = fs::path(path).filename();
+  return {path, hold_new_folder(path, name + " " + std::to_string(number) + "\n")};
 }
 
 void keep_what_lasts(const std::string& run) {
@@ -82,9 +123,10 @@ void keep_what_lasts(const std::string& run) {
 }
 
 void remove_oldest_runs(const std::string& folder) {
-  const std::vector<std::string> runs = kept_runs(folder);
-  std::error_code gone;
-  for (std::size_t i = kKeptRuns; i < runs.size(); ++i) fs::remove_all(runs[i], gone);
+  const std::vector<NumberedRun> runs = numbered_runs(folder);
+  for (std::size_t i = kKeptRuns; i < runs.size(); ++i) {
+    if (const FolderLock lock = take_unheld_folder(runs[i].folder)) remove_held_folder(runs[i].folder);
+  }
 }
 
 }  // namespace liana::launcher

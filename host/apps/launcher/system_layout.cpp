@@ -1,9 +1,7 @@
 #include "host/apps/launcher/system_layout.hpp"
 
-#include <fcntl.h>
 #include <net/if.h>
 #include <stdlib.h>
-#include <sys/file.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -14,6 +12,8 @@
 #include <filesystem>
 #include <optional>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "firmware_like/cable/arm/static_load.hpp"
 #include "host/api/server/welcome_size.hpp"
@@ -336,9 +336,9 @@ void write_tables(const SystemLayout& plan, const std::string& robot, const std:
 }
 
 // Where everything is written: the user's folder, one among the newest runs, or none that lasts.
-std::string directory_of(const SystemLayout& plan, const RunOptions& options) {
-  if (plan.keep_directory) return record_directory(options.record_dir);
-  if (!plan.has_recorder) return plan.socket_dir;
+RunFolder directory_of(const SystemLayout& plan, const RunOptions& options) {
+  if (plan.keep_directory) return {record_directory(options.record_dir), nullptr};
+  if (!plan.has_recorder) return {plan.socket_dir, nullptr};
   try {
     return make_run_folder(runs_folder());
   } catch (const std::runtime_error& error) {
@@ -347,20 +347,11 @@ std::string directory_of(const SystemLayout& plan, const RunOptions& options) {
         "liana: this run will not be kept (%s): it goes to %s, which stays only if it fails; give --record DIR, "
         "or an XDG_STATE_HOME that can be written\n",
         error.what(), plan.socket_dir.c_str());
-    return plan.socket_dir;
+    return {plan.socket_dir, nullptr};
   }
 }
 
 constexpr const char* kFolderOfRun = "liana-run-";
-constexpr const char* kLock = "lock";  // held for as long as the process lives that made the folder
-
-// Held until this process ends, however it does; false when another one has it, or there is none to take.
-bool hold(const std::string& lock, int flags) {
-  const int fd = ::open(lock.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | flags, 0600);
-  if (fd >= 0 && ::flock(fd, LOCK_EX | LOCK_NB) == 0) return true;
-  if (fd >= 0) ::close(fd);
-  return false;
-}
 
 // Folders of runs that were killed: nobody else tidies up behind them.
 void remove_leftovers() {
@@ -370,7 +361,8 @@ void remove_leftovers() {
     const bool is_ours = entry.path().filename().string().starts_with(kFolderOfRun) &&
                          ::lstat(entry.path().c_str(), &found) == 0 && S_ISDIR(found.st_mode) &&
                          found.st_uid == ::geteuid();
-    if (is_ours && hold(entry.path() / kLock, 0)) fs::remove_all(entry.path(), gone);
+    if (!is_ours) continue;
+    if (const FolderLock lock = take_unheld_folder(entry.path())) remove_held_folder(entry.path());
   }
 }
 
@@ -414,7 +406,9 @@ SystemLayout make_layout(const RunOptions& given) {
   plan.has_recorder = (has_mission || options.is_session) && !plan.is_dry_run;
   plan.keeps_traffic = !plan.is_dry_run && (has_mission || !options.is_session);
   plan.socket_dir = temporary_directory();
-  plan.directory = directory_of(plan, options);
+  RunFolder folder = directory_of(plan, options);
+  plan.directory = std::move(folder.path);
+  plan.lock = std::move(folder.lock);
   write_tables(plan, robot.json, scene.json, buses.json);
   if (has_mission) keep_mission_files(plan.mission, plan.directory);
   const bool embedded = plan.buses.backend == "embedded";
@@ -436,7 +430,8 @@ std::string temporary_directory() {
   std::string name = (fs::temp_directory_path() / (std::string(kFolderOfRun) + "XXXXXX")).string();
   if (mkdtemp(name.data()) == nullptr)
     throw BadInput(name + ": a temporary directory cannot be made; free space there or set TMPDIR");
-  hold(name + "/" + kLock, O_CREAT);
+  static std::vector<FolderLock> held;  // until this process ends
+  held.push_back(hold_new_folder(name, ""));
   return name;
 }
 
@@ -462,7 +457,7 @@ void clean_up(const SystemLayout& plan, bool success) {
   std::error_code error;
   fs::remove(plan.api_socket(), error);
   fs::remove(plan.bus_socket(), error);
-  fs::remove(plan.socket_dir + "/" + kLock, error);  // what is kept from here on is no leftover
+  fs::remove(plan.socket_dir + "/" + kLockFile, error);  // what is kept from here on is no leftover
   const bool is_temporary = plan.directory == plan.socket_dir;
   if (!is_temporary || success) fs::remove_all(plan.socket_dir, error);
   if (is_temporary || plan.keep_directory) return;

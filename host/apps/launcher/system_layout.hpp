@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "host/apps/launcher/folder_lock.hpp"
 #include "host/apps/launcher/run_options.hpp"
 #include "host/base/json/json.hpp"
 #include "host/model/config/config.hpp"
@@ -21,6 +22,7 @@ struct ProgramCall {
 struct SystemLayout {
   std::string directory;   // everything that is written; the user's with --record, else of a run one in runs_folder()
   std::string socket_dir;  // short temporary path: socket names are limited to 107 bytes
+  FolderLock lock;         // of `directory` where that is one of the newest runs
   bool keep_directory = false;
   bool is_dry_run = false;
   bool has_recorder = false;   // liana-archive runs
