@@ -10,7 +10,7 @@ using namespace liana;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::string_view text = fuzz::text_of(data, size);
-  constexpr std::array kKinds{"robot", "buses", "scene", "drive", "budget"};
+  constexpr std::array kKinds{"robot", "buses", "scene", "drive", "budget", "campaign"};
   const char* const kind = kKinds[fuzz::choice(text) % kKinds.size()];
   return fuzz::refusing([&] {
     const std::string canonical = config::check_table(kind, Json::parse(text), kind);

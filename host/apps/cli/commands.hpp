@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -112,6 +113,36 @@ int run_command(const launcher::RunOptions& options);
 // The same without anything that moves and without a trace: virtual time on the embedded bus, found by nobody else's
 // status, estop or clear. Says what the steps leave of the limits and what is refused; exit code 0 only on success.
 int check_command(const launcher::RunOptions& given);
+
+struct CampaignOptions {
+  std::string file;              // a name under lua/campaigns, or a file
+  std::string engine = "local";  // or slurm
+  std::string out;               // the database; empty: NAME.db here
+  std::string jobs;              // rows at a time; empty: one a processor
+  std::string rows;              // only these, with one of the next two: 3,7-9
+  std::string full;              // a folder where each of them keeps everything
+  std::string results;           // a folder that takes each result as a JSON file
+  bool json = false;
+  // Throws BadInput where `liana run` does not take these words.
+  std::function<void(const std::vector<std::string>&)> check_words;
+};
+// Runs a mission for many seeds and values, and goes on where it was killed (docs/how-to/run-a-campaign.md). Exit code
+// 0 when every row has a result, whatever it is, and none was refused.
+int campaign_command(const CampaignOptions& given);
+
+struct CampaignShowOptions {
+  std::vector<std::string> databases;  // show: one; compare: two; plot: one or two
+  std::vector<std::string> figures;    // empty: the main ones
+  std::string by;                      // show: the figure of the worst rows; empty: min_clearance_m
+  std::string svg_file;                // plot; empty: NAME.svg here
+  bool json = false;
+};
+// What a campaign's database says: shares of outcomes with intervals, quantiles of figures, the worst rows.
+int campaign_show_command(const CampaignShowOptions& options);
+// The same of two beside each other, and the rows whose outcome differs.
+int campaign_compare_command(const CampaignShowOptions& options);
+// The same as a picture, of one or two.
+int campaign_plot_command(const CampaignShowOptions& options);
 
 struct ConsoleOptions {
   SystemSelection wish;

@@ -52,6 +52,8 @@ constexpr KnownValues kValues[] = {
     {"liana robot export", "robots", "", true},
     {"liana robot check", "robots", "", true},
     {"liana budget", "budgets", "", true},
+    {"liana campaign", "campaigns", "", true},
+    {"--engine", "", "local slurm", false},
     {"liana mission", "", "pause resume step confirm abort", false},
     {"liana completion", "", "bash zsh", false},
     {"liana replay", "", "", true},

@@ -5,6 +5,7 @@
 #include <sched.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -67,6 +68,10 @@ ExitStatus end_of(int status) {
   return {WEXITSTATUS(status), 0};
 }
 
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
 // Reads both pipes until both are closed; false as soon as one of them has brought too much.
 bool drain(int out_fd, int error_fd, Captured& captured) {
   std::array<pollfd, 2> fds{{{out_fd, POLLIN, 0}, {error_fd, POLLIN, 0}}};
@@ -117,9 +122,16 @@ ChildProcess::ChildProcess(std::string name, const std::vector<std::string>& arg
 
 ChildProcess::~ChildProcess() { end(0.0); }
 
-std::optional<ExitStatus> ChildProcess::poll() {
+void ChildProcess::take_end(int flags) {
   int status = 0;
-  if (!end_ && waitpid(pid_, &status, WNOHANG) == pid_) end_ = end_of(status);
+  rusage used{};
+  if (end_ || wait4(pid_, &status, flags, &used) != pid_) return;
+  end_ = end_of(status);
+  cpu_s_ = seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+std::optional<ExitStatus> ChildProcess::poll() {
+  take_end(WNOHANG);
   return end_;
 }
 
@@ -156,8 +168,7 @@ void ChildProcess::end(double grace_s) {
   ask_to_end();
   if (wait(grace_s)) return;
   kill(pid_, SIGKILL);
-  int status = 0;
-  if (waitpid(pid_, &status, 0) == pid_) end_ = end_of(status);
+  take_end(0);
 }
 
 std::string ChildProcess::last_lines(int count) const {

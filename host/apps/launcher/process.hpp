@@ -37,6 +37,8 @@ class ChildProcess {
   const std::string& name() const { return name_; }
   // How it ended, or nothing while it runs.
   std::optional<ExitStatus> poll();
+  // Processor time of it and of all that it started and waited for [s]; 0 while it runs.
+  double cpu_s() const { return cpu_s_; }
   // Waits at most `timeout_s` for its end.
   std::optional<ExitStatus> wait(double timeout_s);
   // Which of its processes (its own, those it made) stands still because somebody stopped it (SIGSTOP, a debugger).
@@ -52,11 +54,13 @@ class ChildProcess {
 
  private:
   std::vector<pid_t> processes() const;
+  void take_end(int flags);
 
   std::string name_;
   std::string log_path_;
   pid_t pid_ = -1;
   std::optional<ExitStatus> end_;
+  double cpu_s_ = 0.0;
 };
 
 // Waits until `path` is there; false when `maker` has ended without it, `stop` became true, or after 30 s.

@@ -150,7 +150,7 @@ ProgramCall bench_call(const SystemLayout& plan, const RunOptions& options, bool
                     plan.file("scene.json"), "--buses", plan.file("buses.json"), "--api", plan.api_socket(), "--arm",
                     options.arm, "--physics", options.true_physics.empty() ? options.physics : options.true_physics,
                     "--seed", std::to_string(options.seed), "--summary", plan.file("bench_summary.json")}};
-  if (plan.keeps_traffic || plan.is_dry_run) append(call.argv, {"--truth", plan.file("truth.bin")});
+  if (plan.keeps_traffic || plan.is_dry_run || options.is_lean) append(call.argv, {"--truth", plan.file("truth.bin")});
   const std::string& fixture = options.in_pose.empty() ? options.fixture : options.in_pose;
   append(call.argv, {"--start-pose", fixture.empty() ? options.start_pose : fixture});
   if (!fixture.empty()) append(call.argv, {"--jig"});
@@ -403,8 +403,9 @@ SystemLayout make_layout(const RunOptions& given) {
   plan.keep_directory = !options.record_dir.empty();
   plan.is_dry_run = options.is_dry_run;
   check_report_file(options.report_file, options.record_dir);
-  plan.has_recorder = (has_mission || options.is_session) && !plan.is_dry_run;
-  plan.keeps_traffic = !plan.is_dry_run && (has_mission || !options.is_session);
+  const bool is_lean = plan.is_dry_run || options.is_lean;
+  plan.has_recorder = (has_mission || options.is_session) && !is_lean;
+  plan.keeps_traffic = !is_lean && (has_mission || !options.is_session);
   plan.socket_dir = temporary_directory();
   RunFolder folder = directory_of(plan, options);
   plan.directory = std::move(folder.path);

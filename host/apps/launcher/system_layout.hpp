@@ -26,7 +26,7 @@ struct SystemLayout {
   bool keep_directory = false;
   bool is_dry_run = false;
   bool has_recorder = false;   // liana-archive runs
-  bool keeps_traffic = false;  // bus logs and truth, which grow without bounds: not where nobody knows when it ends
+  bool keeps_traffic = false;  // bus logs, which grow without bounds: not where nobody knows when it ends
   std::string time_mode;
   config::BusesConfig buses;
   config::SceneConfig scene;

@@ -22,6 +22,7 @@ namespace liana::mission_runner {
 namespace {
 
 constexpr const char* kCurve = "curve";
+constexpr const char* kCampaign = "campaign";
 constexpr const char* kPlanAdvice = "give a file that liana plan --out has written";
 
 // A file as Lua names it in messages: the end of a long name only.
@@ -190,7 +191,10 @@ std::string evaluate(Script& script, const LuaFolders& lua_folders, const std::s
     if (kind == "buses") add_drive_types(script, lua_folders, result, file.display);
   });
   if (kind == kCurve) return config::canonical_json(result);  // who follows it checks it
-  return config::check_table(kind, result, file.display);
+  const std::string checked = config::check_table(kind, result, file.display);
+  if (kind != kCampaign) return checked;
+  result["folder"] = std::filesystem::absolute(file.folder).lexically_normal().string();  // of files that it names
+  return config::canonical_json(result);
 }
 
 std::string evaluate_mission_tables(Script& script, const LuaFolders& lua_folders, const std::string& name) {

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLargestScript = 1 << 20;
 const std::map<std::string, std::string> kFolders = {
-    {"robot", "robots"},   {"scene", "scenes"},     {"buses", "buses"}, {"drive", "drives"},
-    {"budget", "budgets"}, {"mission", "missions"}, {"curve", "curves"}};
+    {"robot", "robots"},   {"scene", "scenes"},     {"buses", "buses"},  {"drive", "drives"},
+    {"budget", "budgets"}, {"mission", "missions"}, {"curve", "curves"}, {"campaign", "campaigns"}};
 
 ScriptFile read_script(const fs::path& path, const std::string& display) {
   std::error_code error;
@@ -70,9 +70,9 @@ std::optional<fs::path> first_file(const LuaFolders& lua_folders, const std::vec
 ScriptFile find_script(const LuaFolders& lua_folders, const std::string& kind, const std::string& name) {
   const auto folder = kFolders.find(kind);
   if (folder == kFolders.end())
-    throw std::runtime_error(
-        "kind: " + kind +
-        ": allowed robot, scene, buses, drive, budget, curve, mission, mission_tables: use one of these words");
+    throw std::runtime_error("kind: " + kind +
+                             ": allowed robot, scene, buses, drive, budget, campaign, curve, mission, mission_tables: "
+                             "use one of these words");
   const bool is_file =
       name.find('/') != std::string::npos || name.ends_with(".lua") || (kind == "mission" && name.ends_with(".json"));
   if (is_file) return read_script(name, name);

@@ -1,4 +1,5 @@
 // Robots: the table put together, alone and with the buses that carry its drives.
+#include "host/model/config/campaign.hpp"
 #include "host/model/config/canonical.hpp"
 #include "host/model/config/drive_type.hpp"
 #include "host/model/config/error_budget.hpp"
@@ -89,7 +90,12 @@ std::string check_table(const std::string& kind, const Json& table, const std::s
     parse_error_budget(table, file);
     return canonical_json(table);
   }
-  throw std::runtime_error("kind: " + kind + ": allowed robot, scene, buses, drive, budget: use one of these words");
+  if (kind == "campaign") {
+    parse_campaign(table, file);
+    return canonical_json(table);
+  }
+  throw std::runtime_error("kind: " + kind +
+                           ": allowed robot, scene, buses, drive, budget, campaign: use one of these words");
 }
 
 }  // namespace liana::config

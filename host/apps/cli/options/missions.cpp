@@ -1,6 +1,7 @@
 // Options of the commands that carry out a mission: run, check, mission.
 #include "host/apps/cli/commands.hpp"
 #include "host/apps/cli/options/options.hpp"
+#include "host/apps/cli/options/words.hpp"
 
 namespace liana::cli {
 namespace {
@@ -87,6 +88,8 @@ void add_run(CLI::App& app, Action& action) {
   add_cross_wired(sub, run.cross_wired);
   add_people(sub, run.people);
   sub.add_option("--record", run.record_dir, "keep recording, logs, bus traffic and report in this directory");
+  sub.add_flag("--lean", run.is_lean, "keep nothing of a success but its report: no archive, no bus traffic")
+      ->excludes("--record");
   sub.add_flag("--console", run.has_console, "show it in a browser while it runs; the address goes to standard error");
 }
 
@@ -106,10 +109,59 @@ void add_mission(CLI::App& app, Action& action) {
   add_json(sub, mission.json);
 }
 
+// A command below `campaign` that reads `count` databases, of plot up to so many.
+Declared<CampaignShowOptions> add_campaign_reader(CLI::App& group, Action& action, const char* name, int count,
+                                                  int (*command)(const CampaignShowOptions&)) {
+  auto [sub, show] = add<CampaignShowOptions>(group, action, name, command);
+  sub.add_option("database", show.databases, count > 1 ? "databases of campaigns" : "database of a campaign")
+      ->required()
+      ->expected(command == campaign_plot_command ? 1 : count, count);
+  sub.add_option("--figure", show.figures,
+                 "number of the report, e.g. tip_error_m or verified_clearance_m.min; may be repeated; the main ones "
+                 "where not given")
+      ->take_all()
+      ->allow_extra_args(false);
+  add_json(sub, show.json);
+  return {sub, show};
+}
+
+void add_campaign_readers(CLI::App& group, Action& action) {
+  auto [sub, show] = add_campaign_reader(group, action, "show", 1, campaign_show_command);
+  sub.add_option("--by", show.by,
+                 "figure of the worst rows; small values of a clearance or a minimum are bad, large ones of others; "
+                 "min_clearance_m where not given");
+  add_campaign_reader(group, action, "compare", 2, campaign_compare_command);
+  auto [plot, drawn] = add_campaign_reader(group, action, "plot", 2, campaign_plot_command);
+  plot.add_option("--svg", drawn.svg_file, "write the picture to this file; NAME.svg where not given");
+}
+
+void add_campaign(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<CampaignOptions>();
+  options->check_words = check_words_of_run;
+  CLI::App& sub = *app.add_subcommand("campaign");
+  sub.callback([&sub, &action, options] {
+    if (sub.get_subcommands().empty()) action = [options] { return campaign_command(*options); };
+  });
+  sub.add_option("file", options->file, "campaign: a name under lua/campaigns or a file");
+  sub.add_option("--engine", options->engine, "local: this computer; slurm: a cluster")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"local", "slurm"}));
+  sub.add_option("--out", options->out,
+                 "the database, SQLite; where not given NAME.db in this folder; rows that are there are not run again");
+  sub.add_option("--jobs", options->jobs, "rows at a time on this computer; one a processor where not given");
+  sub.add_option("--rows", options->rows, "only these rows, e.g. 3,7-9; with --full or --results");
+  sub.add_option("--full", options->full, "run --rows and keep everything of each in this folder; no database");
+  sub.add_option("--results", options->results,
+                 "run --rows and write each result to this folder, as JSON; no database");
+  add_json(sub, options->json);
+  add_campaign_readers(sub, action);
+}
+
 }  // namespace
 
 void declare_missions(CLI::App& app, Action& action) {
   add_run(app, action);
+  add_campaign(app, action);
   add_check(app, action);
   add_mission(app, action);
 }

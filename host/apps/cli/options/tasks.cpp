@@ -28,6 +28,8 @@ constexpr CommandText kCommands[] = {
 
     {"liana run", kRun, "run a mission and report, on a simulated arm unless a bus table names real buses",
      "liana run lab_tour"},
+    {"liana campaign", kRun, "run a mission for many seeds and values, into one database; show, compare, plot it",
+     "liana campaign crossings --out crossings.db"},
     {"liana check", kRun, "rehearse a mission without an arm: what comes near a limit, what is refused",
      "liana check lab_tour"},
     {"liana mission", kRun, "pause, resume, step, confirm or abort the mission that runs", "liana mission pause"},
@@ -82,6 +84,11 @@ constexpr CommandText kCommands[] = {
     {"liana force", kScripts, "measure how well contact forces are estimated, on a simulated arm",
      "liana force --self-test"},
 
+    {"liana campaign show", kBelow, "shares of outcomes with intervals, quantiles of figures, the ten worst rows",
+     "liana campaign show crossings.db"},
+    {"liana campaign compare", kBelow, "two campaigns beside each other", "liana campaign compare before.db after.db"},
+    {"liana campaign plot", kBelow, "write a picture of one campaign, or of two",
+     "liana campaign plot crossings.db --svg crossings.svg"},
     {"liana device list", kBelow, "list what is connected: kind, rate, delays, force", "liana device list"},
     {"liana device watch", kBelow, "print the newest sample of a device, again and again",
      "liana device watch operator-handles --seconds 5"},

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "host/apps/cli/known_values.hpp"
+#include "host/apps/cli/options/options.hpp"
 #include "host/apps/launcher/errors.hpp"
 #include "host/base/options/nearest.hpp"
 
@@ -32,6 +33,12 @@ void check_options(const CLI::App& command, const std::string& before, std::span
   }
 }
 
+// Whether a command that has commands below it takes other words, too: the FILE of campaign.
+bool takes_words(const CLI::App& command) {
+  const std::vector<const CLI::Option*> all = command.get_options();
+  return std::any_of(all.begin(), all.end(), [](const CLI::Option* option) { return option->get_positional(); });
+}
+
 // A word in place of a command that is none gets the list of those that are; `before` are the words before it.
 void check_command(const CLI::App& app, const std::string& before, std::span<const std::string> words) {
   std::string names;
@@ -40,7 +47,8 @@ void check_command(const CLI::App& app, const std::string& before, std::span<con
     if (!words.empty() && words.front() == sub->get_name())
       return check_command(*sub, before + words.front() + " ", words.subspan(1));
   }
-  if (names.empty() || (!words.empty() && words.front().starts_with('-'))) return check_options(app, before, words);
+  if (names.empty() || takes_words(app) || (!words.empty() && words.front().starts_with('-')))
+    return check_options(app, before, words);
   const std::string problem = words.empty() ? "no command given" : "'" + before + words.front() + "': no such command";
   throw launcher::BadInput(problem + "; liana " + before + "knows: " + names + "; see liana help");
 }
@@ -128,6 +136,26 @@ std::vector<std::string> arguments_of(const CLI::App& app, std::vector<std::stri
   return words;
 }
 
+void check_words_of_run(const std::vector<std::string>& words) {
+  struct Line {
+    CLI::App app{"", "liana"};
+    Action action;
+    Line() { declare_all(app, action); }
+  };
+  static Line line;
+  try {
+    line.app.parse(arguments_of(line.app, words));
+  } catch (const CLI::ExtrasError&) {
+    throw launcher::BadInput(extra_word_text(line.app) + suggestion(line.app, words));
+  } catch (const CLI::ArgumentMismatch& error) {
+    throw launcher::BadInput(missing_value_text(line.app, error.what()) + suggestion(line.app, words));
+  } catch (const CLI::ParseError& error) {
+    throw launcher::BadInput(problem_text(line.app, error.what()) + suggestion(line.app, words));
+  } catch (const launcher::BadInput& error) {
+    throw launcher::BadInput(error.what() + suggestion(line.app, words));
+  }
+}
+
 std::string missing_value_text(const CLI::App& app, const std::string& error) {
   const auto [command, words] = chosen(app);
   const std::string name = error.substr(0, error.find(':'));
@@ -173,7 +201,12 @@ std::string suggestion(const CLI::App& app, std::span<const std::string> words) 
     } else if (i > 0 || word != "help") {
       const auto found =
           std::find_if(below.begin(), below.end(), [&](const auto* sub) { return sub->get_name() == word; });
-      if (found == below.end()) return options::did_you_mean(word, names_of(below));
+      if (found == below.end()) {
+        near = options::did_you_mean(word, names_of(below));
+        if (!near.empty() || !takes_words(*command)) return near;
+        near = near_value(path, word);
+        continue;
+      }
       command = *found;
       path += " " + word;
     }

@@ -18,6 +18,9 @@ constexpr const char* kLuaDir = "--lua-dir";  // the only option with a value th
 // BadInput: an empty word, an option without its value, a command or an option that does not exist.
 std::vector<std::string> arguments_of(const CLI::App& app, std::vector<std::string> words);
 
+// Reads the words as a command line without carrying it out. Throws BadInput with the message that they would get.
+void check_words_of_run(const std::vector<std::string>& words);
+
 // An option at the end of the line, or before another one, whose value was forgotten: what its value may be is said;
 // or one that stands more than once.
 // `error`: CLI11's text.
