@@ -12,6 +12,9 @@
 
 namespace liana::campaign {
 
+// Runs a program of PATH, and sets its variables and folder.
+inline constexpr const char* kEnv = "/usr/bin/env";
+
 // What rows are to be carried out, and how.
 struct Order {
   std::vector<std::uint64_t> rows;

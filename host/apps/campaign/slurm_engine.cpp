@@ -23,10 +23,9 @@ namespace fs = std::filesystem;
 using launcher::Captured;
 
 constexpr int kMaxIdleRounds = 3;  // arrays in a row that have delivered nothing
-constexpr auto kLook = std::chrono::milliseconds(250);
+constexpr auto kLookForResults = std::chrono::milliseconds(250);
 constexpr int kLooksPerAsk = 8;  // squeue is asked every two seconds
 constexpr int kLooksAfter = 8;   // results of the last task may come late through a network file system
-constexpr const char* kEnv = "/usr/bin/env";
 
 // The words of a program that is looked up on PATH.
 Captured ask(std::vector<std::string> words) {
@@ -132,7 +131,7 @@ bool SlurmEngine::is_queued() const {
 void SlurmEngine::wait(std::set<std::uint64_t>& missing, const TakeResult& take) {
   int looks_after = 0;
   for (int look = 1; !missing.empty() && looks_after <= kLooksAfter && interrupts_.count() == 0; ++look) {
-    std::this_thread::sleep_for(kLook);
+    std::this_thread::sleep_for(kLookForResults);
     take_results(missing, take);
     if (looks_after > 0) {
       ++looks_after;
