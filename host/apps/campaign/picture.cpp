@@ -72,7 +72,8 @@ svg::AxisRange range_of(const std::vector<std::vector<double>>& all) {
     is_first = false;
   }
   const double width = range.high - range.low;
-  const double beside = width > 0.0 ? 0.03 * width : std::max(1e-9, 0.05 * std::fabs(range.high));
+  const double of_one = range.high == 0.0 ? 1.0 : 0.05 * std::fabs(range.high);  // all values are the same
+  const double beside = width > 0.0 ? 0.03 * width : of_one;
   return {range.low - beside, range.high + beside};
 }
 
@@ -95,7 +96,7 @@ void draw_spread(svg::Svg& svg, const std::vector<Stored>& campaigns, const std:
       points.push_back(axes.at(values[k], static_cast<double>(k + 1) / count));
     }
     points.push_back(axes.at(values.back(), 1.0));
-    svg.polyline(points, {.stroke = colour_of(i), .width = 2.0});
+    svg.polyline(points, {.stroke = colour_of(i), .width = 2.0, .dashed = i > 0});
   }
 }
 

@@ -1,5 +1,8 @@
 #include "host/apps/campaign/result.hpp"
 
+#include <set>
+#include <string>
+
 #include "host/model/config/canonical.hpp"
 #include "host/model/config/sha256.hpp"
 
@@ -13,9 +16,10 @@ void add_figures(Json& figures, const std::string& path, const Json& value) {
     for (const auto& [key, each] : value.items()) add_figures(figures, begin + key, each);
   }
   if (!value.is_array()) return;
+  std::set<std::string> names;  // of equals the first counts
   for (const Json& each : value) {
     const Json& name = each.member_or_null("name");
-    if (name.is_string() && !figures.contains(begin + name.text())) add_figures(figures, begin + name.text(), each);
+    if (name.is_string() && names.insert(name.text()).second) add_figures(figures, begin + name.text(), each);
   }
 }
 
