@@ -306,9 +306,11 @@ int replay_command(const ReplayOptions& options);
 
 struct ExportOptions {
   std::string robot = "zhu2022";
-  std::string file;  // empty: standard output
+  std::string scene;  // with urdf or mjcf; empty: the arm alone
+  std::string file;   // empty: standard output
+  bool urdf = false, mjcf = false;
 };
-// A robot table as canonical JSON.
+// A robot table as canonical JSON, or as a model for other tools (docs/how-to/use-other-tools.md).
 int export_command(const ExportOptions& options);
 
 // How far a motor on a desk is turned.

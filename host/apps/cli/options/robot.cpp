@@ -14,8 +14,13 @@ void add_robot_in_either_place(CLI::App& sub, std::string& robot) {
 void add_robot_export(CLI::App& group, Action& action) {
   auto [sub, exported] = add<ExportOptions>(group, action, "export", export_command);
   add_robot_in_either_place(sub, exported.robot);
+  CLI::Option* urdf = sub.add_flag("--urdf", exported.urdf, "as URDF, for ROS and simulators");
+  CLI::Option* mjcf = sub.add_flag("--mjcf", exported.mjcf, "as MJCF, for MuJoCo: with cables and named poses");
+  sub.add_option("--scene", exported.scene, "with --urdf or --mjcf: the bodies of this scene table around it");
   sub.add_option("--out", exported.file, "file to write; standard output where not given");
-  sub.add_flag("--json")->description("the output is JSON with or without it");
+  CLI::Option* json = sub.add_flag("--json")->description("the output is JSON with or without it");
+  urdf->excludes(mjcf)->excludes(json);
+  mjcf->excludes(json);
 }
 
 void add_robot_check(CLI::App& group, Action& action) {

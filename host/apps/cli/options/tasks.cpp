@@ -107,14 +107,14 @@ constexpr CommandText kCommands[] = {
      "liana run lab_tour && liana log show"},
     {"liana log verify", kBelow, "check whether the archive of a run is whole, and what it holds",
      "liana run lab_tour && liana log verify"},
-    {"liana log export", kBelow, "write a run for other tools: CSV, MCAP (Foxglove), candump, ticks",
+    {"liana log export", kBelow, "write a run for other tools: CSV, MCAP (Foxglove, ROS 2), candump, ticks",
      "liana run lab_tour && liana log export --csv lab_run.csv"},
     {"liana robot new", kBelow, "write a commented robot table from a few answers",
      "liana robot new my_arm --segments 3 --modules 4"},
     {"liana robot check", kBelow, "check whether a robot fits: capacity, bus load, workspace, tensions, holes, jigs",
      "liana robot check three_segment_lab"},
-    {"liana robot export", kBelow, "write a robot table as canonical JSON",
-     "liana robot export zhu2022 --out zhu2022.json"},
+    {"liana robot export", kBelow, "write a robot table as canonical JSON, or as a model for ROS (URDF) or MuJoCo (MJCF)",
+     "liana robot export zhu2022 --mjcf --scene panel_slit --out zhu2022.xml"},
 };
 
 constexpr const char* kFooter =
