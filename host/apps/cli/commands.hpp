@@ -284,8 +284,9 @@ struct LogOptions {
   std::string run;      // a folder, or the name of one of the newest runs; empty: the newest
   double from_s = 0.0;  // arm time
   double to_s = kLatestArmTime_s;
-  std::string csv, mcap, candump, tracker;  // of log export: files
-  std::string ticks;                        // of log export: a folder
+  std::string csv, mcap, ros2, candump, tracker;  // of log export: files
+  std::string ticks;                              // of log export: a folder
+  bool wall_time = false;                         // of log export: UTC in place of arm time
   bool json = false;
 };
 // The newest runs: name, begin, how each ended, length and size.

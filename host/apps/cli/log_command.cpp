@@ -256,23 +256,25 @@ int log_show_command(const LogOptions& options) {
 }
 
 int log_export_command(const LogOptions& options) {
-  using Write = std::uint64_t (*)(const archive::Reader&, archive::Span, const std::string&);
+  using Write = std::uint64_t (*)(const archive::Reader&, archive::Span, const std::string&, double);
   const std::tuple<const char*, const char*, std::string, Write> kinds[]{
       {"--csv", "rows", options.csv, archive::write_csv},
       {"--mcap", "messages", options.mcap, archive::write_mcap},
+      {"--ros2", "messages", options.ros2, archive::write_ros2},
       {"--candump", "frames", options.candump, archive::write_candump},
       {"--tracker", "rows", options.tracker, write_tracker}};
   const bool has_file = std::ranges::any_of(kinds, [](const auto& kind) { return !std::get<2>(kind).empty(); });
   if (!has_file && options.ticks.empty())
-    throw launcher::BadInput("log export: no file given; give --csv, --mcap, --candump, --tracker or --ticks");
+    throw launcher::BadInput("log export: no file given; give --csv, --mcap, --ros2, --candump, --tracker or --ticks");
   for (const auto& [option, unit, file, write] : kinds) {
     if (!file.empty()) launcher::check_output(option, file);
   }
   const archive::Reader reader = reader_of(options.run);
+  const double zero_s = options.wall_time ? archive::begin_utc_s(reader.life()) : 0.0;
   Json written = Json::array();
   for (const auto& [option, unit, file, write] : kinds) {
     if (file.empty()) continue;
-    const std::uint64_t count = write(reader, span_of(options, reader), file);
+    const std::uint64_t count = write(reader, span_of(options, reader), file, zero_s);
     if (!options.json) std::printf("%s: %" PRIu64 " %s\n", file.c_str(), count, unit);
     written.push_back({{"file", file}, {"count", count}, {"unit", unit}});
   }

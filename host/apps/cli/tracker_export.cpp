@@ -37,14 +37,15 @@ Pose with_noise(const Pose& pose, simulated::RandomStream& random) {
 
 }  // namespace
 
-std::uint64_t write_tracker(const archive::Reader& reader, archive::Span span, const std::string& path) {
+std::uint64_t write_tracker(const archive::Reader& reader, archive::Span span, const std::string& path, double zero_s) {
   const std::string folder = reader.folder() + "/";
   const report::TruthLog truth = report::TruthLog::load(folder + "truth.bin");
   const std::uint64_t seed =
       Json::parse_or_null(config::read_text_file(folder + "bench_summary.json")).value("seed", std::uint64_t{0});
   simulated::RandomStream frames(seed, kFrames), noise(seed, kNoise);
   const calibration::HandEye tracker{drawn(frames, kMaxAway_m, kMaxTurn_rad), drawn(frames, kMaxOnTip_m, kMaxTurn_rad)};
-  const double clock_s = frames.uniform(0.0, kMaxClock_s), period_s = reader.life().period_s;
+  const double drawn_s = frames.uniform(0.0, kMaxClock_s), clock_s = zero_s != 0.0 ? zero_s : drawn_s;
+  const double period_s = reader.life().period_s;
   const auto every = static_cast<std::size_t>(std::max(1L, std::lround(kRow_s / period_s)));
   file::OutFile out(path);
   out.write("time_s,x_m,y_m,z_m,qw,qx,qy,qz\n");

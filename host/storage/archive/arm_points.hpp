@@ -20,6 +20,7 @@ class ArmPoints {
   // its nodes. Empty while they are not known.
   std::vector<Vec3> of(const std::string& record) const;
   double radius_m() const { return radius_m_; }
+  double slide_m_rad() const { return table_.segment[0].slide_m_rad; }  // of a base that feeds; else 0
 
  private:
   const telemetry::Place* place(const char* field) const;

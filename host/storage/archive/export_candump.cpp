@@ -1,3 +1,4 @@
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
@@ -33,6 +34,14 @@ std::vector<std::unique_ptr<BusLog>> logs_of(const Reader& reader) {
   return logs;
 }
 
+// The line with its time counted from `zero_s`.
+std::string line_at(const BusLog& log, double zero_s) {
+  if (zero_s == 0.0) return log.line() + "\n";
+  char time[40];
+  std::snprintf(time, sizeof time, "(%.6f", zero_s + log.time_s());
+  return time + log.line().substr(log.line().find(')')) + "\n";
+}
+
 BusLog* earliest(const std::vector<std::unique_ptr<BusLog>>& logs) {
   BusLog* found = nullptr;
   for (const auto& log : logs) {
@@ -43,7 +52,7 @@ BusLog* earliest(const std::vector<std::unique_ptr<BusLog>>& logs) {
 
 }  // namespace
 
-std::uint64_t write_candump(const Reader& reader, Span span, const std::string& path) {
+std::uint64_t write_candump(const Reader& reader, Span span, const std::string& path, double zero_s) {
   const auto logs = logs_of(reader);
   if (logs.empty())
     throw std::runtime_error(reader.folder() +
@@ -54,7 +63,7 @@ std::uint64_t write_candump(const Reader& reader, Span span, const std::string& 
   std::uint64_t frames = 0;
   for (BusLog* log = earliest(logs); log != nullptr && log->time_s() <= to_s; log = earliest(logs)) {
     if (log->time_s() >= from_s) {
-      out.write(log->line() + "\n");
+      out.write(line_at(*log, zero_s));
       ++frames;
     }
     log->next();

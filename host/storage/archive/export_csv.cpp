@@ -18,8 +18,8 @@ void add_number(std::string& line, Number value) {
   line.append(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 
-std::string heading(const telemetry::Layout& layout) {
-  std::string line = "tick,time_s,state,step";
+std::string heading(const telemetry::Layout& layout, bool is_utc) {
+  std::string line = is_utc ? "tick,utc_s,state,step" : "tick,time_s,state,step";
   for (const telemetry::Place& place : layout.places) {
     for (std::size_t i = 1; i <= place.count; ++i) {
       line += ',' + std::string(place.field.path);
@@ -29,10 +29,10 @@ std::string heading(const telemetry::Layout& layout) {
   return line + '\n';
 }
 
-std::string line_of(const std::string& record, const telemetry::Layout& layout, const Json& facts) {
+std::string line_of(const std::string& record, const telemetry::Layout& layout, const Json& facts, double zero_s) {
   const telemetry::Header header = telemetry::header_of(record);
   std::string line = std::to_string(static_cast<std::uint64_t>(header.tick));
-  add_number(line, header.time_s);
+  add_number(line, zero_s + header.time_s);
   line += ',' + facts.value("state", "") + ',';
   if (const Json& index = facts.member_or_null("step").member_or_null("index"); !index.is_null()) line += index.dump();
   for (const telemetry::Place& place : layout.places) {
@@ -43,12 +43,13 @@ std::string line_of(const std::string& record, const telemetry::Layout& layout, 
 
 }  // namespace
 
-std::uint64_t write_csv(const Reader& reader, Span span, const std::string& path) {
+std::uint64_t write_csv(const Reader& reader, Span span, const std::string& path, double zero_s) {
   Stretches stretches(reader, span);
   file::OutFile out(path);
-  out.write(heading(*reader.layout()));
-  const std::uint64_t rows = stretches.visit(
-      [&](const std::string& record, const Json& facts) { out.write(line_of(record, *reader.layout(), facts)); });
+  out.write(heading(*reader.layout(), zero_s != 0.0));
+  const std::uint64_t rows = stretches.visit([&](const std::string& record, const Json& facts) {
+    out.write(line_of(record, *reader.layout(), facts, zero_s));
+  });
   out.finish();
   return rows;
 }

@@ -14,7 +14,6 @@
 namespace liana::archive {
 namespace {
 
-constexpr double kMessage_s = 0.04;  // 25 Hz, of all but events
 constexpr const char* kStateSchema = R"({"title":"state","description":"numbers of a state, docs/reference/api.md",
 "type":"object","required":["tick","time_s"],"properties":{"tick":{"type":"integer"},"time_s":{"type":"number"},
 "state":{"type":"string"},"measured_js_deg":{"type":"array","items":{"type":"number"}},
@@ -24,13 +23,15 @@ Json number(float value) {
   return std::isfinite(value) ? Json(std::round(static_cast<double>(value) * 1e6) / 1e6) : Json();
 }
 
-std::vector<double> angles_rad(const std::string& record, const telemetry::Layout& layout) {
+// Of a base that feeds, the slide's way in metres.
+std::vector<double> joint_values(const std::string& record, const telemetry::Layout& layout, double slide_m_rad) {
   std::vector<double> out;
   for (const telemetry::Place& place : layout.places) {
     if (place.field.path != "measured_js_deg") continue;
     for (std::size_t i = 0; i < place.count; ++i)
       out.push_back(static_cast<double>(telemetry::value_of(record, place, i)) * kDegree);
   }
+  if (slide_m_rad > 0.0 && !out.empty()) out[0] *= slide_m_rad;
   return out;
 }
 
@@ -53,8 +54,9 @@ Json state_json(const std::string& record, const telemetry::Layout& layout, cons
 
 class Export {
  public:
-  Export(const Reader& reader, const std::string& file)
+  Export(const Reader& reader, const std::string& file, double zero_s)
       : reader_(reader),
+        zero_s_(zero_s),
         layout_(*reader.layout()),
         points_(reader.life(), layout_),
         scene_config_(config::parse_scene(reader.life().scene, "life of the archive")),
@@ -69,18 +71,19 @@ class Export {
     const double time_s = telemetry::header_of(record).time_s;
     if (messages_ > 0 && time_s < next_s_) return;
     next_s_ = time_s + kMessage_s * 0.99;
+    const double shown_s = zero_s_ + time_s;
     if (const std::vector<Vec3> points = points_.of(record); !points.empty()) {
       if (!is_scene_told_)
-        write(scene_, time_s, foxglove::scene_update(time_s, scene_config_, points, points_.radius_m()));
+        write(scene_, time_s, foxglove::scene_update(shown_s, scene_config_, points, points_.radius_m()));
       is_scene_told_ = true;
-      write(tf_, time_s, foxglove::frame_transforms(time_s, points));
-      write(joints_, time_s, foxglove::joint_states(time_s, angles_rad(record, layout_)));
+      write(tf_, time_s, foxglove::frame_transforms(shown_s, points));
+      write(joints_, time_s, foxglove::joint_states(shown_s, joint_values(record, layout_, points_.slide_m_rad())));
     }
     write(state_, time_s, state_json(record, layout_, facts));
   }
   void take(const event::Event& event) {
     const double time_s = static_cast<double>(event.tick) * reader_.life().period_s;
-    write(log_, time_s, foxglove::log(time_s, event));
+    write(log_, time_s, foxglove::log(zero_s_ + time_s, event));
   }
   std::uint64_t finish() {
     file_.finish();
@@ -92,12 +95,12 @@ class Export {
     return file_.add_channel({topic, "json", "jsonschema", foxglove::schema_of(schema), schema});
   }
   void write(std::uint16_t channel, double time_s, const Json& message) {
-    file_.write_message(channel, static_cast<std::uint32_t>(++messages_),
-                        static_cast<std::uint64_t>(std::llround(time_s * 1e9)),
+    file_.write_message(channel, static_cast<std::uint32_t>(++messages_), stamp_ns(zero_s_, time_s),
                         message.dump(-1, Json::BadUtf8::kReplace));
   }
 
   const Reader& reader_;
+  const double zero_s_;
   const telemetry::Layout& layout_;
   const ArmPoints points_;
   const config::SceneConfig scene_config_;
@@ -110,10 +113,10 @@ class Export {
 
 }  // namespace
 
-std::uint64_t write_mcap(const Reader& reader, Span span, const std::string& path) {
+std::uint64_t write_mcap(const Reader& reader, Span span, const std::string& path, double zero_s) {
   const Stretches stretches(reader, span);
   file::OutFile file(path);
-  Export out(reader, file.unfinished_path());
+  Export out(reader, file.unfinished_path(), zero_s);
   for (const event::Event& event : reader.events(span)) out.take(event);
   stretches.visit([&](const std::string& record, const Json& facts) { out.take(record, facts); });
   const std::uint64_t messages = out.finish();

@@ -1,7 +1,8 @@
 #include "host/storage/archive/foxglove.hpp"
 
-#include <algorithm>
 #include <cmath>
+
+#include "host/model/description/robot_tree.hpp"
 
 namespace liana::archive::foxglove {
 namespace {
@@ -24,32 +25,6 @@ Json pose(const Vec3& position_m, const Quat& quaternion) {
   return {{"position", vector(position_m)}, {"orientation", rotation(quaternion)}};
 }
 Json colour(const Colour& c) { return {{"r", c.r}, {"g", c.g}, {"b", c.b}, {"a", c.a}}; }
-
-// The shortest turn that takes z to this direction.
-Quat turn_from_z(const Vec3& along) {
-  const Vec3 unit = scale(along, 1.0 / norm(along));
-  if (unit[2] < -0.999999) return {0.0, 1.0, 0.0, 0.0};
-  return normalize({1.0 + unit[2], -unit[1], unit[0], 0.0});
-}
-
-// Quaternion of a rotation whose rows are the axes of the body.
-Quat quaternion_of_axes(const std::array<Vec3, 3>& axis) {
-  const double trace = axis[0][0] + axis[1][1] + axis[2][2];
-  std::size_t i = 0;
-  if (axis[1][1] > axis[i][i]) i = 1;
-  if (axis[2][2] > axis[i][i]) i = 2;
-  const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-  Quat q{};
-  if (trace > 0.0) {
-    q = {1.0 + trace, axis[1][2] - axis[2][1], axis[2][0] - axis[0][2], axis[0][1] - axis[1][0]};
-  } else {
-    q[0] = axis[j][k] - axis[k][j];
-    q[i + 1] = 1.0 + axis[i][i] - axis[j][j] - axis[k][k];
-    q[j + 1] = axis[i][j] + axis[j][i];
-    q[k + 1] = axis[i][k] + axis[k][i];
-  }
-  return normalize(q);
-}
 
 Json entity(double time_s, const std::string& frame, const std::string& id) {
   Json out{{"timestamp", time(time_s)},
@@ -75,7 +50,8 @@ Json surroundings(double time_s, const config::SceneConfig& scene) {
   Json out = entity(time_s, "base", "scene");
   out["cubes"].push_back(cube({-kBaseBox_m, 0, 0}, {1, 0, 0, 0}, scale({1, 1, 1}, 2 * kBaseBox_m), kBase));
   for (const config::SceneBox& box : scene.boxes)
-    out["cubes"].push_back(cube(box.center_m, quaternion_of_axes(box.rotation), scale(box.half_extent_m, 2.0), kPlate));
+    out["cubes"].push_back(
+        cube(box.center_m, description::quaternion_of_axes(box.rotation), scale(box.half_extent_m, 2.0), kPlate));
   for (const config::SceneConvex& body : scene.convex)
     out["cubes"].push_back(cube(body.center_m, {1, 0, 0, 0}, scale(body.half_extent_m, 2.0), kBody));
   for (const config::SceneSphere& ball : scene.spheres)
@@ -96,21 +72,11 @@ Json link(double time_s, std::size_t number, double length_m, double radius_m) {
   return out;
 }
 
-int level_of(const event::Event& event) {
-  using enum event::EventKind;
-  constexpr int kInfo = 2, kWarning = 3, kError = 4;
-  const event::EventKind kind = event.kind;
-  if (kind == kDevice && event.number == event::number_of(event::DeviceEvent::kSlow)) return kWarning;
-  if (kind == kFault || kind == kEmergency || kind == kStop || kind == kBootProblem) return kError;
-  return kind == kVerdict || kind == kRefusal || kind == kHostWarning ? kWarning : kInfo;
-}
-
 }  // namespace
 
 Json time(double time_s) {
-  const double whole = std::floor(time_s);
-  return {{"sec", static_cast<std::int64_t>(whole)},
-          {"nsec", static_cast<std::int64_t>(std::min(std::round((time_s - whole) * 1e9), 999999999.0))}};
+  const std::int64_t total_us = std::llround(time_s * 1e6);
+  return {{"sec", total_us / 1'000'000}, {"nsec", total_us % 1'000'000 * 1000}};
 }
 
 Json scene_update(double time_s, const config::SceneConfig& scene, const std::vector<Vec3>& points, double radius_m) {
@@ -125,7 +91,7 @@ Json frame_transforms(double time_s, const std::vector<Vec3>& points) {
   Json transforms = Json::array();
   Pose parent;
   for (std::size_t i = 1; i < points.size(); ++i) {
-    const Pose link{points[i - 1], turn_from_z(subtract(points[i], points[i - 1]))};
+    const Pose link{points[i - 1], description::turn_from_z(subtract(points[i], points[i - 1]))};
     const Pose in_parent = compose(inverse(parent), link);
     transforms.push_back({{"timestamp", time(time_s)},
                           {"parent_frame_id", i == 1 ? "base" : frame_of(i - 1)},
@@ -137,11 +103,20 @@ Json frame_transforms(double time_s, const std::vector<Vec3>& points) {
   return {{"transforms", transforms}};
 }
 
-Json joint_states(double time_s, const std::vector<double>& angle_rad) {
+Json joint_states(double time_s, const std::vector<double>& values) {
   Json joints = Json::array();
-  for (std::size_t i = 0; i < angle_rad.size(); ++i)
-    joints.push_back({{"name", "theta_" + std::to_string(i + 1)}, {"position", rounded(angle_rad[i])}});
+  for (std::size_t i = 0; i < values.size(); ++i)
+    joints.push_back({{"name", "theta_" + std::to_string(i + 1)}, {"position", rounded(values[i])}});
   return {{"timestamp", time(time_s)}, {"joints", joints}};
+}
+
+int level_of(const event::Event& event) {
+  using enum event::EventKind;
+  constexpr int kWarning = kInfo + 1, kError = kInfo + 2;
+  const event::EventKind kind = event.kind;
+  if (kind == kDevice && event.number == event::number_of(event::DeviceEvent::kSlow)) return kWarning;
+  if (kind == kFault || kind == kEmergency || kind == kStop || kind == kBootProblem) return kError;
+  return kind == kVerdict || kind == kRefusal || kind == kHostWarning ? kWarning : kInfo;
 }
 
 Json log(double time_s, const event::Event& event) {

@@ -19,12 +19,14 @@ namespace liana::recording {
 struct McapChannel {
   std::string topic, message_encoding, schema_encoding, schema;
   std::string schema_name{};  // empty: the topic's
+  std::map<std::string, std::string> metadata{};
 };
 
 class McapWriter {
  public:
   // Creates the file; throws std::runtime_error with the system's reason.
-  McapWriter(const std::string& path, const std::string& library);
+  // `profile`: what readers may expect of all channels (https://mcap.dev/spec/registry).
+  McapWriter(const std::string& path, const std::string& library, const std::string& profile = "liana");
   ~McapWriter();
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;

@@ -15,14 +15,14 @@ constexpr std::size_t kChunkBytes = 256u << 10;  // about 0.7 s at 250 Hz: what 
 
 }  // namespace
 
-McapWriter::McapWriter(const std::string& path, const std::string& library)
+McapWriter::McapWriter(const std::string& path, const std::string& library, const std::string& profile)
     : file_(std::fopen(path.c_str(), "wb")), path_(path) {
   if (!file_)
     throw std::runtime_error("recording " + path + ": " + std::strerror(errno) +
                              "; the folder must exist and be writable");
   write(kMagic);
   std::string content;
-  put_text(content, "liana");
+  put_text(content, profile);
   put_text(content, library);
   record(kHeader, content);
 }
@@ -62,7 +62,7 @@ std::uint16_t McapWriter::add_channel(const McapChannel& wanted) {
   put(channel, id);
   put_text(channel, wanted.topic);
   put_text(channel, wanted.message_encoding);
-  put_map(channel, {});
+  put_map(channel, wanted.metadata);
   record(kChannel, channel);
   summary_.note_channel(channel);
   return id;

@@ -114,11 +114,16 @@ void add_log_export(CLI::App& log, Action& action) {
   add_arm_times(sub, exported);
   sub.add_option("--csv", exported.csv, "file for telemetry as a table");
   sub.add_option("--mcap", exported.mcap, "file for the arm in its scene, angles, events, as Foxglove shows them");
+  sub.add_option("--ros2", exported.ros2,
+                 "file for joints, frames, poses, forces, diagnostics, as ros2 bag play takes it");
   sub.add_option("--candump", exported.candump, "file for the traffic of all buses");
   sub.add_option("--tracker", exported.tracker,
                  "of a simulated run with --record: file for what a tracker would have seen of its tip, for liana "
                  "calibrate --tracker");
-  sub.add_option("--ticks", exported.ticks, "folder for every control tick, as --record writes it: liana replay");
+  CLI::Option* ticks =
+      sub.add_option("--ticks", exported.ticks, "folder for every control tick, as --record writes it: liana replay");
+  sub.add_flag("--wall-time", exported.wall_time, "times are UTC (when the run began, plus arm time), not arm time")
+      ->excludes(ticks);
 }
 
 void add_log(CLI::App& app, Action& action) {
