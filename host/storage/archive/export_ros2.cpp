@@ -1,7 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <optional>
 
 #include "firmware_like/math/trig.hpp"
 #include "host/api/telemetry/record.hpp"
@@ -141,7 +141,8 @@ class Ros2Export {
     const std::vector<double> estimated_N = values(record, "contact.force_N");
     if (are_known(sensed_N, 3) && are_known(sensed_Nm, 3)) {
       write("/measured_cf", kType, time_s, ros2::wrench(header(time_s, "tip"), vec3(sensed_N), vec3(sensed_Nm)));
-    } else if (estimated_N.size() == 3 && !tree_.cables.empty()) {
+    } else if (!tree_.cables.empty() &&
+               std::ranges::any_of(estimated_N, [](double each) { return std::isfinite(each); })) {
       write("/measured_cf", kType, time_s, ros2::wrench(header(time_s, "base"), vec3(estimated_N), {}));
     }
   }

@@ -83,7 +83,7 @@ class Cdr {
     for (const double value : v) put(value);
   }
   void put(const Quat& q) {
-    for (const std::size_t i : {1, 2, 3, 0}) put(q[i]);
+    for (const double value : {q[1], q[2], q[3], q[0]}) put(value);
   }
   void put(const Pose& pose) {
     put(pose.position_m);
