@@ -3,6 +3,7 @@ import contextlib
 import json
 import os
 import pathlib
+import re
 import signal
 import struct
 import subprocess
@@ -76,6 +77,29 @@ class WhatAClientSees(GatewayTest):
         for name in ("state", "is_homed", "owner", "held", "faults"):
             self.assertEqual(console.facts[name], self.states[console.state["tick"]][name], name)
         self.assertNotIn("measured_js_deg", console.facts)
+
+    def test_metrics_are_samples_that_prometheus_reads_and_say_what_the_state_says(self):
+        self.console().until(lambda me: me.facts.get("is_homed"))
+        status, headers, body = http_get(self.gateway.address, "/metrics")
+        self.assertEqual(status, 200)
+        self.assertIn("version=0.0.4", headers)
+        samples = {}
+        for line in body.decode().splitlines():
+            if line.startswith("# "):
+                self.assertRegex(line, r"^# (HELP|TYPE) liana_[a-z_]+ .+$")
+                continue
+            found = re.fullmatch(r'(liana_[a-z_]+(?:\{(?:[a-z]+="[^"]*",?)+\})?) (-?[0-9.e+-]+)', line)
+            self.assertTrue(found, line)
+            self.assertNotIn(found[1], samples)
+            samples[found[1]] = float(found[2])
+        self.assertEqual((samples["liana_up"], samples["liana_gateway_clients"], samples["liana_faults"]), (1, 1, 0))
+        self.assertEqual(sum(value for name, value in samples.items() if name.startswith("liana_state{")), 1)
+        self.assertEqual(samples['liana_state{state="DISABLED"}'], 1)
+        said = min(self.states.values(), key=lambda state: abs(state["time_s"] - samples["liana_arm_time_seconds"]))
+        tensions = [samples[f'liana_tension_newtons{{cable="{i}"}}'] for i in range(1, 16)]
+        self.assertEqual(len(said["tension_N"]), len(tensions))
+        for mine, his in zip(tensions, said["tension_N"]):
+            self.assertAlmostEqual(mine, his, delta=1.0)
 
     def test_events_come_in_order_each_once_and_those_kept_come_to_a_latecomer(self):
         first = self.console().until(lambda me: me.facts.get("is_homed"))
@@ -309,11 +333,13 @@ class WhoIsLetIn(GatewayAloneTest):
         with System() as system:
             gateway = Gateway(self, system.api, "--runs", self.folder / "runs", "--token-file", self.tokens)
             self.assertEqual(http_get(gateway.address, "/runs")[0], 403)
+            self.assertEqual(http_get(gateway.address, "/metrics")[0], 403)
             self.assertEqual(http_get(gateway.address, f"/run/one?ticket={'0' * 64}")[0], 403)
             system.client("keeper").step()
             watcher = self.console(gateway.address, token_name="will", token="watches-the-arm-00002")
             ticket = watcher.until(lambda me: me.welcome).welcome["ticket"]
             self.assertEqual(http_get(gateway.address, f"/run/one?ticket={ticket}")[2], b"page of one")
+            self.assertEqual(http_get(gateway.address, f"/metrics?ticket={ticket}")[0], 200)
             watcher.close()
             wait_until(
                 lambda: http_get(gateway.address, f"/run/one?ticket={ticket}")[0] == 403, "the end of the ticket"

@@ -1,16 +1,21 @@
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <stdexcept>
 
 #include "host/api/server/client.hpp"
 #include "host/apps/cli/commands.hpp"
+#include "host/apps/cli/udp_feed.hpp"
 #include "host/apps/launcher/errors.hpp"
+#include "host/apps/launcher/interrupt.hpp"
 #include "host/apps/launcher/observer.hpp"
 #include "host/base/event/fault_groups.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::cli {
 namespace {
+
+constexpr double kLook_s = 0.2;  // between looks for Ctrl-C
 
 // One running system while a command deals with it.
 struct Talk {
@@ -95,9 +100,39 @@ void print_state(const std::string& api, const Json& state) {
   std::printf("\n");
 }
 
+// Every state as it comes; lianad waits for none of them.
+int send_states(const StatusOptions& options) {
+  UdpFeed feed(options.udp);
+  const std::vector<std::string> systems = launcher::systems_to_ask(options.client.api);
+  if (systems.size() > 1) throw launcher::BadInput("--udp: more than one system runs: name one with --api");
+  api::ApiClient client = api::ApiClient::connect(systems.front(), kConnectTimeout_s);
+  launcher::hello_as_observer(client, "liana status");
+  const launcher::InterruptGuard interrupts;
+  std::string end = "interrupted";
+  while (interrupts.count() == 0) {
+    std::optional<Json> message;
+    try {
+      message = client.receive(kLook_s);
+    } catch (const std::runtime_error& error) {
+      end = error.what();
+      break;
+    }
+    if (message && message->value("op", "") == "state") feed.send(*message);
+  }
+  if (options.client.json) {
+    std::puts(Json{{"sent", feed.sent()}, {"unheard", feed.unheard()}, {"end", end}}.dump().c_str());
+  } else {
+    std::printf("%llu states sent to %s, %llu of them to nobody; %s\n", static_cast<unsigned long long>(feed.sent()),
+                options.udp.c_str(), static_cast<unsigned long long>(feed.unheard()), end.c_str());
+  }
+  return feed.sent() > 0 ? launcher::kExitOk : launcher::kExitFailure;
+}
+
 }  // namespace
 
-int status_command(const ClientOptions& options) {
+int status_command(const StatusOptions& given) {
+  const ClientOptions& options = given.client;
+  if (!given.udp.empty()) return send_states(given);
   std::vector<Talk> talks = begin_talks(options, "liana status", launcher::Observer::kSeeing, [](api::ApiClient&) {});
   for (Talk& talk : talks) {
     Json state =

@@ -217,8 +217,13 @@ struct ClientOptions {
   std::string api;  // empty: all running systems of this user
   bool json = false;
 };
-// The state of every running system, each named by its socket; exit code 1 when one does not answer.
-int status_command(const ClientOptions& options);
+struct StatusOptions {
+  ClientOptions client;
+  std::string udp;  // HOST:PORT; empty: the state is printed once
+};
+// The state of every running system, each named by its socket; exit code 1 when one does not answer. With `udp` the
+// states of the one running system as JSON datagrams, until Ctrl-C or the end of lianad.
+int status_command(const StatusOptions& options);
 
 struct DeviceOptions {
   std::string api;   // empty: every running system

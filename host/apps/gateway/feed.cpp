@@ -40,6 +40,7 @@ void Feed::connect() {
 void Feed::take(const std::string& packet) {
   if (is_state(packet)) {
     newest_state_ = packet;
+    is_recorded_ = false;
   } else {
     take_other(packet);
   }
@@ -53,6 +54,7 @@ void Feed::take_other(const std::string& packet) {
   if (op != "welcome") return;
   lianad_says_ = message;
   welcome_ = Json();
+  newest_state_.clear();
   events_.clear();
   next_event_ = message.at("events").value("oldest", std::uint64_t{1});
   away_ = kNotYet;
@@ -80,8 +82,9 @@ void Feed::begin_life(const Json& state) {
 }
 
 void Feed::publish(double now_s, bool wanted) {
-  if (newest_state_.empty() || !wanted || now_s - published_s_ < kMinBetween_s) return;
-  Json state = Json::parse(std::exchange(newest_state_, {}));
+  if (newest_state_.empty() || is_recorded_ || !wanted || now_s - published_s_ < kMinBetween_s) return;
+  Json state = Json::parse(newest_state_);
+  is_recorded_ = true;
   if (welcome_.is_null()) begin_life(state);
   record_ = telemetry::encode(*layout_, state, ++sequence_, facts_number_);
   Json facts = telemetry::facts_of(std::move(state));  // a copy would cost a third of all this

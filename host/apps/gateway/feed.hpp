@@ -33,6 +33,8 @@ class Feed {
   const std::string& away() const { return away_; }
   // What every client's welcome says of this life; empty before the first state.
   const Json& welcome() const { return welcome_; }
+  // The newest state as lianad sent it; empty while there is none.
+  const std::string& state() const { return newest_state_; }
   // The newest record and its sequence (0: none of this life yet).
   const std::string& record() const { return record_; }
   std::uint32_t sequence() const { return record_.empty() ? 0 : sequence_; }
@@ -58,7 +60,8 @@ class Feed {
   Json lianad_says_;  // its welcome
   Json welcome_;
   std::optional<telemetry::Layout> layout_;
-  std::string newest_state_;  // not yet a record
+  std::string newest_state_;
+  bool is_recorded_ = false;  // the newest state
   double published_s_ = -1.0;
   std::string record_;
   std::uint32_t sequence_ = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/apps/gateway/metrics.hpp"
 #include "host/apps/gateway/proof.hpp"
 
 namespace liana::gateway {
@@ -50,6 +51,8 @@ bool Gateway::lets_in(std::string_view ticket) const {
            return !client.session->ticket().empty() && same_in_constant_time(client.session->ticket(), ticket);
          });
 }
+
+std::string Gateway::metrics() const { return metrics_text(Json::parse_or_null(feed_.state()), greeted()); }
 
 Session& Gateway::open(const std::string& address, std::function<void()> something_to_send) {
   if (clients_.size() - greeted() >= kMaxStrangers) drop_oldest_stranger();

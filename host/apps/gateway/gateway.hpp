@@ -37,6 +37,8 @@ class Gateway {
   // Whether who shows this may load recorded runs: a ticket of a client that is connected, or anybody where no tokens
   // are asked for.
   bool lets_in(std::string_view ticket) const;
+  // The newest state and the number of clients as Prometheus reads them.
+  std::string metrics() const;
   // A client has connected; `something_to_send` is told when next() may have something.
   Session& open(const std::string& address, std::function<void()> something_to_send);
   // It is gone; so are its connections to lianad, which holds the arm if it was its owner.

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "host/apps/gateway/http_answer.hpp"
+#include "host/apps/gateway/metrics.hpp"
 #include "host/apps/gateway/run_pages.hpp"
 #include "host/apps/gateway/web_origin.hpp"
 #include "host/base/json/json.hpp"
@@ -92,8 +93,10 @@ int HttpHandler::serve(lws* wsi, const std::string& path) {
   if (const auto why = problem(wsi, &what)) return refuse(wsi, what, HTTP_STATUS_FORBIDDEN, *why);
   if (path == "/") return answer_page(wsi, options_.page);
   const bool about_runs = !options_.runs.empty() && (path == "/runs" || path.starts_with(kRun));
-  if (about_runs && !gateway_.lets_in(query(wsi, "ticket=")))
+  const bool is_metrics = path == "/metrics";
+  if ((about_runs || is_metrics) && !gateway_.lets_in(query(wsi, "ticket=")))
     return refuse(wsi, "no_token", HTTP_STATUS_FORBIDDEN, "'" + path + "': takes ?ticket= of the welcome");
+  if (is_metrics) return answer_http(wsi, HTTP_STATUS_OK, kMetricsType, gateway_.metrics());
   if (about_runs && path == "/runs") return answer_http(wsi, HTTP_STATUS_OK, kJson, run_list(options_.runs).dump());
   if (about_runs) strangers.leave(wsi);
   const auto run = about_runs ? run_page(options_.runs, path.substr(kRun.size())) : std::nullopt;

@@ -97,7 +97,8 @@ class Ros2Export {
         joints.names.push_back(joint->name);
         joints.positions.push_back(angle_deg[joint->theta] * kDegree * joint->per_rad);
       }
-      if (has_effort) joints.efforts = values(record, "torque_Nm");
+      if (const auto torque_Nm = values(record, "torque_Nm"); has_effort && are_known(torque_Nm, leads_.size()))
+        joints.efforts = torque_Nm;
       return ros2::joint_state(header(time_s, "base"), joints);
     };
     constexpr const char* kType = "sensor_msgs/msg/JointState";

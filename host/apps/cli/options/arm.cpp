@@ -6,10 +6,21 @@
 namespace liana::cli {
 namespace {
 
-void add_client(CLI::App& app, Action& action, const char* name, int (*command)(const ClientOptions&)) {
-  auto [sub, client] = add<ClientOptions>(app, action, name, command);
+void add_client_options(CLI::App& sub, ClientOptions& client) {
   sub.add_option("--api", client.api, "API socket of one lianad; where not given, all running systems of this user");
   sub.add_flag("--json", client.json, "print JSON, one line for each system");
+}
+
+void add_status(CLI::App& app, Action& action) {
+  auto [sub, status] = add<StatusOptions>(app, action, "status", status_command);
+  add_client_options(sub, status.client);
+  sub.add_option("--udp", status.udp,
+                 "HOST:PORT: send every state there as JSON, for PlotJuggler and others, until Ctrl-C");
+}
+
+void add_estop(CLI::App& app, Action& action) {
+  auto [sub, client] = add<ClientOptions>(app, action, "estop", estop_command);
+  add_client_options(sub, client);
 }
 
 void add_clear(CLI::App& app, Action& action) {
@@ -102,8 +113,8 @@ void add_force(CLI::App& app, Action& action) {
 }  // namespace
 
 void declare_arm(CLI::App& app, Action& action) {
-  add_client(app, action, "status", status_command);
-  add_client(app, action, "estop", estop_command);
+  add_status(app, action);
+  add_estop(app, action);
   add_clear(app, action);
   add_calibrate(app, action);
   add_latency(app, action);
