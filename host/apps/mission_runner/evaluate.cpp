@@ -1,10 +1,15 @@
 #include "host/apps/mission_runner/evaluate.hpp"
 
+#include <charconv>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
+#include <system_error>
 #include <vector>
 
+#include "firmware_like/drive/drive_io.hpp"
 #include "host/api/server/request_bounds.hpp"
 #include "host/apps/mission_runner/bindings.hpp"
 #include "host/apps/mission_runner/drive_tables.hpp"
@@ -12,6 +17,7 @@
 #include "host/apps/mission_runner/recordings.hpp"
 #include "host/apps/mission_runner/scene_shapes.hpp"
 #include "host/base/json/json.hpp"
+#include "host/model/config/bench_buses.hpp"
 #include "host/model/config/canonical.hpp"
 #include "host/model/config/config.hpp"
 #include "host/model/config/field.hpp"
@@ -23,6 +29,7 @@ namespace {
 
 constexpr const char* kCurve = "curve";
 constexpr const char* kCampaign = "campaign";
+constexpr std::string_view kBench = "bench_";  // begin of the names of config::bench_buses
 constexpr const char* kPlanAdvice = "give a file that liana plan --out has written";
 
 // A file as Lua names it in messages: the end of a long name only.
@@ -154,6 +161,16 @@ Json described_files(const Loaded& loaded) {
   return files;
 }
 
+// Of bench_7: 7. Empty for every other name.
+std::optional<std::int32_t> drives_of_bench(const std::string& name) {
+  std::int32_t drives = 0;
+  if (!name.starts_with(kBench)) return std::nullopt;
+  const char* end = name.data() + name.size();
+  const auto [stopped, error] = std::from_chars(name.data() + kBench.size(), end, drives);
+  if (error != std::errc() || stopped != end || drives < 1 || drives > kMaxDrives) return std::nullopt;
+  return drives;
+}
+
 }  // namespace
 
 void check_against_robot(Script& script, const Against& against, Looks looks) {
@@ -182,6 +199,7 @@ void load_mission(Script& script, const LuaFolders& lua_folders, const std::stri
 }
 
 std::string evaluate(Script& script, const LuaFolders& lua_folders, const std::string& kind, const std::string& name) {
+  if (const auto drives = drives_of_bench(name); drives && kind == "buses") return config::bench_buses(*drives);
   const ScriptFile file = find_script(lua_folders, kind, name);
   Json result;
   naming_file(file.display, [&] {

@@ -1,9 +1,11 @@
 """MCAP files (https://mcap.dev/spec): channels, schemas, metadata and messages, plain or in chunks, zstd or none.
 
-Checksums are not looked at: `liana replay` does that.
+Files of other programs can be read, too: content that is no JSON stays bytes. Whatever is wrong with a file is a
+BadRecording. Checksums are not looked at: `liana replay` does that.
 """
 from __future__ import annotations
 
+import contextlib
 import json
 import pathlib
 import struct
@@ -15,6 +17,7 @@ MAGIC = b"\x89MCAP0\r\n"
 SCHEMA, CHANNEL, MESSAGE, CHUNK, METADATA, DATA_END = 0x03, 0x04, 0x05, 0x06, 0x0C, 0x0F
 RECORD_HEAD_BYTES = 9  # operation code and length
 MESSAGE_HEAD = struct.Struct("<HIQQ")  # channel, sequence, two times
+MAX_CHUNK_BYTES = 1 << 30  # decompressed; writers make chunks of some MB
 
 Bytes = Union[bytes, memoryview]
 
@@ -23,30 +26,60 @@ class BadRecording(LianaError):
     """A file that is no recording, or of a kind that cannot be read here; the text says which and why."""
 
 
+# What parsing raises for content that is damaged, or of another kind than its name says.
+DAMAGE = (struct.error, ValueError, LookupError, TypeError, AttributeError, OverflowError, RecursionError, MemoryError)
+
+
+@contextlib.contextmanager
+def reading(what: object) -> Iterator[None]:
+    """Makes a BadRecording, which begins with `what`, of everything that is wrong with a file."""
+    try:
+        yield
+    except BadRecording as error:
+        if str(error).startswith(str(what)):
+            raise
+        raise BadRecording(f"{what}: {error}") from error
+    except OSError as error:
+        raise BadRecording(f"{what}: {error.strerror or error}: give a file that can be read") from error
+    except DAMAGE as error:
+        said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+        raise BadRecording(f"{what}: damaged, or of another kind ({said}): record it again") from error
+
+
+def content_of(path: Path) -> bytes:
+    """A file's bytes; BadRecording for what is no file, such as a pipe, which would never end."""
+    with reading(path):
+        if pathlib.Path(path).exists() and not pathlib.Path(path).is_file():
+            raise BadRecording(f"{path}: is no file: give a recording")
+        return pathlib.Path(path).read_bytes()
+
+
 class Channel(NamedTuple):
-    """One channel; `schema` is the schema's text, whatever `schema_encoding` says it is."""
+    """One channel; `schema` is the schema's text, empty where it is none (protobuf), `schema_data` its bytes."""
 
     topic: str
     message_encoding: str
     schema_name: str
     schema_encoding: str
     schema: str
+    schema_data: bytes
 
 
 class Message(NamedTuple):
-    """One message of a channel; times in nanoseconds."""
+    """One message of a channel."""
 
     channel: Channel
-    sequence: int
-    log_time_ns: int
-    publish_time_ns: int
-    data: memoryview
+    sequence: int  # as its writer counts; in Liana's recordings the tick
+    log_time_ns: int  # nanoseconds; in Liana's recordings of arm time
+    publish_time_ns: int  # nanoseconds
+    data: memoryview  # in the channel's message_encoding
 
     def json(self) -> Any:
         """The content of a message of a JSON channel."""
         if self.channel.message_encoding != "json":
             raise BadRecording(f"channel {self.channel.topic} is {self.channel.message_encoding}, not json")
-        return json.loads(bytes(self.data))
+        with reading(f"channel {self.channel.topic}, message {self.sequence}"):
+            return json.loads(bytes(self.data))
 
 
 def unzstd(data: Bytes, size: int) -> bytes:
@@ -76,11 +109,21 @@ def decompressed(data: Bytes, compression: str, size: int) -> Bytes:
 
 def text_at(data: Bytes, at: int) -> tuple[str, int]:
     """A string with its length before it, and where it ends."""
+    content, end = bytes_at(data, at)
+    return content.decode(), end
+
+
+def bytes_at(data: Bytes, at: int) -> tuple[bytes, int]:
+    """Bytes with their count before them, and where they end."""
     end = at + 4 + struct.unpack_from("<I", data, at)[0]
-    return bytes(data[at + 4 : end]).decode(), end
+    if end > len(data):
+        raise BadRecording(
+            f"{end - at - 4} bytes are announced where {len(data) - at - 4} are left: the file is damaged"
+        )
+    return bytes(data[at + 4 : end]), end
 
 
-def records(data: Bytes) -> Iterator[tuple[int, memoryview]]:
+def records(data: Bytes, in_chunk: bool = False) -> Iterator[tuple[int, memoryview]]:
     """Operation code and content of each whole record; those of a chunk instead of the chunk."""
     view, at = memoryview(data), 0
     while at + RECORD_HEAD_BYTES <= len(view) and view[at : at + len(MAGIC)] != MAGIC:
@@ -88,8 +131,10 @@ def records(data: Bytes) -> Iterator[tuple[int, memoryview]]:
         content = view[at + RECORD_HEAD_BYTES : at + RECORD_HEAD_BYTES + length]
         if len(content) < length:
             return  # cut short
+        if opcode == CHUNK and in_chunk:
+            raise BadRecording("a chunk is inside a chunk, which MCAP does not allow: the file is damaged")
         if opcode == CHUNK:
-            yield from records(chunk_content(content))
+            yield from records(chunk_content(content), in_chunk=True)
         else:
             yield opcode, content
         at += RECORD_HEAD_BYTES + length
@@ -98,6 +143,10 @@ def records(data: Bytes) -> Iterator[tuple[int, memoryview]]:
 def chunk_content(record: memoryview) -> Bytes:
     """Behind two times: size, checksum, compression, and the compressed records with their length."""
     size = struct.unpack_from("<Q", record, 16)[0]
+    if size > MAX_CHUNK_BYTES:
+        raise BadRecording(
+            f"a chunk has {size} bytes: allowed {MAX_CHUNK_BYTES}: the file is damaged, or write smaller ones"
+        )
     compression, at = text_at(record, 28)
     return decompressed(record[at + 8 : at + 8 + struct.unpack_from("<Q", record, at)[0]], compression, size)
 
@@ -113,22 +162,32 @@ def metadata_of(record: memoryview) -> tuple[str, dict[str, str]]:
     return name, values
 
 
+def text_or_none(data: bytes) -> str:
+    """UTF-8 as text; empty for other bytes."""
+    try:
+        return data.decode()
+    except UnicodeDecodeError:
+        return ""
+
+
 class Mcap:
     """A file in memory. `channels` by topic; `metadata` by name; `whole`: it has its end record."""
 
     def __init__(self, path: Path) -> None:
         """Reads the file and finds its messages; chunks are decompressed here."""
-        data = pathlib.Path(path).read_bytes()
+        self.path = path
+        data = content_of(path)
         if data[: len(MAGIC)] != MAGIC:
             raise BadRecording(f"{path} is no MCAP file")
         self.channels: dict[str, Channel] = {}
         self.metadata: dict[str, dict[str, str]] = {}
         self.whole = False
-        self._schemas: dict[int, tuple[str, str, str]] = {0: ("", "", "")}
+        self._schemas: dict[int, tuple[str, str, bytes]] = {0: ("", "", b"")}
         self._by_id: dict[int, Channel] = {}
         self._messages: list[memoryview] = []
-        for opcode, record in records(memoryview(data)[len(MAGIC) :]):
-            self._take(opcode, record)
+        with reading(path):
+            for opcode, record in records(memoryview(data)[len(MAGIC) :]):
+                self._take(opcode, record)
 
     def _take(self, opcode: int, record: memoryview) -> None:
         if opcode == MESSAGE:
@@ -136,7 +195,7 @@ class Mcap:
         elif opcode == SCHEMA:
             name, at = text_at(record, 2)
             encoding, at = text_at(record, at)
-            self._schemas[struct.unpack_from("<H", record)[0]] = (name, encoding, text_at(record, at)[0])
+            self._schemas[struct.unpack_from("<H", record)[0]] = (name, encoding, bytes_at(record, at)[0])
         elif opcode == CHANNEL:
             self._keep_channel(record)
         elif opcode == METADATA:
@@ -147,13 +206,15 @@ class Mcap:
     def _keep_channel(self, record: memoryview) -> None:
         number, schema = struct.unpack_from("<HH", record)
         topic, at = text_at(record, 4)
-        channel = Channel(topic, text_at(record, at)[0], *self._schemas[schema])
+        name, encoding, data = self._schemas[schema]
+        channel = Channel(topic, text_at(record, at)[0], name, encoding, text_or_none(data), data)
         self.channels[topic] = self._by_id[number] = channel
 
     def messages(self, *topics: str) -> Iterator[Message]:
         """All messages in the file's order; with `topics` only those of these channels."""
         for record in self._messages:
-            number, sequence, log_time_ns, publish_time_ns = MESSAGE_HEAD.unpack_from(record)
-            channel = self._by_id[number]
+            with reading(self.path):
+                number, sequence, log_time_ns, publish_time_ns = MESSAGE_HEAD.unpack_from(record)
+                channel = self._by_id[number]
             if not topics or channel.topic in topics:
                 yield Message(channel, sequence, log_time_ns, publish_time_ns, record[MESSAGE_HEAD.size :])

@@ -1,5 +1,5 @@
 """What a run leaves behind (docs/reference/formats.md): recordings (ticks.mcap) tick by tick, the bench's truth,
-events.
+events. Arrays of numpy are there where numpy is.
 """
 from __future__ import annotations
 
@@ -9,13 +9,12 @@ import itertools
 import json
 import math
 import operator
-import pathlib
 import re
 import struct
-from typing import Any, Iterable, NamedTuple, Optional, Sequence, Union
+from typing import Any, Callable, Iterable, NamedTuple, Optional, Sequence, Union
 
-from liana.client import Path
-from liana.mcap import BadRecording, Bytes, Mcap
+from liana.client import LianaError, Path
+from liana.mcap import BadRecording, Bytes, Mcap, content_of, reading
 
 __all__ = ["BadRecording", "Event", "Fault", "Mcap", "Recording", "Tick", "Truth", "offsets", "read_events"]
 
@@ -55,15 +54,16 @@ ANGLE_COLUMN = re.compile(r"(?:theta|joint)_deg_\d+")  # of truth.bin
 STATES = ("DISABLED", "ENABLING", "ENABLED", "STOPPING", "FAULT")
 REQUESTS = ("none", "enable", "disable", "clear", "stop")
 FIELD_NAME = re.compile(r"(\w+)((?:\[\d+\])*)$")
+MAX_ELEMENTS = 1 << 20  # of all fields of a schema
 
 
 class Fault(NamedTuple):
-    """A latched fault; numbers are those of docs/reference/faults.md, `tick` is when it was latched."""
+    """A latched fault (docs/reference/faults.md)."""
 
-    number: int
-    index: int  # type: ignore[assignment]  # of drive or bus; hides the tuple's own index()
-    detail: int
-    tick: int
+    number: int  # such as 3002
+    index: int  # type: ignore[assignment]  # of drive or bus, from 0, -1: none; hides the tuple's own index()
+    detail: int  # what it means depends on the number
+    tick: int  # in which it was latched
 
 
 class Event(NamedTuple):
@@ -72,19 +72,19 @@ class Event(NamedTuple):
     """
 
     sequence: int  # 1, 2, ... without gaps
-    time_s: float  # arm time
-    tick: int
-    kind: str
-    number: int
-    subject: str
-    text: str
-    values: dict[str, float]
+    time_s: float  # seconds of arm time
+    tick: int  # when lianad noted it
+    kind: str  # such as fault, refusal, verdict
+    number: int  # of the fault or refusal; 0: none
+    subject: str  # what it is about
+    text: str  # for people
+    values: dict[str, float]  # by name; the page has their units
 
 
 def read_events(path: Path) -> list[Event]:
     """The events of a run's events.txt, without a last line that has no end; BadRecording for a line that is none."""
     events = []
-    for line in pathlib.Path(path).read_text(errors="replace").split("\n")[:-1]:
+    for line in content_of(path).decode(errors="replace").split("\n")[:-1]:
         if line.startswith("#"):
             continue
         try:
@@ -98,33 +98,60 @@ def read_events(path: Path) -> list[Event]:
 
 
 class Tick(NamedTuple):
-    """One tick of the core: what it was told and what it did. Arrays have an element per drive, rates one per theta, or
-    joint of a serial arm.
+    """One tick of the core: what it was told and what it did. Arrays have an element for each drive, rates one for each
+    theta, or joint of a serial arm. A tick is Recording.period_s long. Recording.tension_N gives newtons.
     """
 
-    tick: int
-    lost_ticks: int
+    tick: int  # counts from the start of lianad
+    lost_ticks: int  # ticks that were missed before this one
     lost_buses: int  # bit mask
     twice: int  # bit mask: drives under whose identifiers somebody else speaks
     request: str  # of REQUESTS
     sequence: int  # of the telecommand that is offered
     first_tick: int  # in which it may act
     expiry_tick: int  # from which on it may not
-    statusword: Sequence[int]
-    torque: Sequence[int]  # permille of the rated one
-    position: Sequence[int]  # counts
+    statusword: Sequence[int]  # CiA 402, object 6041
+    torque: Sequence[int]  # permille of the rated torque, object 6077
+    position: Sequence[int]  # counts of the encoder, object 6064
     age: Sequence[int]  # ticks since the drive's last report
-    heartbeat_age: Sequence[int]  # ticks
-    operational: Sequence[int]
+    heartbeat_age: Sequence[int]  # ticks since its last heartbeat
+    operational: Sequence[int]  # 1: its network state is operational
     state: str  # of STATES
-    stop_category: int
-    at_rest: int
+    stop_category: int  # 0: none
+    at_rest: int  # 1: nothing moves
     active_sequence: int  # of the telecommand in force; 0: none
     faults: Sequence[Fault]
     dropped: int  # faults for which there was no place
-    controlword: Sequence[int]
-    target: Sequence[int]  # counts
+    controlword: Sequence[int]  # CiA 402, object 6040
+    target: Sequence[int]  # counts of the encoder, object 607A
     theta_rate: Sequence[float]  # rad/s
+
+
+# What Recording.arrays has of the fields of Tick, with their units.
+COLUMNS = {
+    "tick": "tick",
+    "state": "state",
+    "request": "request",
+    "stop_category": "stop_category",
+    "at_rest": "at_rest",
+    "sequence": "active_sequence",
+    "statusword": "statusword",
+    "controlword": "controlword",
+    "torque_permille": "torque",
+    "position_counts": "position",
+    "target_counts": "target",
+    "age_ticks": "age",
+    "theta_rate_rad_s": "theta_rate",
+}
+
+
+def numpy() -> Any:
+    """The module, where it is installed; LianaError where it is not."""
+    try:
+        import numpy as module  # only here: everything else does without
+    except ImportError as error:
+        raise LianaError(f"arrays need numpy, which is not there ({error}): install python3-numpy") from error
+    return module
 
 
 def offsets(lines: Iterable[tuple[str, int]]) -> dict[str, list[tuple[int, int]]]:
@@ -138,7 +165,10 @@ def offsets(lines: Iterable[tuple[str, int]]) -> dict[str, list[tuple[int, int]]
             if match is None:
                 raise BadRecording(f"the schema has a field {head}, which is no name")
             name, counts = match.groups()
-            for _ in range(math.prod(map(int, re.findall(r"\d+", counts)))):
+            count = math.prod(map(int, re.findall(r"\d+", counts)))
+            if count * len(fields) > MAX_ELEMENTS or sum(map(len, found.values())) > MAX_ELEMENTS:
+                raise BadRecording(f"the schema's field {head} makes more than {MAX_ELEMENTS} elements")
+            for _ in range(count):
                 if len(fields[0][0]) > 1:
                     at = place([(path[1:], width) for path, width in fields], at, f"{prefix}{name}.")
                 else:
@@ -148,6 +178,13 @@ def offsets(lines: Iterable[tuple[str, int]]) -> dict[str, list[tuple[int, int]]
 
     place([(path.split("."), width) for path, width in lines], 0, "")
     return found
+
+
+def getter(ranks: Sequence[int], is_array: bool) -> Callable[[Sequence[Any]], Any]:
+    """Takes these elements, an array as a tuple also where it has one element."""
+    if is_array and len(ranks) == 1:
+        return operator.itemgetter(slice(ranks[0], ranks[0] + 1))
+    return operator.itemgetter(*ranks)
 
 
 class Picker:
@@ -168,7 +205,8 @@ class Picker:
             end = at + struct.calcsize(kind)
         self.form = struct.Struct(form)
         rank = {at: i for i, (at, _) in enumerate(order)}
-        self.getters = [operator.itemgetter(*(rank[at] for at, _ in elements[path])) for path in wanted]
+        ranks = [[rank[at] for at, _ in elements[path]] for path in wanted]
+        self.getters = [getter(each, wanted[path][1] != 1) for path, each in zip(wanted, ranks)]
 
     def pick(self, data: Bytes) -> list[Any]:
         """The wanted fields in their order; an array as a tuple."""
@@ -183,19 +221,60 @@ class Recording(Mcap):
 
     def robot(self) -> dict[str, Any]:
         """The robot table that was recorded with."""
-        robot: dict[str, Any] = json.loads(self.metadata["run"]["robot"])
-        return robot
+        with reading(f"{self.path}: the robot table"):
+            robot: dict[str, Any] = json.loads(self._run("robot"))
+            return robot
+
+    @functools.cached_property
+    def period_s(self) -> float:
+        """Length of a tick, in seconds."""
+        with reading(f"{self.path}: the length of a tick"):
+            return float(self._run("period_s"))
+
+    def _run(self, name: str) -> str:
+        if name not in self.metadata.get("run", {}):
+            raise BadRecording(f"{self.path}: has no {name} of a run: give ticks.mcap of a run's folder")
+        return self.metadata["run"][name]
 
     @functools.cached_property
     def ticks(self) -> list[Tick]:
         """Every tick in recorded order; read once, about 20 us each."""
         found, inputs = [], []
-        for message in self.messages("inputs", "outputs"):
-            if message.channel.topic == "inputs":
-                inputs = self._inputs.pick(message.data)
-            else:
-                found.append(tick_of(inputs, self._outputs.pick(message.data)))
+        with reading(self.path):
+            for message in self.messages("inputs", "outputs"):
+                if message.channel.topic == "inputs":
+                    inputs = self._inputs.pick(message.data)
+                else:
+                    found.append(tick_of(inputs, self._outputs.pick(message.data)))
         return found
+
+    @functools.cached_property
+    def N_per_permille(self) -> float:
+        """Tension of a cable, in newtons, at one permille of its drive's rated torque; BadRecording for a serial arm."""
+        robot = self.robot()
+        if is_serial(robot):
+            raise BadRecording(f"{self.path}: a serial arm has no cables: take torque_Nm of arrays()")
+        with reading(f"{self.path}: the robot table's drives"):
+            return float(robot["drives"]["rated_torque_Nm"]) / float(robot["drives"]["drum_radius_m"]) / 1000.0
+
+    def tension_N(self, tick: Tick) -> tuple[float, ...]:
+        """Tension of each cable at its drum by the drive's torque, in newtons, as lianad measures it without load
+        cells. Drives of a base that feeds have a force and a torque at the same scale."""
+        return tuple(self.N_per_permille * torque for torque in tick.torque)
+
+    def arrays(self) -> dict[str, Any]:
+        """All ticks as arrays of numpy, a row for each tick and a column for each drive or angle: `time_s`, the names
+        of COLUMNS, and `tension_N` of a cable arm (newtons) or `torque_Nm` of a serial one."""
+        np, ticks = numpy(), self.ticks
+        with reading(self.path):
+            found = {name: np.array([getattr(tick, field) for tick in ticks]) for name, field in COLUMNS.items()}
+            found["time_s"] = found["tick"] * self.period_s
+            drives = self.robot()["drives"]
+            if is_serial(self.robot()):
+                found["torque_Nm"] = found["torque_permille"] * (np.array(drives["rated_torque_Nm"]) / 1000.0)
+            else:
+                found["tension_N"] = found["torque_permille"] * self.N_per_permille
+            return found
 
     @functools.cached_property
     def _inputs(self) -> Picker:
@@ -230,15 +309,17 @@ def tick_of(inputs: list[Any], outputs: list[Any]) -> Tick:
 
 
 class Truth:
-    """truth.bin of the bench: one row per slot, `columns` names what is in it."""
+    """truth.bin of the bench: one row for each slot of the bus. `columns` names what is in it, with units (`_m`, `_N`,
+    `_deg`), such as `tension_motor_max_N`: the largest tension of any cable at its drum, in newtons."""
 
     def __init__(self, path: Path) -> None:
-        data = pathlib.Path(path).read_bytes()
-        end = data.index(b"\n") + 1
-        self.columns: list[str] = json.loads(data[:end])["columns"]
-        form = struct.Struct(f"<{len(self.columns)}d")
-        whole = (len(data) - end) // form.size  # a run that was killed may leave a part of a row
-        self.rows = [form.unpack_from(data, end + i * form.size) for i in range(whole)]
+        data = content_of(path)
+        with reading(path):
+            end = data.index(b"\n") + 1
+            self.columns: list[str] = list(map(str, json.loads(data[:end])["columns"]))
+            form = struct.Struct(f"<{len(self.columns)}d")
+            whole = (len(data) - end) // form.size  # a run that was killed may leave a part of a row
+            self.rows = [form.unpack_from(data, end + i * form.size) for i in range(whole)]
 
     @functools.cached_property
     def _angles(self) -> slice:
@@ -246,9 +327,16 @@ class Truth:
         return slice(found[0], found[-1] + 1)
 
     def column(self, name: str) -> list[float]:
-        """One quantity over all slots."""
+        """One quantity over all slots; the unit ends its name. LianaError for a name that is not in `columns`."""
+        if name not in self.columns:
+            raise LianaError(f"{name}: allowed {', '.join(self.columns)}")
         i = self.columns.index(name)
         return [row[i] for row in self.rows]
+
+    def arrays(self) -> dict[str, Any]:
+        """All columns as arrays of numpy, by name."""
+        np = numpy()
+        return dict(zip(self.columns, np.array(self.rows, dtype=float).reshape(-1, len(self.columns)).T))
 
     def theta_deg(self, row: int) -> tuple[float, ...]:
         """The ten thetas of a row; of a serial arm its joints."""

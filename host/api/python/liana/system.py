@@ -1,6 +1,7 @@
 """Liana's programs as `liana run` starts them, in virtual time and a folder of their own, for scenarios and tests.
 
-Programs are those in $LIANA_BIN; without it, of the prefix that this is installed in, or of this tree (build/bin).
+Programs are those in $LIANA_BIN where that is set. Else they are searched in PATH, in the prefix that this package is
+installed in, and in the build folder of its source tree (build/bin), in this order.
 """
 from __future__ import annotations
 
@@ -21,10 +22,9 @@ from liana import client as clients
 from liana.client import Client, Connection, LianaError, Message, wait_until
 from liana.recordings import Event, Truth, read_events
 
-HERE = pathlib.Path(__file__).resolve()
-IS_INSTALLED = HERE.parents[2] == HERE.parents[4] / "share" / "liana"
-BINARIES = HERE.parents[4] / "bin" if IS_INSTALLED else HERE.parents[4] / "build" / "bin"
-LUA = HERE.parents[2 if IS_INSTALLED else 4] / "lua"
+TREE = pathlib.Path(os.path.normpath(pathlib.Path(__file__).resolve() / "../../../../.."))  # tree or prefix of this
+DEFAULT_ROBOT = "zhu2022"
+DRIVES_OF_EMBEDDED = 15  # of the bus table `embedded`
 BAD_INPUT = 2  # exit code of every program that refuses what it was given
 
 
@@ -32,14 +32,51 @@ class ProgramRefused(LianaError):
     """A program ended because of what it was given; the text is what it said."""
 
 
+class ProgramMissing(LianaError):
+    """A program, or a file that belongs to the programs, is not there; the text says where it was searched."""
+
+
+def places() -> list[pathlib.Path]:
+    """The folders that may have the programs, in the order in which they are searched."""
+    if given := os.environ.get("LIANA_BIN"):
+        return [pathlib.Path(given).absolute()]
+    in_path = [pathlib.Path(folder).absolute() for folder in os.get_exec_path() if folder]
+    return [*in_path, TREE / "bin", TREE / "build" / "bin"]
+
+
+def is_program(path: pathlib.Path) -> bool:
+    return path.is_file() and os.access(path, os.X_OK)
+
+
 def binaries() -> pathlib.Path:
-    """The folder of the programs."""
-    return pathlib.Path(os.environ.get("LIANA_BIN") or BINARIES).absolute()
+    """The folder of the programs, the first of places() that has `lianad` or `liana`: all are taken from one folder, so
+    that their versions agree. ProgramMissing where none has."""
+    searched = places()
+    for folder in searched:
+        if is_program(folder / "lianad") or is_program(folder / "liana"):
+            return folder
+    said = "LIANA_BIN" if os.environ.get("LIANA_BIN") else "PATH"
+    named = "".join(f", {folder}" for folder in searched[-2:])
+    raise ProgramMissing(f"lianad is not in {said}{named}: install Liana, build it, or set {said} to its folder")
 
 
 def program(name: str) -> str:
-    """Path of a program."""
-    return str(binaries() / name)
+    """Path of a program; ProgramMissing where it is not beside the others."""
+    path = binaries() / name
+    if not is_program(path):
+        raise ProgramMissing(f"{name} is not in {path.parent}, where other programs of Liana are: install or build it")
+    return str(path)
+
+
+def lua() -> pathlib.Path:
+    """The folder of robots, scenes, buses and missions that belongs to the programs."""
+    folder = binaries()
+    above = [folder.parent / "share" / "liana", folder.parent.parent, folder.resolve() / "../../..", TREE]
+    choices = [pathlib.Path(os.path.normpath(each / "lua")) for each in above]
+    for choice in choices:
+        if (choice / "robots").is_dir():
+            return choice
+    raise ProgramMissing(f"Liana's tables are in none of {', '.join(map(str, choices))}: install Liana again")
 
 
 def run(*words: Any, **options: Any) -> subprocess.CompletedProcess[str]:
@@ -56,7 +93,25 @@ def table(kind: str, name: str) -> str:
     done = run("liana-mission", "eval", kind, name)
     if done.returncode != 0:
         raise ProgramRefused(done.stderr.strip())
-    return done.stdout
+    return str(done.stdout)
+
+
+def bus_of(robot: str) -> str:
+    """The bus table that a simulated system of this robot takes, as `liana run` chooses it: its own, else `embedded`
+    where that has its drives, else one that is made for them."""
+    try:
+        table("buses", f"embedded_{robot}")
+        return f"embedded_{robot}"
+    except ProgramRefused:
+        drives = len(json.loads(table("robot", robot))["drives"]["zero_counts"])
+        return "embedded" if drives == DRIVES_OF_EMBEDDED else f"bench_{drives}"
+
+
+def start_pose_of(robot: str) -> str:
+    """The named pose in which a simulated arm of this robot stands at first, as `liana run` chooses it."""
+    content = json.loads(table("robot", robot))
+    poses = content["named_poses_deg"]
+    return str(content.get("start_pose") or next((name for name in ("prepare", "zero") if name in poses), min(poses)))
 
 
 class System:
@@ -72,17 +127,21 @@ class System:
         faults: Optional[list[Message]] = None,
         bus_script: Optional[list[Message]] = None,
         seed: int = 1,
-        bus: str = "embedded",
+        bus: Optional[str] = None,
         lianad: Iterable[Any] = (),
         bench: Iterable[Any] = (),
-        robot: str = "zhu2022",
-        scene: str = "panel_slit",
+        robot: str = DEFAULT_ROBOT,
+        scene: Optional[str] = None,
         events: Optional[clients.Path] = None,
         retract_path: Optional[clients.Path] = None,
     ) -> None:
-        """`expect`: roles whom virtual time waits for; `faults`, `bus_script`: docs/how-to/run-hil.md; `lianad`,
-        `bench`: further words for these programs; `events`: the file of events, events.txt in `directory` unless given;
-        `retract_path`: the file that keeps the verified path, retract_path.bin there unless given.
+        """`robot`, `scene`, `bus`: names of tables or files. Where no bus is given the robot's own is taken, as by
+        `liana run`; where no scene is given, `panel_slit` for `zhu2022`, and `none` for every other robot.
+
+        `expect`: roles whom virtual time waits for; `faults`, `bus_script`: docs/how-to/run-hil.md; `seed`: of the
+        simulated errors; `lianad`, `bench`: further words for these programs; `events`: the file of events, events.txt
+        in `directory` unless given; `retract_path`: the file that keeps the verified path, retract_path.bin there
+        unless given.
         """
         self.directory = pathlib.Path(tempfile.mkdtemp(prefix="liana-sys-"))
         self.api, self.bus_socket = self.directory / "api", self.directory / "bus"
@@ -92,7 +151,8 @@ class System:
         self.children: dict[str, subprocess.Popen[bytes]] = {}
         self.clients: list[Client] = []
         self.expect, self.faults, self.script, self.seed = expect, faults, bus_script, seed
-        self.robot, self.scene, self.bus = robot, scene, bus
+        self.robot, self.bus = robot, bus
+        self.scene = scene or ("panel_slit" if robot == DEFAULT_ROBOT else "none")
         self.lianad_words, self.bench_words = list(lianad), list(bench)
 
     # ---- start ----
@@ -108,6 +168,7 @@ class System:
 
     def write_tables(self) -> None:
         """What the programs are given, as files."""
+        self.bus = self.bus or bus_of(self.robot)
         for kind, name in (("robot", self.robot), ("scene", self.scene), ("buses", self.bus)):
             (self.directory / f"{kind}.json").write_text(table(kind, name))
         for name, content in (("faults", self.faults), ("script", self.script)):
@@ -150,6 +211,8 @@ class System:
 
     def start_bench(self) -> None:
         words = ["--bus-socket", self.bus_socket, "--api", self.api, "--seed", self.seed, *self.reports_of_bench()]
+        if "--start-pose" not in self.bench_words:
+            words += ["--start-pose", start_pose_of(self.robot)]
         self.start("liana-bench", *self.tables(), *words, *self.optional("--faults", "faults"), *self.bench_words)
 
     def reports_of_bench(self) -> list[Any]:
@@ -161,7 +224,7 @@ class System:
 
     def start_operator(self, lockstep: bool = True) -> None:
         """The simulated person at the hand controllers."""
-        recordings, scene = LUA / "recordings", self.directory / "scene.json"
+        recordings, scene = lua() / "recordings", self.directory / "scene.json"
         words = ["--api", self.api, "--recordings", recordings, "--scene", scene, "--seed", self.seed]
         self.start("liana-operator", *words, *(["--lockstep"] if lockstep else []))
 
