@@ -27,7 +27,16 @@ class BadRecording(LianaError):
 
 
 # What parsing raises for content that is damaged, or of another kind than its name says.
-DAMAGE = (struct.error, ValueError, LookupError, TypeError, AttributeError, OverflowError, RecursionError, MemoryError)
+DAMAGE = (
+    struct.error,
+    ValueError,
+    LookupError,
+    TypeError,
+    AttributeError,
+    ArithmeticError,
+    RecursionError,
+    MemoryError,
+)
 
 
 @contextlib.contextmanager

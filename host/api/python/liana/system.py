@@ -284,8 +284,10 @@ class System:
         return self.children[name].wait(timeout=clients.PATIENCE_S)
 
     def shut_down(self, client: Client) -> dict[str, int]:
-        """Ends lianad, then bus and bench, which write their summaries; their exit codes."""
+        """Ends lianad, then bus and bench, which write their summaries; their exit codes. A recording is whole then."""
         self.end_lianad(client)
+        if "liana-archive" in self.children:
+            self.ended("liana-archive")
         return {name: self.ended(name) for name in ("lianad", "liana-bus", "liana-bench")}
 
     def end_lianad(self, client: Client) -> None:

@@ -1,14 +1,18 @@
 """Recordings as the reader has to take them, written here byte by byte: plain, in chunks, compressed, cut short."""
 import ctypes
 import json
+import os
 import pathlib
+import random
 import struct
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[4] / "host" / "api" / "python"))
 
+import liana  # noqa: E402
 from liana import mcap, recordings  # noqa: E402
 from liana.recordings import BadRecording, Mcap, Recording, Truth, read_events  # noqa: E402
 
@@ -24,7 +28,9 @@ def record(opcode, content):
 
 
 def schema(number, name, encoding, content):
-    return record(mcap.SCHEMA, struct.pack("<H", number) + text(name) + text(encoding) + text(content))
+    data = content if isinstance(content, bytes) else content.encode()
+    head = struct.pack("<H", number) + text(name) + text(encoding)
+    return record(mcap.SCHEMA, head + struct.pack("<I", len(data)) + data)
 
 
 def channel(number, topic, encoding, of_schema):
@@ -108,6 +114,96 @@ class Containers(Files):
             self.assertLessEqual(len(list(read.messages())), 1)
 
 
+class Foreign(Files):
+    """Files of other programs, and files that are damaged: read, or refused by BadRecording."""
+
+    def test_a_schema_that_is_no_text_stays_bytes_and_its_messages_are_read(self):
+        descriptor = b"\n\xff\xfe\x80 a descriptor of protobuf"
+        pose = schema(1, "Pose", "protobuf", descriptor) + channel(1, "/pose", "protobuf", 1)
+        read = Mcap(self.file(pose, message(1, b"\x08\x96\x01"), END))
+        found = read.channels["/pose"]
+        self.assertEqual((found.schema_encoding, found.schema, found.schema_data), ("protobuf", "", descriptor))
+        self.assertEqual([bytes(one.data) for one in read.messages("/pose")], [b"\x08\x96\x01"])
+
+    def refused(self, *parts):
+        path = self.file(*parts)
+        with self.assertRaises(BadRecording) as caught:
+            for one in Mcap(path).messages():
+                one.json()
+        return str(caught.exception)
+
+    def test_what_no_writer_makes_is_refused_and_takes_no_memory(self):
+        nested = EVENTS
+        for _ in range(3000):
+            nested = chunk(nested, "", nested) if len(nested) < 1 << 20 else nested
+        head = struct.pack("<QQQI", 0, 0, 1 << 60, 0) + text("zstd")
+        for part in (
+            nested,
+            record(mcap.CHUNK, head + struct.pack("<Q", 4) + bytes(4)),
+            record(mcap.CHUNK, b"short"),
+            channel(1, "x", "json", 7),
+            message(9, b"of no channel"),
+            record(mcap.MESSAGE, b"?"),
+            EVENTS + message(1, b"[" * 100000),
+            EVENTS + message(1, b"\xff"),
+            record(mcap.METADATA, text("run") + struct.pack("<I", 1 << 31)),
+            record(mcap.SCHEMA, struct.pack("<H", 1) + struct.pack("<I", 1 << 31)),
+        ):
+            self.refused(part, END)
+
+    def test_bytes_changed_at_random_are_read_or_refused(self):
+        content = EVENTS + b"".join(message(1, json.dumps({"n": n}).encode()) for n in range(20))
+        run = metadata("run", robot=json.dumps(ROBOT), period_s="0.004")
+        path = self.file(run, chunk(content, "zstd", zstd(content)), content, END)
+        whole, draw, refused = path.read_bytes(), random.Random(5), 0
+        for _ in range(1500):
+            damaged = bytearray(whole)
+            for _ in range(draw.randint(1, 4)):
+                damaged[draw.randrange(8, len(whole))] = draw.randrange(256)
+            path.write_bytes(damaged[: draw.choice((len(whole), draw.randrange(8, len(whole))))])
+            try:
+                read = Recording(path)
+                for one in read.messages("event"):
+                    one.json()
+                read.ticks
+            except BadRecording as error:
+                self.assertTrue(str(error))
+                refused += 1
+        self.assertGreater(refused, 100)
+
+    def test_what_is_no_file_is_refused_at_once(self):
+        folder = self.file().parent
+        os.mkfifo(folder / "pipe")
+        for path in (folder, folder / "pipe", folder / "nothing", pathlib.Path("/dev/zero")):
+            for read in (Mcap, Truth, read_events):
+                with self.assertRaisesRegex(BadRecording, str(path)):
+                    read(path)
+
+    def test_a_recording_without_its_run_says_what_it_lacks(self):
+        read = Recording(self.file(EVENTS, END))
+        for ask in (read.robot, lambda: read.period_s, read.arrays):
+            with self.assertRaises(liana.LianaError):
+                ask()
+
+    def test_arrays_without_numpy_say_what_to_install(self):
+        with mock.patch.dict(sys.modules, {"numpy": None}), self.assertRaisesRegex(liana.LianaError, "python3-numpy"):
+            Recording(self.file(END)).arrays()
+
+    def test_a_truth_that_is_damaged_is_refused(self):
+        path = self.file()
+        for content in (
+            b"",
+            b"no end of line",
+            b"{}\n",
+            b'{"columns": 3}\n',
+            b'{"columns": []}\n1',
+            b"[" * 99999 + b"\n",
+        ):
+            path.write_bytes(content)
+            with self.assertRaises(BadRecording):
+                Truth(path)
+
+
 def fields(wanted, arrays):
     """A schema of all wanted fields, with places for three drives and thetas, and the bytes of one message."""
     lines, data, structures = [], b"", {}
@@ -152,6 +248,27 @@ class Ticks(Files):
         self.assertEqual((tick.tick, tick.request, tick.state), (42, "clear", "FAULT"))
         self.assertEqual((tick.statusword, tick.target, tick.theta_rate), ((0x1237, 0x0250), (-5, 6), (0.5, -0.25)))
         self.assertEqual(tick.faults, (recordings.Fault(3002, -1, 0, 40),))
+
+    def test_an_arm_with_one_drive_has_arrays_of_one(self):
+        robot = {"drives": {"zero_counts": [0]}, "segments": [{}]}
+        inputs = fields(recordings.INPUTS, {"drive.position_counts": (17, 2, 3)})
+        tick = self.recording(inputs, fields(recordings.outputs_of(robot), {}), robot).ticks[0]
+        self.assertEqual((tick.position, tick.tick), ((17,), 0))
+
+    def test_tension_is_torque_over_the_radius_of_the_drum(self):
+        drives = {"zero_counts": [0, 0], "rated_torque_Nm": 9, "drum_radius_m": 0.015}
+        inputs = fields(recordings.INPUTS, {"drive.torque_permille": (500, -10, 7)})
+        robot = {**ROBOT, "drives": drives}
+        read = self.recording(inputs, fields(recordings.outputs_of(robot), {}), robot)
+        self.assertEqual(read.tension_N(read.ticks[0]), (300.0, -6.0))
+
+    def test_a_state_that_there_is_not_and_a_schema_without_end_are_refused(self):
+        inputs, outputs = fields(recordings.INPUTS, {}), fields(recordings.outputs_of(ROBOT), {"state": (200,)})
+        with self.assertRaises(BadRecording):
+            self.recording(inputs, outputs).ticks
+        for lines in ("tick[999999999] 8\n", "a." * 5000 + "b 8\n", "tick eight\n", "tick\n"):
+            with self.assertRaises(BadRecording):
+                self.recording((lines, inputs[1]), outputs).ticks
 
     def test_of_a_serial_arm_a_tick_has_the_rates_of_its_joints(self):
         robot = {"kind": "serial", "drives": {"zero_counts": [0, 0]}, "joints": [{}, {}, {}]}
