@@ -130,6 +130,7 @@ class Installed(Messages, unittest.TestCase):
     def test_the_python_client_finds_the_programs_of_its_prefix(self):
         code = "from liana import system; print(system.binaries()); print(system.table('robot', 'micro'))"
         where = {"PYTHONPATH": str(self.prefix / "share" / "liana" / "python"), "PYTHONDONTWRITEBYTECODE": "1"}
+        where["PATH"] = "/usr/bin:/bin"
         binaries, robot = run(sys.executable, "-c", code, environment=where).stdout.splitlines()[:2]
         self.assertEqual(binaries, str(self.prefix / "bin"))
         self.assertEqual(json.loads(robot)["name"], "micro")
@@ -203,6 +204,31 @@ class Installed(Messages, unittest.TestCase):
             self.assertIn(f"{option} ", self.program("lianad", "--help").stdout)
         users = (self.prefix / "lib" / "sysusers.d" / "liana.conf").read_text("utf-8")
         self.assertIn("\nu liana ", users)
+
+
+class Packages(unittest.TestCase):
+    """Debian's packages are components of the installation; building them is ./dev package."""
+
+    CONTROL = (ROOT / "host" / "apps" / "install" / "debian" / "control").read_text("utf-8")
+
+    def test_every_installed_file_is_in_one_package(self):
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        install(folder / "all")
+        packaged = []
+        for package in re.findall(r"^Package: (.+)$", self.CONTROL, re.M):
+            run("cmake", "--install", BUILD, "--prefix", folder / package, "--component", package)
+            found = [path for path in files_in(folder / package) if (folder / package / path).is_file()]
+            self.assertTrue(found, package)
+            packaged += found
+        installed = [path for path in files_in(folder / "all") if (folder / "all" / path).is_file()]
+        others = ["share/doc/liana/LICENSE", "share/liana/installed_files.txt", "share/liana/uninstall.cmake"]
+        self.assertEqual(sorted(packaged + others), installed)
+
+    def test_the_source_package_is_built_with_what_the_build_needs(self):
+        groups = (ROOT / "host" / "apps" / "install" / "packages").read_text("utf-8")
+        needed = re.search(r'\[build\]="(.+?)"', groups, re.S)[1].split()
+        stated = re.search(r"^Build-Depends: (.+?)^\S", self.CONTROL, re.M | re.S)[1].replace(",", " ").split()
+        self.assertEqual(set(needed) - set(stated), set())
 
 
 class Removed(unittest.TestCase):
