@@ -31,7 +31,8 @@ concept Arm = std::is_trivially_copyable_v<A> && ArmTable<typename A::Table> &&
     requires(A arm, const A& seen, const typename A::Table& table, const typename A::Setpoint& setpoint,
              const typename A::Report& report, typename A::Report& told, const typename A::Sensors& sensors,
              const DriveFeedbacks& feedback, const DriveCommands& sent, DriveProposals& proposals, const Orders& orders,
-             WatchScope scope, Watch& out, FaultList& faults, std::int32_t drive, std::uint64_t tick, bool flag) {
+             WatchScope scope, Watch& out, FaultList& faults, std::int32_t drive, std::uint64_t tick, bool flag,
+             Request request) {
   { setpoint.kind } -> std::convertible_to<CommandKind>;
   // Once: the table again, and what the drives may be told, in their units.
   { seen.table() } -> std::same_as<const typename A::Table&>;
@@ -45,6 +46,8 @@ concept Arm = std::is_trivially_copyable_v<A> && ArmTable<typename A::Table> &&
   // True while this drive may be far behind its target because the arm has let it go.
   { seen.lets_go(drive) } -> std::same_as<bool>;
   { seen.status() } -> std::same_as<ArmStatus>;
+  // What an operator asks for, before the faults of this tick are judged (called when there is a request only).
+  { arm.answer(request, faults) } -> std::same_as<void>;
   // 3. A setpoint that comes into force, or nothing any more: stop along the path.
   { seen.accepts(setpoint) } -> std::same_as<bool>;
   { arm.take(setpoint) } -> std::same_as<void>;

@@ -90,13 +90,16 @@ void CableArm::count_homing() noexcept {
 
 bool CableArm::are_cables_taut() const noexcept {
   for (Index c = first_cable(); c < cables(); ++c) {
-    if (!(estimator_.tension_N[c] >= kSlackCheckShare * table_.tension.floor_motor_N)) return false;
+    if (!(estimator_.tension_N[c] >= kSlackCheckShare * table_.tension.floor_motor_N) &&
+        !may_be_slack(let_go_, layout_, static_cast<std::int32_t>(c)))
+      return false;
   }
   return true;
 }
 
 ArmStatus CableArm::status() const noexcept {
-  return {is_homed(), at_rest(table_, motion_) && !lets_out_, ramp_ >= 1.0 && are_cables_taut()};
+  return {is_homed(), at_rest(table_, motion_) && !lets_out_, ramp_ >= 1.0 && are_cables_taut(),
+          does_without(let_go_)};
 }
 
 // --- to commanded angles ---
@@ -139,7 +142,7 @@ void CableArm::stop_planning() noexcept {
   lift_N_ = SegmentVector{};
   taut_N_ = CableVector{};
   dither_ = DitherState{};
-  let_go_ = SegmentReleaseState{};
+  if (!does_without(let_go_)) let_go_ = SegmentReleaseState{};
   lets_out_ = false;
   payout_command_m_ = payout_measured_m_;
 }
@@ -200,21 +203,27 @@ void CableArm::govern() noexcept {
   look_at_load(table_, model_.geometry, ratio_, motion_.arm, motion_.held_mask, motion_.shape.tick, motion_.governor);
 }
 
+void CableArm::look_at_static_load() noexcept {
+  if (has_static_load(table_))
+    static_load_Nm_ = cable::static_load_Nm(table_, motion_.limiter.theta_rad, motion_.trig, motion_.arm);
+}
+
 std::uint32_t CableArm::plan_tensions(bool plans_now, bool tensions_valid) noexcept {
   if (ramp_ >= 1.0 && tensions_valid) keep_min_tension(table_, estimator_.tension_N, lift_N_);
   // On the ramp, too: where friction holds the arm nobody knows yet.
   if (live_ && winds_in_) wind_in(table_, estimator_.tension_N, taut_N_);
+  if (does_without(let_go_)) keep_loose();
   if (is_let_go(let_go_)) {  // nothing may lag now
+    if (does_without(let_go_) && plans_now) look_at_static_load();
     tension_ = is_loose(let_go_)
-                   ? plan_without(table_, layout_, model_.geometry, ratio_, let_go_.segment, static_load_Nm_)
+                   ? plan_without(table_, layout_, model_.geometry, ratio_, let_go_, static_load_Nm_)
                    : plan_tension(table_, model_.geometry, ratio_, lift_N_, {static_load_Nm_, {}});
     planned_N_ = tension_.motor_N;
     planned_Nm_ = load_change_Nm_ = ThetaVector{};
     tension_change_N_ = CableVector{};
   } else if (plans_now) {
     follow_payload();
-    if (has_static_load(table_))
-      static_load_Nm_ = cable::static_load_Nm(table_, motion_.limiter.theta_rad, motion_.trig, motion_.arm);
+    look_at_static_load();
     aim_tensions(plan_tension(table_, model_.geometry, ratio_, lift_N_, {static_load_Nm_, inertia_load_Nm()}));
   }
   // The sum of even parts may end a last bit over the ceiling, and the gate would refuse that.
@@ -282,6 +291,13 @@ void CableArm::wind_beyond_ceiling(CableVector& wanted_m) const noexcept {
   for (Index c = 0; c < cables(); ++c) {
     const double beyond_N = tension_.motor_N[c] + taut_N_[c] - table_.tension.ceiling_free_N;
     wanted_m[c] -= larger(0.0, beyond_N) / table_.cable_EA_N * wanted_m[c];
+  }
+}
+
+// What is released is not wound in.
+void CableArm::keep_loose() noexcept {
+  for (Index c = 0; c < cables(); ++c) {
+    if (is_released(let_go_, layout_, c)) taut_N_[c] = 0.0;
   }
 }
 

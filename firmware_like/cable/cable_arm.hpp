@@ -66,6 +66,9 @@ class CableArm {
   bool lets_go(std::int32_t) const noexcept { return is_behind(let_go_); }
   void watch(WatchScope scope, std::uint64_t tick, FaultList& faults) noexcept;
   ArmStatus status() const noexcept;
+  void answer(Request request, const FaultList& faults) noexcept {
+    if (!live_) answer_loss(table_, layout_, request, faults, let_go_);
+  }
   bool accepts(const Setpoint& setpoint) const noexcept {
     return is_usable(table_, setpoint) &&
            (setpoint.dither_share == 0.0 || dither_fits(table_, tension_.motor_N, setpoint.dither_share));
@@ -91,6 +94,8 @@ class CableArm {
 
   // Motion stage, for the verifier's predictions and for tests.
   const MotionState& motion() const noexcept { return motion_; }
+  // The cable that the arm does without, and what is released with it.
+  const SegmentReleaseState& release() const noexcept { return let_go_; }
   // Angles and contradictions that the drives' lengths show.
   const EstimatorState& estimator() const noexcept { return estimator_; }
 
@@ -172,11 +177,13 @@ class CableArm {
   ThetaVector inertia_load_Nm() noexcept;
   void follow_payload() noexcept;
   void govern() noexcept;
+  void look_at_static_load() noexcept;
   std::uint32_t plan_tensions(bool plans_now, bool tensions_valid) noexcept;
   void dither(bool tensions_valid) noexcept;
   void ramp_payouts(CableVector& wanted_m) const noexcept;
   void damp_payouts(bool tensions_valid, CableVector& wanted_m) noexcept;
   void wind_beyond_ceiling(CableVector& wanted_m) const noexcept;
+  void keep_loose() noexcept;
   void let_out(CableVector& wanted_m) const noexcept;
   std::uint32_t limit_payout_speed(CableVector& wanted_m) const noexcept;
   void take_told_tensions(const CableVector& asked_m, const CableVector& told_m) noexcept;

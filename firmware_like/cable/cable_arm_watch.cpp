@@ -45,7 +45,7 @@ void CableArm::watch(WatchScope scope, std::uint64_t tick, FaultList& faults) no
   watch_missed(tick, faults);
   const bool retracts = motion_.to.kind == CommandKind::kRetract && !motion_.braking;
   if (retracts && faults.count > 0) spare_cables(table_, layout_, faults, lift_N_);
-  winds_in_ = leaves_tensions(faults) && !is_let_go(let_go_);
+  winds_in_ = leaves_tensions(faults) && (!is_let_go(let_go_) || does_without(let_go_));
   const bool usable = scope.prepared && feedback_age_ticks_ == 0 && faults.count == 0 && !is_let_go(let_go_);
   watch_cables(table_, cable_watch_limits_, cables, usable, tick, cable_watch_, faults);
   if (scope.prepared) {

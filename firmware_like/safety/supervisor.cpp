@@ -102,7 +102,7 @@ const PhaseTraits& traits_of(Phase phase) noexcept { return kPhaseTable[static_c
 std::uint32_t request_conditions(Request request, CommandKind in_force) noexcept {
   if (request == Request::kStop || request == Request::kDisable || in_force == CommandKind::kStop) return kAskStop;
   if (request == Request::kEnable) return kAskEnable;
-  return request == Request::kClear ? static_cast<std::uint32_t>(kAskClear) : 0;
+  return request == Request::kClear || request == Request::kRecover ? static_cast<std::uint32_t>(kAskClear) : 0;
 }
 
 std::uint32_t conditions_now(const LinkLimits& limits, const CycleInputs& inputs, const ArmStatus& arm,
@@ -189,12 +189,13 @@ void remember_stop(const FaultList& faults, SupervisorState& state) noexcept {
 }
 
 // Faults that hold leave the way out open while the arm can still be measured.
-MayMove may_move(std::uint32_t now, const FaultList& faults) noexcept {
-  if (faults.category == StopCategory::kNone) return MayMove::kEverything;
+MayMove may_move(std::uint32_t now, const ArmStatus& arm, const FaultList& faults) noexcept {
+  if (faults.category == StopCategory::kNone) return arm.recovers ? MayMove::kRetract : MayMove::kEverything;
   return (now & kSound) == kSound && allow_retract(faults) ? MayMove::kRetract : MayMove::kNothing;
 }
 
-Orders orders_of(const SupervisorState& state, std::uint32_t now, const FaultList& faults) noexcept {
+Orders orders_of(const SupervisorState& state, std::uint32_t now, const ArmStatus& arm,
+                 const FaultList& faults) noexcept {
   const Phase phase = state.phase;
   const PhaseTraits& traits = traits_of(phase);
   Orders orders{};
@@ -202,7 +203,7 @@ Orders orders_of(const SupervisorState& state, std::uint32_t now, const FaultLis
   orders.goal = traits.goal;
   orders.stop_category = higher(traits.stop, state.stopped);
   orders.live_targets = traits.live_targets;
-  if (phase == Phase::kEnabled) orders.may_move = may_move(now, faults);
+  if (phase == Phase::kEnabled) orders.may_move = may_move(now, arm, faults);
   orders.preparing = phase == Phase::kPreparing;
   orders.enable_missing = kReady & ~now;
   return orders;
@@ -226,7 +227,7 @@ Orders supervise(const LinkLimits& limits, const CycleInputs& inputs, const ArmS
   now |= fault_conditions(faults);
   enter(next_phase(state.phase, now), state);
   remember_stop(faults, state);
-  return orders_of(state, now, faults);
+  return orders_of(state, now, arm, faults);
 }
 
 }  // namespace liana

@@ -53,6 +53,7 @@ struct ArmStatus {
   bool homed = false;     // the measured pose is trusted
   bool at_rest = false;   // commanded motion has ended in this tick
   bool prepared = false;  // ready for motion: a cable arm has its ramp at its end and no cable slack
+  bool recovers = false;  // without a cable that is lost: only a retract may move it
 };
 
 // What telecommands may move.

@@ -39,6 +39,7 @@ class SerialArm {
   void watch(WatchScope scope, std::uint64_t tick, FaultList& faults) noexcept;
   bool lets_go(std::int32_t) const noexcept { return false; }  // a joint never gives in
   ArmStatus status() const noexcept;
+  void answer(Request, const FaultList&) noexcept {}  // nothing is kept for a clear
   bool accepts(const Setpoint& setpoint) const noexcept { return is_usable(table_, setpoint); }
   void take(const Setpoint& setpoint) noexcept;
   void brake() noexcept { motion_.braking = true; }

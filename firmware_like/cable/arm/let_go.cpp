@@ -4,6 +4,18 @@
 
 namespace liana::cable {
 
+void answer_loss(const RobotParams& table, const CableLayout& layout, Request request, const FaultList& faults,
+                 SegmentReleaseState& state) noexcept {
+  if (request == Request::kClear) state = SegmentReleaseState{};
+  for (std::int32_t i = 0; i < faults.count && request == Request::kRecover; ++i) {
+    const Fault& fault = faults.fault[as_index(i)];
+    if (fault.number != FaultNumber::kCableBreak) continue;
+    const std::int32_t segment = may_let_go(table) ? layout.segment[as_index(fault.index)] : -1;
+    state = {SegmentReleaseStage::kBroken, segment, fault.index, kLetGoSettleTicks};
+    return;
+  }
+}
+
 void let_go(const CableLayout& layout, std::int32_t cable, SegmentReleaseState& state) noexcept {
   state = {SegmentReleaseStage::kOut, layout.segment[as_index(cable)], cable, 0};
 }
@@ -28,16 +40,17 @@ bool count_let_go(bool arrived, SegmentReleaseState& state) noexcept {
 }
 
 TensionPlan plan_without(const RobotParams& table, const CableLayout& layout, const CableGeometry& geometry,
-                         const TensionRatio& ratio, std::int32_t segment, const ThetaVector& static_Nm) noexcept {
+                         const TensionRatio& ratio, const SegmentReleaseState& lost,
+                         const ThetaVector& static_Nm) noexcept {
   TensionRatio without = ratio;  // a loose cable carries nothing to any joint
   SegmentVector lift_N;
-  lift_N.fill(-kLetGoLower_N * table.tension.scale());
+  lift_N.fill(lost.segment < 0 ? 0.0 : -kLetGoLower_N * table.tension.scale());
   for (std::size_t c = 0; c < as_index(layout.cable_count); ++c) {
-    if (layout.segment[c] == segment) without[c] = {};
+    if (is_released(lost, layout, c)) without[c] = {};
   }
   TensionPlan plan = plan_tension(table, geometry, without, lift_N, {static_Nm, {}});
   for (std::size_t c = 0; c < as_index(layout.cable_count); ++c) {
-    if (layout.segment[c] == segment) plan.motor_N[c] = 0.0;
+    if (is_released(lost, layout, c)) plan.motor_N[c] = 0.0;
   }
   return plan;
 }

@@ -9,6 +9,8 @@
 #include "firmware_like/cable/arm/friction.hpp"
 #include "firmware_like/cable/arm/tension.hpp"
 #include "firmware_like/cable/arm/tension_monitor.hpp"
+#include "firmware_like/command/request.hpp"
+#include "firmware_like/safety/faults.hpp"
 
 namespace liana::cable {
 
@@ -47,7 +49,7 @@ enum class SegmentReleaseStage : std::uint8_t {
 // Which cables are let go, and since when.
 struct SegmentReleaseState {
   SegmentReleaseStage stage = SegmentReleaseStage::kNone;
-  std::int32_t segment = 0;  // 0-based
+  std::int32_t segment = 0;  // 0-based; -1: no segment is let go, only the cable is done without
   std::int32_t cable = 0;    // the one that is missed
   std::uint16_t ticks = 0;   // since the segment was let go, or since it was undone; up to kLetGoSettleTicks
 };
@@ -58,6 +60,10 @@ constexpr bool is_let_go(const SegmentReleaseState& state) noexcept {
 // The segment's cables do not follow the plan of tensions.
 constexpr bool is_loose(const SegmentReleaseState& state) noexcept {
   return is_let_go(state) && state.stage != SegmentReleaseStage::kUndone;
+}
+// The cable was found broken, and the arm does without its segment's cables until a clear says that they are whole.
+constexpr bool does_without(const SegmentReleaseState& state) noexcept {
+  return state.stage == SegmentReleaseStage::kBroken;
 }
 // Targets may jump out in this tick.
 constexpr bool segment_release_begins(const SegmentReleaseState& state) noexcept {
@@ -73,11 +79,21 @@ constexpr bool is_behind(const SegmentReleaseState& state) noexcept {
   return is_let_go(state) && state.ticks < kLetGoSettleTicks;
 }
 
+// This cable is planned without tension: it is the one that is missed, or of its segment.
+inline bool is_released(const SegmentReleaseState& state, const CableLayout& layout, std::size_t cable) noexcept {
+  return is_let_go(state) &&
+         (layout.segment[cable] == state.segment || static_cast<std::int32_t>(cable) == state.cable);
+}
 // Nobody expects tension of this cable: its segment is let go, and whether it is broken itself is judged.
 inline bool may_be_slack(const SegmentReleaseState& state, const CableLayout& layout, std::int32_t cable) noexcept {
-  if (!is_let_go(state) || layout.segment[static_cast<std::size_t>(cable)] != state.segment) return false;
+  if (!is_released(state, layout, static_cast<std::size_t>(cable))) return false;
   return cable != state.cable || state.stage != SegmentReleaseStage::kOut;
 }
+
+// While the drives are without torque: a clear forgets what was lost, a recovery does without the first cable that
+// `faults` have as broken, and without its segment where the arm has no weight that the others carry.
+void answer_loss(const RobotParams& table, const CableLayout& layout, Request request, const FaultList& faults,
+                 SegmentReleaseState& state) noexcept;
 
 // Lets the segment of `cable` go.
 void let_go(const CableLayout& layout, std::int32_t cable, SegmentReleaseState& state) noexcept;
@@ -88,9 +104,11 @@ void judge_missed(bool is_slack, std::uint64_t tick, SegmentReleaseState& state,
 // Ends a tick. `arrived`: every target is where it is wanted. True while drums still have somewhere to go.
 bool count_let_go(bool arrived, SegmentReleaseState& state) noexcept;
 
-// Tensions while a segment is let go: its cables pull 0 N, the others are near their floor and in balance at every
-// joint but this segment's, with what weight and springs take there.
+// Tensions without what is released: that pulls exactly 0 N. Where a segment is let go, the others are near their floor
+// and in balance at every joint but this segment's; else all joints are, with what weight and springs take there, and a
+// cable of the segment may be planned to push where too few are left.
 TensionPlan plan_without(const RobotParams& table, const CableLayout& layout, const CableGeometry& geometry,
-                         const TensionRatio& ratio, std::int32_t segment, const ThetaVector& static_Nm) noexcept;
+                         const TensionRatio& ratio, const SegmentReleaseState& lost,
+                         const ThetaVector& static_Nm) noexcept;
 
 }  // namespace liana::cable

@@ -59,7 +59,7 @@ void check(const ImageReader& in, const cable::CableMonitorState& state) {
 }
 
 void check(const ImageReader& in, const cable::SegmentReleaseState& state) {
-  in.require("segment", state.segment, 0, in.bounds().segments - 1);
+  in.require("segment", state.segment, -1, in.bounds().segments - 1);
   in.require("cable", state.cable, 0, in.bounds().drives - 1);
 }
 
