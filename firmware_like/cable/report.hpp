@@ -43,7 +43,7 @@ struct Report {
   double speed_share = 1.0, turn_share = 1.0;  // of the tip's limits that the governor leaves here
   double lost_share = 1.0;  // of the way to the tip's target: less where the arm has all but lost a direction of it
   ThetaVector load_Nm{};    // that the planned tensions give about each theta: what the arm's mass takes
-  CableVector tension_plan_N{};      // at the motor
+  CableVector tension_plan_N{};      // at the motor; 0: an enabled arm does without this cable
   CableVector tension_measured_N{};  // at the motor: by load cell, or by the drive's torque
   std::uint32_t load_cells = 0;      // bit i: that of cable i is by its load cell
   CableVector payout_command_m{};    // unstretched length

@@ -30,7 +30,7 @@ constexpr RequestField object(const char* name, std::span<const RequestField> fi
   return {name, FieldType::kObject, doc, {}, {}, {}, fields};
 }
 
-constexpr std::array kCommands{"enable", "disable", "clear", "home"};
+constexpr std::array kCommands{"enable", "disable", "clear", "home", "recover"};
 constexpr std::array kMissionCommands{"pause", "resume", "step", "confirm", "abort"};
 constexpr std::array kFrames{"base", "tip", "camera"};
 constexpr std::array kFeedbacks{"aligned", "claim", "abstract", "off"};
@@ -49,7 +49,10 @@ constexpr std::array kAcquire{
     text("from", 64,
          "owner that a client takes motion from: after an emergency stop, or 5 s without a sign of life of it")
         .optional()};
-constexpr std::array kStateCommand{word("command", kCommands, "what the arm should do")};
+constexpr std::array kStateCommand{
+    word("command", kCommands,
+         "what the arm should do; recover: clear, and go on without the cable of fault 5006: only retract moves then"),
+    integer("whole", 1.0, 64.0, "with clear: this cable of fault 5006 was looked at, and is whole").optional()};
 
 // What a setpoint tells of itself.
 constexpr RequestField kSequence =

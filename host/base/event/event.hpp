@@ -50,6 +50,7 @@ enum class HostTroubleEvent : std::uint8_t {
   kEventFile = 7,      // the file of events takes no more
   kEventFileGood = 8,  // it takes events again; `count` are missing in it
   kWayFile = 9,        // the file that keeps the way back takes no more
+  kEnablingWaits = 11,  // a drive or a cable keeps the arm from being enabled
   kArchive = 10,       // the flight recorder loses something; `count` of it, 0: it makes room on a full disk
 };
 enum class DeviceEvent : std::uint8_t {

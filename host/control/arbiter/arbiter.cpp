@@ -255,7 +255,8 @@ std::optional<typename Arm::Setpoint> Arbiter<Arm>::setpoint_for(const Now& now,
   if (const auto* tip_in_base = std::get_if<Pose>(&goal)) return tip_setpoint(now, *tip_in_base);
   const auto* joint_rad = std::get_if<Joints<Arm>>(&goal);
   if (joint_rad == nullptr) return std::nullopt;
-  const bool retracts = std::holds_alternative<RetractMove<Arm>>(way_) && now.faults.count > 0;
+  const bool retracts =
+      std::holds_alternative<RetractMove<Arm>>(way_) && (now.faults.count > 0 || Kind::recovers(table_, now));
   return joint_setpoint(*joint_rad, retracts ? CommandKind::kRetract : CommandKind::kJoint);
 }
 

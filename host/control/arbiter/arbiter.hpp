@@ -84,6 +84,7 @@ class Arbiter {
   bool has_retracted() const { return retract_state().phase == RetractPhase::kDone; }
   // The verified way back, for a copy that survives lianad.
   PathHistory<Joints<Arm>>& path_history() { return retract_request_.path(); }
+  const PathHistory<Joints<Arm>>& path_history() const { return retract_request_.path(); }
   std::vector<RetractEvents> take_way_news() { return retract_request_.take_events(); }
   // The path under way; none.
   std::optional<PathProgress> path() const;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "firmware_like/cable/arm/cables.hpp"
+#include "firmware_like/cable/arm/let_go.hpp"
 
 namespace liana::arbiter {
 
@@ -30,6 +31,13 @@ double Kind::drive_time_s(const cable::RobotParams& table, const Joints& a, cons
   for (std::size_t i = 0; i < static_cast<std::size_t>(layout.cable_count); ++i)
     most_m = std::max(most_m, std::fabs(to[i] - from[i]));
   return most_m / table.limits.cable_speed_m_s;
+}
+
+bool Kind::recovers(const cable::RobotParams& table, const liana::Outputs<cable::CableArm>& now) {
+  if (now.state != OperatingState::kEnabled) return false;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(table.cable_count()); ++c)
+    if (cable::is_planned_released(table, now.tension_plan_N, c)) return true;
+  return false;
 }
 
 void Kind::add_wishes(const Wishes& wishes, cable::Setpoint& setpoint) {

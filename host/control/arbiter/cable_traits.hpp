@@ -63,6 +63,8 @@ struct ArmTraits<cable::CableArm> {
   }
   static const Joints& command_rad(const liana::Outputs<cable::CableArm>& now) { return now.theta_command_rad; }
   static const Joints& measured_rad(const liana::Outputs<cable::CableArm>& now) { return now.theta_measured_rad; }
+  // Enabled without a cable that is lost.
+  static bool recovers(const cable::RobotParams& table, const liana::Outputs<cable::CableArm>& now);
   static void add_wishes(const Wishes& wishes, cable::Setpoint& setpoint);
   // Where a shape is asked for, its null space has to come to rest, too.
   static bool has_arrived(const Wishes& wishes, const liana::Outputs<cable::CableArm>& now, bool tip_there);

@@ -53,7 +53,8 @@ class RetractMove {
       is_over_ = true;
       return {};
     }
-    const bool was_faulty = std::exchange(is_faulty_, now.faults.count > 0);
+    const bool was_faulty =
+        std::exchange(is_faulty_, now.faults.count > 0 || ArmTraits<Arm>::recovers(table_, now));
     if (was_faulty != is_faulty_) start_again();
     if (!rests()) return come_to_rest(now);
     return arrived_ ? arrive(now) : step(now);
@@ -177,7 +178,7 @@ class RetractMove {
   std::int32_t rest_intervals_ = 0;  // in a row
   std::int32_t waited_ = 0;          // intervals, for rest
   bool has_begun_ = false;
-  bool is_faulty_ = false;  // a fault is latched
+  bool is_faulty_ = false;  // a fault is latched, or a cable is lost
   int starts_ = 0;          // refused at one place
   std::size_t points_at_refusal_ = 0;
   bool is_over_ = false;

@@ -54,6 +54,7 @@ struct ArmTraits<serial::SerialArm> {
   }
   static const Joints& command_rad(const liana::Outputs<serial::SerialArm>& now) { return now.joint_command_rad; }
   static const Joints& measured_rad(const liana::Outputs<serial::SerialArm>& now) { return now.joint_measured_rad; }
+  static bool recovers(const serial::RobotParams&, const liana::Outputs<serial::SerialArm>&) { return false; }
   static void add_wishes(const Wishes&, serial::Setpoint&) {}
   static bool has_arrived(const Wishes&, const liana::Outputs<serial::SerialArm>&, bool tip_there) { return tip_there; }
 };

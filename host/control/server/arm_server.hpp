@@ -80,6 +80,18 @@ class ArmServer {
   // Empty when homed; otherwise what contradicts what and what to do.
   virtual const std::string& why_not_homed() const = 0;
 
+  // Empty, or which latched cause a clear would be untrue about; `whole`: somebody has looked at this cable (from 1, 0:
+  // none), and it is whole.
+  virtual std::string why_not_clear(std::int64_t /*whole*/) { return ""; }
+  // Empty when the arm can go back without what it has lost, else why not.
+  virtual std::string why_not_recover() const { return "this arm has no cables that it could go back without"; }
+  // Whether it does so now: the core has cleared the fault for that.
+  virtual bool recovers() const { return false; }
+  // What keeps an arm that is being enabled, beside its drives; empty: nothing.
+  virtual std::string why_not_taut() const { return ""; }
+  // A cable that was called whole and takes no tension: the arm is not to pull at the others any longer.
+  virtual bool is_untrue() const { return false; }
+
   // Where the tip is commanded to be now.
   virtual const Pose& tip_command() const = 0;
   // Requests about motion that this arm knows; ask() throws RequestError.

@@ -105,6 +105,7 @@ CableArmServer::CableArmServer(const config::RobotConfig& robot, const config::S
                      virtual_fixtures::Guidance(robot.table, scene.fixtures, robot.module_radius_m)),
       robot_(robot),
       scene_(scene),
+      names_(robot.table),
       homing_(robot_, in_pose),
       shape_progress_(robot.table),
       devices_(devices, robot.table.interval_ticks * robot.table.tick_s, robot.table.limits.tip_speed_m_s),
@@ -124,6 +125,7 @@ CableArmServer::CableArmServer(const config::RobotConfig& robot, const config::S
 void CableArmServer::watch(bool booted) {
   shape_progress_.note(outputs(), arbiter_.nodes(), arbiter_.keep_clear());
   if (booted) homing_.look(report(), link_.image.value().controller.arm().estimator());
+  watch_loss();
   watch_clearance();
   arbiter_.see(sight());
   if (!scene_.slit) return;
@@ -133,10 +135,44 @@ void CableArmServer::watch(bool booted) {
       inverse_kinematics::planar_segments(table_, links, mouth, inverse_kinematics::PlanarSwitch{}, planar_segments_);
 }
 
+// Verified as the motion is, it is no more than its cables that are left: what stands in its way shows in them.
+void CableArmServer::watch_loss() {
+  const std::string over = overpulled_cable(loss());
+  if (!over.empty() && arbiter_.is_going_back()) arbiter_.hold(over);
+}
+
+std::string CableArmServer::why_not_clear(std::int64_t whole) {
+  called_whole_.clear();
+  std::string why = why_loss_stands(loss());
+  const std::vector<std::size_t> lost = lost_cables(loss());
+  const auto cable = static_cast<std::size_t>(whole - 1);
+  if (whole == 0) return why;
+  if (whole < 1 || std::find(lost.begin(), lost.end(), cable) == lost.end())
+    return "cable " + std::to_string(whole) + " is not lost" + (why.empty() ? "" : ": " + why);
+  if (lost.size() > 1) return why;
+  if (!why.empty()) called_whole_ = lost;
+  return "";
+}
+
+std::string CableArmServer::why_not_recover() const {
+  return server::why_not_recover(loss(), arbiter_.path_history());
+}
+
+bool CableArmServer::recovers() const { return cable::does_without(loss().release) && outputs().faults.count == 0; }
+
+std::string CableArmServer::why_not_taut() const { return slack_cables(loss()); }
+
+bool CableArmServer::is_untrue() const {
+  return std::any_of(called_whole_.begin(), called_whole_.end(), [&](std::size_t cable) {
+    return outputs().tension_measured_N[cable] < table_.tension.floor_anywhere_N;
+  });
+}
+
 // An arm whose cables have slipped or broken, or that is not homed, may be anywhere: nothing is claimed of it, and what
 // the camera has shown with such angles is forgotten. The scene stands where it was seen to stand.
 void CableArmServer::watch_clearance() {
-  if (!homing_.why_not().empty() || !lengths_are_sound(outputs().faults)) {
+  if (!homing_.why_not().empty() || !lengths_are_sound(outputs().faults) ||
+      cable::does_without(loss().release)) {
     clearance_.reset();
     foresee({{}, outlook_.drawing_in_base, std::max(outlook_.prediction_m, scene_.margins.prediction_m)});
     return arbiter_.cap_tip_speed(table_.limits.tip_speed_m_s);

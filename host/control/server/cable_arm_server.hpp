@@ -6,6 +6,7 @@
 #include "host/control/clearance_bound/live_clearance.hpp"
 #include "host/control/server/device_manager.hpp"
 #include "host/control/server/homing.hpp"
+#include "host/control/server/recovery.hpp"
 #include "host/control/server/typed_arm_server.hpp"
 #include "host/control/virtual_fixtures/felt_scene.hpp"
 #include "host/control/virtual_fixtures/pitch_budget.hpp"
@@ -29,6 +30,11 @@ class CableArmServer final : public TypedArmServer<cable::CableArm, arbiter::Cab
 
   void watch(bool booted) override;
   const std::string& why_not_homed() const override { return homing_.why_not(); }
+  std::string why_not_clear(std::int64_t whole) override;
+  std::string why_not_recover() const override;
+  bool recovers() const override;
+  std::string why_not_taut() const override;
+  bool is_untrue() const override;
   int devices_fd() const override { return devices_.fd(); }
   void hear_devices(std::int64_t now_us) override { devices_.hear(now_us); }
   void take_samples() override;
@@ -43,6 +49,8 @@ class CableArmServer final : public TypedArmServer<cable::CableArm, arbiter::Cab
 
  private:
   std::vector<double> joints_deg(const cable::Outputs& outputs) const override;
+  LossView loss() const { return {table_, outputs(), link_.image.value().controller.arm().release(), names_}; }
+  void watch_loss();
   void watch_clearance();
   cable::ThetaVector believed_rad() const;
   virtual_fixtures::Sight sight() const;
@@ -64,6 +72,8 @@ class CableArmServer final : public TypedArmServer<cable::CableArm, arbiter::Cab
 
   config::RobotConfig robot_;
   config::SceneConfig scene_;
+  config::DriveNames names_;
+  std::vector<std::size_t> called_whole_;  // cables, by whoever cleared their fault
   Homing homing_;
   arbiter::ShapeProgress shape_progress_;
   std::optional<clearance_bound::LiveClearance> clearance_;  // while the lengths of its cables tell where the arm is

@@ -140,6 +140,7 @@ void CableArmServer::add_state(Json& state) const {
   const bool awaits_held = arbiter_.is_asking() && o.held_at_target == 0;  // a hold that was refused awaits nothing
   state["is_busy"] = arbiter_.is_busy() || (o.state == OperatingState::kEnabled && (o.at_rest == 0 || awaits_held));
   add_retract(state, arbiter_.retract_state());
+  state["recovery"] = recovery_json(loss(), arbiter_.path_history());
   state["path"] = path_json(arbiter_.path());
   state["servo"] = servo_json(arbiter_.servo_report());
   state["device"] = device.name;

@@ -18,6 +18,7 @@ namespace liana::server {
 namespace {
 
 constexpr double kLockstepPatience_s = 10.0;  // a client that stays silent longer is dead
+constexpr double kEnabling_s = 4.5;            // after which an enable says what it waits for: the ramp takes 3 s
 constexpr double kHoming_s = 0.5;             // of arm time after booting: homing takes 0.1 s
 
 }  // namespace
@@ -82,6 +83,7 @@ void Service::cycle() {
   watch_arm();
   desk_.watch(boot_seen_ == realtime::BootPhase::kDone);
   watch_homing();
+  watch_enabling();
   forward_ticks();
   idle(0.0);  // what came from clients outside lockstep
   forward_camera();
@@ -130,6 +132,25 @@ void Service::watch_homing() {
   if (!homing_due_tick_ || tick() < *homing_due_tick_) return;
   homing_due_tick_.reset();
   if (!desk_.why_not_homed().empty()) note(not_homed_event(desk_.why_not_homed()));
+}
+
+// Who enables has to know soon what keeps the arm; a cable that is not whole is not pulled for up to a minute.
+void Service::watch_enabling() {
+  notes_.enabling_waits.clear();
+  if (now().state != OperatingState::kEnabling) return enabling_since_.reset();
+  if (!enabling_since_) enabling_since_ = tick();
+  const std::uint64_t waited = tick() - *enabling_since_;
+  if (waited < ticks_in(kEnabling_s)) return;
+  notes_.enabling_waits = why_enabling_waits(desk_, config_.drive_names);
+  if (notes_.enabling_waits.empty() || waited >= ticks_in(kEnabling_s) + config_.buses.interval_ticks()) return;
+  note({.kind = event::EventKind::kHostWarning,
+        .number = event::number_of(event::HostTroubleEvent::kEnablingWaits),
+        .text = "enabling waits: " + notes_.enabling_waits});
+  if (!desk_.is_untrue()) return;
+  note({.kind = event::EventKind::kHostWarning,
+        .number = event::number_of(event::HostTroubleEvent::kEnablingWaits),
+        .text = "enabling ends: a cable that was called whole takes no tension"});
+  request(Request::kDisable);
 }
 
 // An owner that streams tip goals with a time to live and stands still: nobody stands behind its last goal any more.

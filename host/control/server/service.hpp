@@ -115,6 +115,7 @@ class Service : private api::ApiHandler {
   void watch_events_file();
   void watch_arm();
   void watch_homing();
+  void watch_enabling();
   void watch_stream();
   void note_clear();
   void note_emergencies(const CycleInputs& inputs);
@@ -158,6 +159,7 @@ class Service : private api::ApiHandler {
   std::optional<std::int64_t> clock_ahead_us_;  // of arm time, real time only
   realtime::Overruns overruns_before_;          // at the last reset of the timing
   RunLifecycle lifecycle_;
+  std::optional<std::uint64_t> enabling_since_;
   std::optional<std::uint64_t> stop_tick_;     // of the last stop, whoever asked for it
   std::optional<std::uint64_t> disable_tick_;  // of the last disable that was asked for
   int mission_asked_ = 0;                      // how often somebody has told the mission something

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "firmware_like/drive/cia402.hpp"
 #include "host/api/server/request_text.hpp"
 #include "host/control/verification/refusal_table.hpp"
 #include "host/drives/canopen/emergency.hpp"
@@ -87,6 +88,16 @@ event::Event not_homed_event(const std::string& why) {
   return {.kind = event::EventKind::kHoming,
           .number = event::number_of(event::HomingEvent::kContradicted),
           .text = "not homed: " + why};
+}
+
+std::string why_enabling_waits(const ArmServer& desk, const config::DriveNames& names) {
+  std::string text;
+  for (std::size_t i = 0; i < desk.drive_count(); ++i) {
+    const DriveState state = decode(desk.inputs().drive[i].statusword);
+    if (state == DriveState::kOperationEnabled) continue;
+    text += (text.empty() ? "" : ", ") + names.drive(i) + " is in " + drive_state_name(state);
+  }
+  return text.empty() ? desk.why_not_taut() : text + ", needed operation_enabled";
 }
 
 event::Event clear_event(const ClearResult& clear) {

@@ -9,6 +9,7 @@
 #include "firmware_like/safety/faults.hpp"
 #include "firmware_like/safety/supervisor.hpp"
 #include "host/base/event/event.hpp"
+#include "host/control/server/arm_server.hpp"
 #include "host/control/arbiter/path_events.hpp"
 #include "host/control/arbiter/retract_events.hpp"
 #include "host/control/realtime/boot_problem.hpp"
@@ -30,6 +31,8 @@ std::vector<event::Event> boot_failed_events(const std::vector<realtime::BootPro
                                              const config::DriveNames& names);
 event::Event homed_event();
 event::Event not_homed_event(const std::string& why);
+// What keeps an arm from being enabled: cables, or drives that are not yet in Operation enabled; empty: nothing.
+std::string why_enabling_waits(const ArmServer& desk, const config::DriveNames& names);
 event::Event clear_event(const ClearResult& clear);
 // `drive`: 0-based.
 event::Event emergency_event(std::size_t drive, std::uint16_t code, const config::DriveNames& names);

@@ -134,8 +134,17 @@ Json Service::on_state_command(const api::ClientInfo&, const api::Arguments& fie
     disable_tick_ = tick();
     this->request(Request::kDisable);
   } else if (command == "clear") {
+    const std::string why = desk_.why_not_clear(fields.has("whole") ? fields.integer("whole") : 0);
+    if (!why.empty()) throw api::RequestError("fault", "not cleared: " + why);
     notes_.stop.release();
     this->request(Request::kClear);
+  } else if (command == "recover") {
+    if (now().state != OperatingState::kFault && !desk_.recovers())
+      throw api::RequestError("refused", "the arm is not in FAULT: wait until it stands still without power");
+    const std::string why = desk_.why_not_recover();
+    if (!why.empty()) throw api::RequestError("refused", why);
+    notes_.stop.release();
+    if (!desk_.recovers()) this->request(Request::kRecover);
   } else {
     require_homed();  // "home": encoders are absolute, nothing has to be done
   }

@@ -164,6 +164,7 @@ Json state_message(const config::BusesConfig& buses, const ArmServer& desk, cons
              {"tool", notes.tool.json()},
              {"stop", stop_json(notes.stop)},
              {"stopping", notes.stopping},
+             {"enabling_waits", notes.enabling_waits},
              {"stop_category", stop_name(o.stop_category)},
              {"faults", faults_json(o.faults, buses, notes.drive_names)},
              {"limits", limits_json(o.limits)}};

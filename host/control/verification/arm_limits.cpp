@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware_like/cable/arm/let_go.hpp"
 #include "firmware_like/cable/arm/static_load.hpp"
 #include "firmware_like/serial/drive_units.hpp"
 
@@ -15,6 +16,7 @@ constexpr double kPushBeyond_m = 0.001;  // a push that ends at its bound has st
 void judge_tension(const cable::RobotParams& table, const cable::Outputs& outputs, Judge& judge) {
   for (auto i = static_cast<std::size_t>(table.feed_count()); i < static_cast<std::size_t>(table.cable_count()); ++i) {
     const double tension_N = outputs.tension_plan_N[i];
+    if (cable::is_planned_released(table, outputs.tension_plan_N, i)) continue;
     judge.check(Refusal::kTension, "planned tension of cable", kNewtons, static_cast<int>(i), tension_N,
                 table.tension.ceiling_free_N);
     judge.require(tension_N * kRounding >= table.tension.floor_motor_N, Refusal::kTension,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "firmware_like/cable/arm/let_go.hpp"
 #include "firmware_like/math/trig.hpp"
 #include "host/control/verification/judge.hpp"
 #include "host/control/verification/tick_time.hpp"
@@ -101,7 +102,7 @@ class MomentJudge {
       const Moment& anyway = stop_.from(moment.time_s);
       joints(sequence, motion, moment, anyway);
       nodes(moment, anyway);
-      cables(moment, anyway, motion.min_passed_share);
+      cables(sequence.tensions_N.front(), moment, anyway, motion.min_passed_share);
     }
   }
 
@@ -149,10 +150,12 @@ class MomentJudge {
     note("tip", kNoIndex, moment.time_s);
   }
 
-  void cables(const Moment& moment, const Moment& anyway, const cable::CableVector& passed_share) {
+  void cables(const cable::CableVector& plan_N, const Moment& moment, const Moment& anyway,
+              const cable::CableVector& passed_share) {
     const cable::TensionLimits& limits = table_.tension;
     const double unsure_N = kSwingTension_N * limits.scale();
     for (Index c = static_cast<Index>(table_.feed_count()); c < static_cast<Index>(table_.cable_count()); ++c) {
+      if (cable::is_planned_released(table_, plan_N, c)) continue;
       const double tension_N = moment.tension_N[c];
       const double left_N = (tension_N - unsure_N) * passed_share[c] - limits.floor_anywhere_N;
       judge_.check(Refusal::kSwingTension, "tension with inertia of cable", kNewtons, static_cast<int>(c),
