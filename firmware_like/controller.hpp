@@ -26,7 +26,8 @@ class Controller {
     limits_ = 0;
     arm_.read(inputs.drive, inputs.sensors);
     const std::int32_t wrong = watch(inputs);
-    if (inputs.request != Request::kNone) [[unlikely]] arm_.answer(inputs.request, faults_);
+    if (inputs.request != Request::kNone) [[unlikely]]
+      arm_.answer(inputs.request, faults_);
     const Orders orders = supervise(link_limits_, inputs, arm_.status(), active_.kind(), wrong, supervisor_, faults_);
     take_telecommand(inputs);        // what is in force now
     move(orders);                    // filter, IK, limiter: where the arm should be

@@ -98,8 +98,7 @@ bool CableArm::are_cables_taut() const noexcept {
 }
 
 ArmStatus CableArm::status() const noexcept {
-  return {is_homed(), at_rest(table_, motion_) && !lets_out_, ramp_ >= 1.0 && are_cables_taut(),
-          does_without(let_go_)};
+  return {is_homed(), at_rest(table_, motion_) && !lets_out_, ramp_ >= 1.0 && are_cables_taut(), does_without(let_go_)};
 }
 
 // --- to commanded angles ---
@@ -215,9 +214,8 @@ std::uint32_t CableArm::plan_tensions(bool plans_now, bool tensions_valid) noexc
   if (does_without(let_go_)) keep_loose();
   if (is_let_go(let_go_)) {  // nothing may lag now
     if (does_without(let_go_) && plans_now) look_at_static_load();
-    tension_ = is_loose(let_go_)
-                   ? plan_without(table_, layout_, model_.geometry, ratio_, let_go_, static_load_Nm_)
-                   : plan_tension(table_, model_.geometry, ratio_, lift_N_, {static_load_Nm_, {}});
+    tension_ = is_loose(let_go_) ? plan_without(table_, layout_, model_.geometry, ratio_, let_go_, static_load_Nm_)
+                                 : plan_tension(table_, model_.geometry, ratio_, lift_N_, {static_load_Nm_, {}});
     planned_N_ = tension_.motor_N;
     planned_Nm_ = load_change_Nm_ = ThetaVector{};
     tension_change_N_ = CableVector{};

@@ -1,10 +1,12 @@
 #include "firmware_like/safety/faults.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 #include "firmware_like/math/convert.hpp"
 #include "firmware_like/math/enumerators.hpp"
+#include "firmware_like/safety/fault_causes.hpp"
 
 namespace liana {
 namespace {
@@ -85,8 +87,9 @@ constexpr std::array<FaultInfo, count_enumerators<FaultNumber, 1000>()> kFaultTa
     {kCableBreak, "cable_break", kStop, false, false,
      "A cable's tension was gone from one moment to the next: it broke or came off its drum, or its reading is lost. "
      "An arm with weight keeps all drums where they are: five cables a segment hold it, three or four may let it fall.",
-     "Stay away from the arm; look at the cable and its clamp on the drum, then at the drive's torque reading; then "
-     "clear."},
+     "Stay away from the arm. liana recover leads it back along its path without this cable. Then look at the cable, "
+     "its "
+     "clamp on the drum and the drive's torque reading; liana clear --whole says that the cable is whole."},
     {kTensionScatters, "tension_scatters", kHold, false, true, "Readings of a cable jump back and forth.",
      "Retract and disable; check the drive's torque and position measurement and its cable, then clear."},
     {kBodyContact, "body_contact", kHold, false, true,
@@ -112,6 +115,61 @@ constexpr std::array<FaultInfo, count_enumerators<FaultNumber, 1000>()> kFaultTa
      "The gate saw a command that must not reach a drive; the detail names the check.",
      "This is a defect: keep the recording and report it; the arm stands at its last good target, then clear."},
 }};
+
+// What follows from a fault: of the same drive, or of any. A drive without power or bus is missed by everything that
+// looks at it; a cable that is gone leaves others slack or pulled, and lengths that contradict each other.
+struct Consequence {
+  FaultNumber cause, follows;
+  bool same_drive;
+};
+constexpr Consequence kConsequences[] = {
+    {kTicksLost, kDriveMissing, false},
+    {kTicksLost, kDriveSilent, false},
+    {kTicksLost, kDriveFault, false},
+    {kTicksLost, kDriveLeftOperation, false},
+    {kTicksLost, kDriveNotOperational, false},
+    {kBusLost, kDriveMissing, false},
+    {kBusLost, kDriveSilent, false},
+    {kBusLost, kDriveFault, false},
+    {kBusLost, kDriveLeftOperation, false},
+    {kBusLost, kDriveEnableTimeout, false},
+    {kBusLost, kDriveNotOperational, false},
+    {kBusLost, kDriveStopTimeout, false},
+    {kNodeTwice, kDriveFault, true},
+    {kNodeTwice, kFollowingError, true},
+    {kDriveSilent, kDriveMissing, true},
+    {kDriveSilent, kDriveFault, true},
+    {kDriveSilent, kDriveLeftOperation, true},
+    {kDriveSilent, kDriveEnableTimeout, true},
+    {kDriveSilent, kFollowingError, true},
+    {kDriveSilent, kDriveNotOperational, true},
+    {kDriveSilent, kDriveStopTimeout, true},
+    {kDriveMissing, kDriveSilent, true},
+    {kDriveMissing, kDriveEnableTimeout, true},
+    {kDriveMissing, kDriveNotOperational, true},
+    {kDriveMissing, kDriveStopTimeout, true},
+    {kDriveNotOperational, kDriveSilent, true},
+    {kDriveNotOperational, kDriveMissing, true},
+    {kDriveNotOperational, kDriveFault, true},
+    {kDriveNotOperational, kDriveLeftOperation, true},
+    {kDriveNotOperational, kFollowingError, true},
+    {kDriveFault, kDriveLeftOperation, true},
+    {kDriveFault, kDriveEnableTimeout, true},
+    {kDriveFault, kFollowingError, true},
+    {kDriveFault, kDriveStopTimeout, true},
+    {kDriveLeftOperation, kDriveEnableTimeout, true},
+    {kDriveLeftOperation, kFollowingError, true},
+    {kDriveLeftOperation, kDriveStopTimeout, true},
+    {kCableBreak, kFollowingError, false},
+    {kCableBreak, kCableSlack, false},
+    {kCableBreak, kTensionAlarm, false},
+    {kCableBreak, kHomingImplausible, false},
+    {kCableBreak, kCableSlip, false},
+    {kCableBreak, kTensionScatters, false},
+    {kCableBreak, kBodyContact, false},
+    {kCableBreak, kFrictionNotAsDeclared, false},
+    {kCableSlip, kHomingImplausible, false},
+};
 
 constexpr bool is_complete() noexcept {
   for (std::int32_t row = 0; row < static_cast<std::int32_t>(kFaultTable.size()); ++row) {
@@ -139,6 +197,22 @@ const FaultInfo& fault_info(FaultNumber number) noexcept {
   const auto* row = std::lower_bound(kFaultTable.begin(), kFaultTable.end(), number,
                                      [](const FaultInfo& info, FaultNumber wanted) { return info.number < wanted; });
   return row != kFaultTable.end() && row->number == number ? *row : kFaultTable.front();
+}
+
+bool is_consequence(const Fault& cause, const Fault& later) noexcept {
+  return later.tick >= cause.tick &&
+         std::any_of(std::begin(kConsequences), std::end(kConsequences), [&](const Consequence& row) {
+           return row.cause == cause.number && row.follows == later.number &&
+                  (!row.same_drive || cause.index == later.index);
+         });
+}
+
+std::optional<std::int32_t> cause_of(const FaultList& list, std::int32_t i) noexcept {
+  for (std::int32_t first = 0; first < i; ++first) {  // the list is in the order in which they were found
+    if (is_consequence(list.fault[as_index(first)], list.fault[as_index(i)]))
+      return cause_of(list, first).value_or(first);
+  }
+  return std::nullopt;
 }
 
 bool allow_retract(const FaultList& faults) noexcept {

@@ -122,8 +122,8 @@ TEST(PlanWithout, BalancesEveryOtherSegmentNearTheFloorWithoutTheLooseOne) {
     const CableGeometry geometry = cable_geometry(robot, layout, trig);
     const TensionRatio ratio = tension_ratio(robot, layout, trig, SlipState{});
     const std::int32_t loose = i % robot.segment_count;
-    const TensionPlan plan = plan_without(
-        robot, layout, geometry, ratio, {SegmentReleaseStage::kBroken, loose, 3 * loose, kLetGoSettleTicks}, {});
+    const TensionPlan plan = plan_without(robot, layout, geometry, ratio,
+                                          {SegmentReleaseStage::kBroken, loose, 3 * loose, kLetGoSettleTicks}, {});
     for (std::size_t k = 0; k < 10; ++k) {
       double torque_Nm = 0.0;
       for (std::size_t c = 0; c < zhu2022::kCables; ++c) torque_Nm += geometry.jacobian_m_rad[c][k] * plan.motor_N[c];

@@ -1,45 +1,24 @@
-#include <chrono>
 #include <cstdio>
-#include <optional>
 #include <stdexcept>
 
-#include "host/api/server/client.hpp"
+#include "host/apps/cli/clearing.hpp"
 #include "host/apps/cli/commands.hpp"
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/observer.hpp"
-#include "host/base/event/event_json.hpp"
 #include "host/base/event/fault_groups.hpp"
-#include "host/base/json/json.hpp"
 
 namespace liana::cli {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-constexpr double kVerdictTimeout_s = 15.0;  // the drives get their reset first
 
 // What a clear is for, as it was before and as lianad judged it.
 struct Clearing {
   Json stop;         // as in the state; null: no emergency stop was in force
   Json faults;       // as in the state
+  int whole = 0;     // cable that was called whole, and taken so
   std::string said;  // of the faults; empty when there were none
   bool good = true;
   bool is_needed() const { return !stop.is_null() || !faults.empty(); }
 };
-
-std::string only_system(const std::string& given) {
-  const std::vector<std::string> systems = launcher::systems_to_ask(given);
-  if (systems.size() == 1) return systems.front();
-  std::string names;
-  for (const std::string& system : systems) names += (names.empty() ? "" : ", ") + system;
-  throw launcher::BadInput("clear: several systems run: " + names + "; name the one you have looked at with --api");
-}
-
-Json state_of(api::ApiClient& client) {
-  auto state = launcher::wait_for(client, "state", kAnswerTimeout_s);
-  if (!state) throw std::runtime_error("lianad runs but sent no state within 5 s: see docs/how-to/nothing-answers.md");
-  return *state;
-}
 
 // An arm that is still on its way to standing still is left alone.
 void require_settled(const Clearing& before, const Json& state) {
@@ -50,36 +29,20 @@ void require_settled(const Clearing& before, const Json& state) {
                              "; wait until liana status says DISABLED or FAULT");
 }
 
-void ask(api::ApiClient& client, Json request, int id) {
-  request["id"] = id;
-  client.send(request);
-  if (!launcher::wait_for(client, "ok", kAnswerTimeout_s))
-    throw std::runtime_error("lianad did not answer " + request.value("op", "") +
-                             " within 5 s: see docs/how-to/nothing-answers.md");
-}
-
-// What lianad says of the faults it was to clear.
-event::Event verdict(api::ApiClient& client) {
-  const auto deadline = Clock::now() + std::chrono::duration<double>(kVerdictTimeout_s);
-  while (Clock::now() < deadline) {
-    const auto message = launcher::wait_for(client, "event", kAnswerTimeout_s);
-    if (message && message->value("kind", "") == event::event_kind_name(event::EventKind::kClear))
-      return event::event_from_json(*message);
-  }
-  throw std::runtime_error("lianad did not say within 15 s whether the faults are cleared; look with liana status");
-}
-
-void clear(api::ApiClient& client, Clearing& clearing) {
+void clear(api::ApiClient& client, const ClearOptions& options, Clearing& clearing) {
   launcher::say_hello(client, "liana clear", launcher::Observer::kClient);
-  const Json state = state_of(client);
+  const Json state = next_state(client);
   clearing.stop = state.value("stop", Json());
   clearing.faults = state.value("faults", Json::array());
-  if (!clearing.is_needed()) return;
+  if (!clearing.is_needed() && options.whole == 0) return;
   require_settled(clearing, state);
   ask(client, {{"op", "acquire"}}, 1);
-  ask(client, {{"op", "state_command"}, {"command", "clear"}}, 2);
+  Json request{{"op", "state_command"}, {"command", "clear"}};
+  if (options.whole != 0) request["whole"] = options.whole;
+  ask(client, request, 2);
+  clearing.whole = options.whole;
   if (!clearing.faults.empty()) {
-    const event::Event result = verdict(client);
+    const event::Event result = clear_verdict(client);
     clearing.said = result.text;
     clearing.good = result.number == 0;
   }
@@ -88,7 +51,8 @@ void clear(api::ApiClient& client, Clearing& clearing) {
 
 void print_text(const std::string& api, const Clearing& clearing) {
   if (!clearing.is_needed()) {
-    std::printf("%s: nothing to clear\n", api.c_str());
+    const std::string whole = "cable " + std::to_string(clearing.whole) + " counts as whole again";
+    std::printf("%s: %s\n", api.c_str(), clearing.whole == 0 ? "nothing to clear" : whole.c_str());
     return;
   }
   if (!clearing.stop.is_null()) {
@@ -97,19 +61,19 @@ void print_text(const std::string& api, const Clearing& clearing) {
                 (reason.empty() ? "" : ": " + reason).c_str());
   }
   for (const event::FaultGroup& group : event::fault_groups(clearing.faults))
-    std::printf("%s: %s: fault %s\n", api.c_str(), clearing.good ? "cleared" : "not cleared", group.title().c_str());
+    std::printf("%s: %s: fault %s\n", api.c_str(), clearing.good ? "cleared" : "not cleared", group.alarm().c_str());
   if (!clearing.said.empty()) std::printf("%s: %s\n", api.c_str(), clearing.said.c_str());
 }
 
 }  // namespace
 
-int clear_command(const ClientOptions& options) {
-  const std::string api = only_system(options.api);
+int clear_command(const ClearOptions& options) {
+  const std::string api = only_system("clear", options.api);
   Clearing clearing;
   std::string problem;  // that kept it from its end
   try {
     api::ApiClient client = api::ApiClient::connect(api, kConnectTimeout_s);
-    clear(client, clearing);
+    clear(client, options, clearing);
   } catch (const std::exception& error) {
     clearing.good = false;
     clearing.said = problem = error.what();

@@ -87,7 +87,13 @@ void print_state(const std::string& api, const Json& state) {
                 waits.is_string() ? (" waits, " + waits.text()).c_str() : "");
   }
   for (const event::FaultGroup& group : event::fault_groups(state.value("faults", Json::array())))
-    std::printf("fault %s: %s\n", group.title().c_str(), group.text.c_str());
+    std::printf("fault %s: %s\n", group.alarm().c_str(), group.text.c_str());
+  const Json recovery = state.value("recovery", Json());
+  if (recovery.is_object())
+    std::printf("lost: %s; next: %s (docs/how-to/a-cable-broke.md)\n", recovery.value("where", "").c_str(),
+                recovery.value("next", "").c_str());
+  if (const std::string waits = state.value("enabling_waits", ""); !waits.empty())
+    std::printf("enabling waits: %s\n", waits.c_str());
   const Json clearance = state.value("clearance", Json());
   if (clearance.is_object()) {
     std::printf("clearance at least %.1f mm (%s, link %d; %s, bound %.1f mm; %s)\n",

@@ -241,7 +241,13 @@ int estop_command(const ClientOptions& options);
 
 // Clears the emergency stop in force and the latched faults of one running system, and names them; it enables nothing.
 // Exit code 1 when somebody else owns motion, the arm is not at rest yet, or a fault is still there.
-int clear_command(const ClientOptions& options);
+struct ClearOptions : ClientOptions {
+  int whole = 0;  // cable of fault 5006 that somebody has looked at; 0: none
+};
+int clear_command(const ClearOptions& options);
+// Leads an arm that has lost a cable back along its path without it, then disables it; says each step. Exit code 1 when
+// the arm stays where it is, with the reason.
+int recover_command(const ClientOptions& options);
 
 struct ForceOptions {
   bool self_test = false;

@@ -66,7 +66,7 @@ Json LockstepSession::ask_and_wait(const Json& request, const std::function<bool
     if (idle_since_s < 0.0 || state.value("is_busy", false)) idle_since_s = now_s;
     const Json faults = state.value("faults", Json::array());
     if (!faults.empty())
-      give_up("fault " + event::fault_groups(faults).front().title() + ": " + faults[0].value("text", ""));
+      give_up("fault " + event::fault_groups(faults).front().alarm() + ": " + faults[0].value("text", ""));
     if (now_s - idle_since_s > kRequestPatience_s || now_s - since_s > kLongestMotion_s)
       give_up("the arm did not answer " + request.dump());
     if (look) look(state);

@@ -29,7 +29,7 @@ std::string row(const char* name, const Json& times) {
 std::string faults_text(const Json& faults) {
   std::string text;
   for (const event::FaultGroup& group : event::fault_groups(faults))
-    text += "  fault " + group.title() + ": " + group.text + "\n";
+    text += "  fault " + group.alarm() + ": " + group.text + "\n";
   return text;
 }
 

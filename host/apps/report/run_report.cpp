@@ -269,7 +269,7 @@ std::string report_text(const Json& report) {
       "outcome " + report.value("outcome", "") + line(", arm time %.1f s\n", report.value("duration_s", 0.0));
   if (!report.value("reason", "").empty()) text += "reason: " + report.value("reason", "") + "\n";
   for (const event::FaultGroup& group : event::fault_groups(report.value("faults", Json::array())))
-    text += "fault " + group.title() + ": " + group.text + "\n";
+    text += "fault " + group.alarm() + ": " + group.text + "\n";
   if (report.contains("fault")) text += fault_text(report["fault"]);
   for (const Json& step : report.value("steps", Json::array())) {
     text += line("  %7.1f s  ", step.value("duration_s", 0.0)) + step.value("outcome", "") + "  " +

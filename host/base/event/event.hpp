@@ -15,7 +15,8 @@ enum class EventKind : std::uint8_t {
   kBoot,         // number: BootEvent
   kBootProblem,  // number of the fault (docs/reference/faults.md), subject the drive, value `drive`
   kHoming,       // number: HomingEvent
-  kFault,        // number of the fault, 0: faults that found no place; subject drive, bus or nothing; `detail`, `tick`
+  kFault,        // number of the fault, 0: faults that found no place; subject drive, bus or nothing; `detail`, `tick`,
+                 // `cause`: number of the fault that it follows from, 0: none
   kEmergency,    // number: emergency error code of CiA 301; subject the drive, value `drive`
   kClear,        // number: conditions that were not met, as bits, 0: cleared; value `checked`, as bits
   kHostWarning,  // number: HostTroubleEvent; subject the bus, or what else of the host; `count`

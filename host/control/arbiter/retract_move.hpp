@@ -53,8 +53,7 @@ class RetractMove {
       is_over_ = true;
       return {};
     }
-    const bool was_faulty =
-        std::exchange(is_faulty_, now.faults.count > 0 || ArmTraits<Arm>::recovers(table_, now));
+    const bool was_faulty = std::exchange(is_faulty_, now.faults.count > 0 || ArmTraits<Arm>::recovers(table_, now));
     if (was_faulty != is_faulty_) start_again();
     if (!rests()) return come_to_rest(now);
     return arrived_ ? arrive(now) : step(now);

@@ -154,9 +154,7 @@ std::string CableArmServer::why_not_clear(std::int64_t whole) {
   return "";
 }
 
-std::string CableArmServer::why_not_recover() const {
-  return server::why_not_recover(loss(), arbiter_.path_history());
-}
+std::string CableArmServer::why_not_recover() const { return server::why_not_recover(loss(), arbiter_.path_history()); }
 
 bool CableArmServer::recovers() const { return cable::does_without(loss().release) && outputs().faults.count == 0; }
 
@@ -171,8 +169,7 @@ bool CableArmServer::is_untrue() const {
 // An arm whose cables have slipped or broken, or that is not homed, may be anywhere: nothing is claimed of it, and what
 // the camera has shown with such angles is forgotten. The scene stands where it was seen to stand.
 void CableArmServer::watch_clearance() {
-  if (!homing_.why_not().empty() || !lengths_are_sound(outputs().faults) ||
-      cable::does_without(loss().release)) {
+  if (!homing_.why_not().empty() || !lengths_are_sound(outputs().faults) || cable::does_without(loss().release)) {
     clearance_.reset();
     foresee({{}, outlook_.drawing_in_base, std::max(outlook_.prediction_m, scene_.margins.prediction_m)});
     return arbiter_.cap_tip_speed(table_.limits.tip_speed_m_s);

@@ -85,10 +85,11 @@ std::string why_loss_stands(const LossView& arm) {
 
 std::string why_not_recover(const LossView& arm, const Path& path) {
   const std::vector<Index> lost = lost_cables(arm);
-  if (lost.empty()) return "no cable is lost: fault 5006 is not latched; see docs/how-to/arm-stands-in-the-slit-with-a-fault.md";
+  if (lost.empty())
+    return "no cable is lost: fault 5006 is not latched; see docs/how-to/arm-stands-in-the-slit-with-a-fault.md";
   for (const Index cable : lost) {
-    const bool is_same = cable::may_let_go(arm.table) ? arm.names.segment_of(cable) == arm.names.segment_of(lost[0])
-                                                      : cable == lost[0];
+    const bool is_same =
+        cable::may_let_go(arm.table) ? arm.names.segment_of(cable) == arm.names.segment_of(lost[0]) : cable == lost[0];
     if (is_same) continue;
     return arm.names.cable(lost[0]) + " and " + arm.names.cable(cable) +
            " are lost: an arm goes back without one cable, not two. Follow docs/how-to/a-cable-broke.md, by hand";

@@ -18,7 +18,7 @@ namespace liana::server {
 namespace {
 
 constexpr double kLockstepPatience_s = 10.0;  // a client that stays silent longer is dead
-constexpr double kEnabling_s = 4.5;            // after which an enable says what it waits for: the ramp takes 3 s
+constexpr double kEnabling_s = 4.5;           // after which an enable says what it waits for: the ramp takes 3 s
 constexpr double kHoming_s = 0.5;             // of arm time after booting: homing takes 0.1 s
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "firmware_like/drive/cia402.hpp"
+#include "firmware_like/safety/fault_causes.hpp"
 #include "host/api/server/request_text.hpp"
 #include "host/control/verification/refusal_table.hpp"
 #include "host/drives/canopen/emergency.hpp"
@@ -19,12 +20,14 @@ std::string condition_names(std::uint32_t conditions) {
   return text;
 }
 
-event::Event fault_event(const Fault& fault, const std::string& place) {
+event::Event fault_event(const Fault& fault, FaultNumber cause, const std::string& place) {
   const FaultInfo& info = fault_info(fault.number);
   return {.kind = event::EventKind::kFault,
           .number = event::number_of(fault.number),
           .subject = place,
-          .values = {{"detail", static_cast<double>(fault.detail)}, {"tick", static_cast<double>(fault.tick)}},
+          .values = {{"detail", static_cast<double>(fault.detail)},
+                     {"tick", static_cast<double>(fault.tick)},
+                     {"cause", static_cast<double>(event::number_of(cause))}},
           .text = std::string(info.text) + " " + info.remedy + " [" + std::to_string(event::number_of(fault.number)) +
                   " " + info.name + "]"};
 }
@@ -206,7 +209,11 @@ std::vector<event::Event> FaultMonitor::changes(const FaultList& now, const conf
                                                 const config::DriveNames& names) {
   std::vector<event::Event> events;
   for (std::size_t i = 0; i < static_cast<std::size_t>(now.count); ++i) {
-    if (!has(seen_, now.fault[i])) events.push_back(fault_event(now.fault[i], place_of(now.fault[i], buses, names)));
+    if (has(seen_, now.fault[i])) continue;
+    const auto cause = cause_of(now, static_cast<std::int32_t>(i));
+    events.push_back(fault_event(now.fault[i],
+                                 cause ? now.fault[static_cast<std::size_t>(*cause)].number : FaultNumber::kNone,
+                                 place_of(now.fault[i], buses, names)));
   }
   if (now.dropped > seen_.dropped) events.push_back(faults_without_place_event(now.dropped - seen_.dropped));
   seen_ = now;

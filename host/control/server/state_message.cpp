@@ -4,7 +4,7 @@
 
 #include "firmware_like/drive/cia402.hpp"
 #include "firmware_like/drive/pdo.hpp"
-#include "firmware_like/safety/faults.hpp"
+#include "firmware_like/safety/fault_causes.hpp"
 #include "host/control/server/host_warning.hpp"
 #include "host/control/server/service_events.hpp"
 #include "host/control/verification/refusal_table.hpp"
@@ -18,6 +18,7 @@ Json faults_json(const FaultList& list, const config::BusesConfig& buses, const 
   for (std::size_t i = 0; i < static_cast<std::size_t>(list.count); ++i) {
     const Fault& f = list.fault[i];
     const FaultInfo& info = fault_info(f.number);
+    const auto cause = cause_of(list, static_cast<std::int32_t>(i));
     faults.push_back({{"number", static_cast<int>(f.number)},
                       {"name", info.name},
                       {"index", f.index},
@@ -25,7 +26,8 @@ Json faults_json(const FaultList& list, const config::BusesConfig& buses, const 
                       {"detail", f.detail},
                       {"tick", f.tick},
                       {"text", info.text},
-                      {"remedy", info.remedy}});
+                      {"remedy", info.remedy},
+                      {"cause", cause ? Json(*cause) : Json()}});
   }
   return faults;
 }
@@ -41,7 +43,8 @@ void add_boot_faults(Json& state, const std::vector<realtime::BootProblem>& prob
                                {"detail", 0},
                                {"tick", state["tick"]},
                                {"text", problem.text},
-                               {"remedy", info.remedy}});
+                               {"remedy", info.remedy},
+                               {"cause", nullptr}});
   }
 }
 

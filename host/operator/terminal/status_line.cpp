@@ -94,7 +94,7 @@ std::vector<std::string> trouble_lines(const Json& state) {
     lines.push_back("STOPPED     by " + stop.value("by", "") + ": " + stop.value("reason", ""));
   if (const Json& faults = state.member_or_null("faults"); faults.is_array()) {
     for (const event::FaultGroup& group : event::fault_groups(faults))
-      lines.push_back("FAULT       " + group.title() + "  " + group.remedy);
+      lines.push_back("FAULT       " + group.alarm() + "  " + group.remedy);
   }
   if (const Json& verdict = object(state, "verdict"); verdict.value("code", 0) != 0)
     lines.push_back("REFUSED     " + verdict.value("text", "") + ": " + verdict.value("remedy", ""));

@@ -24,11 +24,21 @@ void add_estop(CLI::App& app, Action& action) {
 }
 
 void add_clear(CLI::App& app, Action& action) {
-  auto [sub, client] = add<ClientOptions>(app, action, "clear", clear_command);
+  auto [sub, client] = add<ClearOptions>(app, action, "clear", clear_command);
   sub.add_option("--api", client.api,
                  "API socket of the lianad; where not given, that of the one running system of this user (several are "
                  "refused)");
   sub.add_flag("--json", client.json, "print JSON, also when nothing could be cleared");
+  sub.add_option("--whole", client.whole, "this cable of fault 5006 is whole: somebody has looked at it")
+      ->check(CLI::Range(1, 64));
+}
+
+void add_recover(CLI::App& app, Action& action) {
+  auto [sub, client] = add<ClientOptions>(app, action, "recover", recover_command);
+  sub.add_option("--api", client.api,
+                 "API socket of the lianad; where not given, that of the one running system of this user (several are "
+                 "refused)");
+  sub.add_flag("--json", client.json, "print JSON at the end, also when the arm stays where it is");
 }
 
 void add_calibrate(CLI::App& app, Action& action) {
@@ -116,6 +126,7 @@ void declare_arm(CLI::App& app, Action& action) {
   add_status(app, action);
   add_estop(app, action);
   add_clear(app, action);
+  add_recover(app, action);
   add_calibrate(app, action);
   add_latency(app, action);
   add_force(app, action);

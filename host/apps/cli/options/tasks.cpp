@@ -44,6 +44,8 @@ constexpr CommandText kCommands[] = {
     {"liana estop", kWrong, "emergency stop of every running system: stop, brakes, disable", "liana estop"},
     {"liana clear", kWrong, "clear an emergency stop and latched faults of one running system; enables nothing",
      "liana clear"},
+    {"liana recover", kWrong, "lead an arm that has lost a cable back along its path, on the cables that are left",
+     "liana recover"},
     {"liana faults", kWrong, "list every fault: its number, what detects it, what it stops, what to do",
      "liana faults --refusals"},
 
