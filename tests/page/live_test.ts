@@ -105,6 +105,38 @@ test('fifteen silent drives are one alarm with the remedy of the fault table, be
   assert.match(second.title, /close to the wall/);
 });
 
+test('a fault and its consequences are one alarm, and so are a loose plug and its bus', () => {
+  const where = driveText(4, ARM);
+  const faults = [
+    { number: 3002, name: 'drive_silent', where, cause: null },
+    { number: 3001, name: 'drive_missing', where, cause: 0 },
+    { number: 3008, name: 'drive_stop_timeout', where, cause: 0 },
+  ];
+  const buses = [{ name: 'can0', state: 'error_passive' }];
+  const [plug, ...others] = conditionsOf({ faults, buses });
+  assert.deepEqual([plug.key, others.length], ['fault 3002', 0]);
+  assert.equal(plug.follows?.length, 3);
+  const twoCauses = conditionsOf({ faults: [...faults, { number: 5002, name: 'cable_overload', where, cause: null }] });
+  assert.deepEqual(twoCauses.map((each) => [each.key, each.follows?.length]), [['fault 3002', 2], ['fault 5002', 0]]);
+});
+
+test('alarms are acknowledged together, and one that is over stands below those that are not', () => {
+  const book = new AlarmBook();
+  const first = { ...slow, key: 'first', priority: 1 as const };
+  const second = { ...slow, key: 'second', priority: 1 as const };
+  book.update([first, second], 0);
+  book.update([second], 4);
+  assert.deepEqual(book.list().map((each) => each.key), ['second', 'first']);
+  book.acknowledgeAll('anna');
+  assert.deepEqual(book.list().map((each) => [each.key, each.acknowledgedBy]), [['second', 'anna']]);
+});
+
+test('an arm that goes back without a cable says so, and what the next command is', () => {
+  const recovery = { where: driveText(4, ARM), next: 'liana recover goes on', recovers: true };
+  assert.deepEqual(conditionsOf({ recovery }).map((each) => [each.key, each.todo]), [['recovery', 'liana recover goes on']]);
+  assert.deepEqual(conditionsOf({ recovery: { ...recovery, recovers: false } }), []);
+});
+
 test('drives count from 1, with node and segment', () => {
   assert.equal(driveText(3, ARM), 'drive 4 (node 4, segment 2)');
   assert.equal(driveText(3, MICRO), 'drive 4 (node 4)');

@@ -1,9 +1,21 @@
-// Alarms with cause and next step; each is acknowledged by the name of who has seen it.
+// Alarms with cause and next step, their consequences folded below; acknowledged together, by the name of who has seen
+// them. What is over stands in one line until then.
+import type { Alarm } from '../model/alarms';
 import { h } from '../ui/dom';
 import type { Live } from './live';
 import { displayName } from './display_name';
 
 const PRIORITIES = ['', 'act now', 'act soon', 'know'];
+
+function article(alarm: Alarm): HTMLElement {
+  const seen = alarm.acknowledgedBy !== '';
+  const follows = alarm.follows ?? [];
+  const count = follows.length === 0 ? 'cause' : `cause, and ${follows.length} consequence${follows.length === 1 ? '' : 's'}`;
+  return h('article', { class: `alarm priority-${alarm.priority} ${seen ? 'quiet' : ''}` },
+    h('strong', {}, alarm.title), h('span', { class: 'hint' }, seen ? `seen by ${alarm.acknowledgedBy}` : PRIORITIES[alarm.priority]),
+    h('p', { class: 'todo' }, alarm.todo),
+    h('details', {}, h('summary', {}, count), h('p', {}, alarm.cause), ...follows.map((title) => h('p', {}, title))));
+}
 
 export class AlarmPanel {
   readonly element = h('section', { class: 'alarms', 'aria-label': 'Alarms', 'aria-live': 'polite' });
@@ -13,18 +25,14 @@ export class AlarmPanel {
   // After the alarms changed: what did not change is not drawn again, nor read aloud.
   update(): void {
     const alarms = this.live.alarms.list();
+    const over = alarms.filter((alarm) => !alarm.isActive);
+    const unseen = alarms.filter((alarm) => alarm.acknowledgedBy === '').length;
+    const button = h('button', { type: 'button', class: 'seen', onclick: () => {
+      this.live.alarms.acknowledgeAll(this.live.welcome?.name ?? displayName());
+      this.changed();
+    } }, unseen === 1 ? 'seen' : `all ${unseen} seen`);
     this.element.hidden = alarms.length === 0;
-    this.element.replaceChildren(...alarms.map((alarm) => {
-      const seen = alarm.acknowledgedBy !== '';
-      const name = this.live.welcome?.name ?? displayName();
-      const button = h('button', { type: 'button', onclick: () => {
-        this.live.alarms.acknowledge(alarm.key, name);
-        this.changed();
-      } }, 'seen');
-      const state = `${PRIORITIES[alarm.priority]}${alarm.isActive ? '' : ', over now'}`;
-      return h('article', { class: `alarm priority-${alarm.priority} ${seen || !alarm.isActive ? 'quiet' : ''}` },
-        h('strong', {}, alarm.title), h('span', { class: 'hint' }, state), seen ? h('span', { class: 'hint' }, `seen by ${alarm.acknowledgedBy}`) : button,
-        h('p', {}, alarm.cause), h('p', { class: 'todo' }, alarm.todo));
-    }));
+    this.element.replaceChildren(...(unseen > 0 ? [button] : []), ...alarms.filter((alarm) => alarm.isActive).map(article),
+      ...(over.length > 0 ? [h('p', { class: 'over hint' }, `over: ${over.map((alarm) => alarm.title).join('; ')}`)] : []));
   }
 }

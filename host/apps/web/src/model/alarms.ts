@@ -12,6 +12,7 @@ export interface Condition {
   title: string;
   cause: string;
   todo: string;
+  follows?: string[]; // what is its consequence, and goes with it
   passes?: boolean; // goes by itself when it is over: nobody has to have seen it
 }
 
@@ -52,9 +53,15 @@ export class AlarmBook {
     if (!entry.isActive) this.entries.delete(key);
   }
 
-  // By priority; of one priority those first that nobody has acknowledged, then the oldest.
+  // All of them at once.
+  acknowledgeAll(name: string): void {
+    for (const alarm of this.list()) this.acknowledge(alarm.key, name);
+  }
+
+  // Those that are over last; then by priority, of one priority those first that nobody has acknowledged, then the
+  // oldest.
   list(): Alarm[] {
-    const rank = (a: Alarm) => 2 * a.priority + (a.acknowledgedBy === '' ? 0 : 1);
+    const rank = (a: Alarm) => 2 * a.priority + (a.acknowledgedBy === '' ? 0 : 1) + (a.isActive ? 0 : 10);
     return [...this.entries.values()].filter((e) => e.shown).sort((a, b) => rank(a) - rank(b) || a.since_s - b.since_s);
   }
 
@@ -71,24 +78,43 @@ export class AlarmBook {
   }
 
   private mark(): string {
-    return this.list().map((a) => `${a.key} ${a.isActive} ${a.acknowledgedBy} ${a.title} ${a.cause}`).join('\n');
+    return this.list().map((a) => `${a.key} ${a.isActive} ${a.acknowledgedBy} ${a.title} ${a.cause} ${a.follows?.join()}`).join('\n');
   }
 }
 
+type Fault = NonNullable<Facts['faults']>[number];
+const DRIVE_IS_LOST = [3001, 3002, 3007];
+
+// Those of one number in one line, with the drives and buses that have them.
+function faultTitles(faults: readonly Fault[]): Map<number, string> {
+  const places = new Map<number, string[]>();
+  for (const fault of faults) places.set(fault.number, [...(places.get(fault.number) ?? []), ...(fault.where ? [fault.where] : [])]);
+  const named = (number: number, where: string) => `${number} ${faults.find((f) => f.number === number)!.name.replaceAll('_', ' ')}${where === '' ? '' : `: ${where}`}`;
+  return new Map([...places].map(([number, where]) => [number, named(number, placesText(where))]));
+}
+
+// One alarm for each cause; what follows from it is folded below.
 function faultConditions(facts: Facts): Condition[] {
-  const groups = new Map<number, { name: string; text?: string; places: string[] }>();
-  for (const fault of facts.faults ?? []) {
-    const group = groups.get(fault.number) ?? { name: fault.name, text: fault.text, places: [] };
-    if (fault.where) group.places.push(fault.where);
-    groups.set(fault.number, group);
-  }
-  return [...groups].map(([number, group]) => {
+  const faults = facts.faults ?? [];
+  const causes = faults.filter((fault) => typeof fault.cause !== 'number');
+  return [...faultTitles(causes)].map(([number, title]) => {
     const row = faultRow(number);
-    const where = placesText(group.places);
-    const title = `${number} ${group.name.replaceAll('_', ' ')}${where === '' ? '' : `: ${where}`}`;
+    const follows = faults.filter((fault) => typeof fault.cause === 'number' && faults[fault.cause]?.number === number);
     const todo = row?.remedy ?? 'See docs/reference/faults.md.';
-    return { key: `fault ${number}`, priority: 1, title, cause: row?.text ?? group.text ?? '', todo };
+    return { key: `fault ${number}`, priority: 1, title, cause: row?.text ?? causes.find((f) => f.number === number)?.text ?? '', todo, follows: [...faultTitles(follows).values()] };
   });
+}
+
+// Of a lost cable after its fault was cleared, for the way back; and what an enable waits for.
+function recoveryConditions(facts: Facts): Condition[] {
+  const conditions: Condition[] = [];
+  if (facts.recovery?.recovers) {
+    conditions.push({ key: 'recovery', priority: 2, passes: true, title: `without ${facts.recovery.where}: only the way back is allowed`, cause: 'A cable of this arm is lost.', todo: facts.recovery.next });
+  }
+  if (facts.enabling_waits) {
+    conditions.push({ key: 'enabling', priority: 2, passes: true, title: 'enabling waits', cause: facts.enabling_waits, todo: 'Wait up to a minute, or disable and look at what is named.' });
+  }
+  return conditions;
 }
 
 function busConditions(facts: Facts): Condition[] {
@@ -103,9 +129,17 @@ function busConditions(facts: Facts): Condition[] {
     }));
 }
 
+// A loose plug is one alarm: a lost bus is told by its fault, and damaged frames go with the drive that is lost.
+function withoutEchoes(faults: readonly Condition[], buses: readonly Condition[]): Condition[] {
+  const lost = faults.find((fault) => fault.key === 'fault 4001') ?? faults.find((fault) => DRIVE_IS_LOST.some((number) => fault.key === `fault ${number}`));
+  if (!lost) return [...faults, ...buses];
+  const follows = [...(lost.follows ?? []), ...buses.map((bus) => bus.title)];
+  return faults.map((fault) => (fault === lost ? { ...fault, follows } : fault));
+}
+
 // What in these facts a person should act on.
 export function conditionsOf(facts: Facts): Condition[] {
-  const conditions = [...faultConditions(facts), ...busConditions(facts)];
+  const conditions = [...withoutEchoes(faultConditions(facts), busConditions(facts)), ...recoveryConditions(facts)];
   const { clearance, stop, friction } = facts;
   if (stop) {
     conditions.push({ key: 'stop', priority: 1, title: `emergency stop by ${stop.by}`, cause: stop.reason || 'No reason was given.',
