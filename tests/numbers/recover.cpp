@@ -12,14 +12,14 @@
 
 #include "options.hpp"
 #include "tests/closed_loop/fixture.hpp"
+#include "tests/closed_loop/lead_out.hpp"
 #include "tests/closed_loop/slit_path.hpp"
-#include "tests/closed_loop/way_back.hpp"
 
 namespace liana::numbers {
 namespace {
 
 using closed_loop::ArmUnderControl;
-using closed_loop::WayBack;
+using closed_loop::LeadOut;
 
 struct Trial {
   std::int32_t seed;
@@ -33,7 +33,7 @@ bool is_out(ArmUnderControl& arm) {
   return dot(slit.u_axis, arm.plant().tip_in_base().position_m) < slit.mouth_u_m;
 }
 
-void print(const Trial& trial, const WayBack& way, bool out, bool json) {
+void print(const Trial& trial, const LeadOut& way, bool out, bool json) {
   const char* form =
       json ? "{\"seed\": %d, \"moment\": \"%s\", \"cable\": %zu, \"out\": %d, \"back\": %d, \"fault\": %d, "
              "\"points_left\": %zu, \"enable_s\": %.1f, \"seconds\": %.0f, \"contact_N\": %.2f, \"max_N\": %.0f, "
@@ -60,7 +60,7 @@ void try_all(ArmUnderControl& arm, std::int32_t seed, const char* moment, const 
     const pid_t copy = fork();
     if (copy < 0) std::exit(1);
     if (copy == 0) {
-      const WayBack way = closed_loop::break_and_lead_back(arm, cable, path);
+      const LeadOut way = closed_loop::break_and_lead_out(arm, cable, path);
       print({seed, moment, cable}, way, is_out(arm), json);
       _exit(0);
     }

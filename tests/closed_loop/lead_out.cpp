@@ -1,4 +1,4 @@
-#include "way_back.hpp"
+#include "lead_out.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +27,8 @@ bool is_overpulled(const ArmUnderControl& arm) {
 
 }  // namespace
 
-WayBack break_and_lead_back(ArmUnderControl& arm, std::size_t cable, const Path& path) {
-  WayBack way;
+LeadOut break_and_lead_out(ArmUnderControl& arm, std::size_t cable, const Path& path) {
+  LeadOut way;
   const double interval_s = arm.table().tick_s * arm.table().interval_ticks;
   arm.plant().loosen(cable, 1.0);
   arm.wait(kStop_s);

@@ -10,7 +10,7 @@
 namespace liana::closed_loop {
 
 // What came of it, by the truth.
-struct WayBack {
+struct LeadOut {
   bool is_back = false;         // all the way, under power
   int fault = 0;                // the last one latched on the way; 0: none
   std::size_t points_left = 0;  // of the path
@@ -24,6 +24,6 @@ struct WayBack {
 using Path = std::vector<cable::ThetaVector>;
 
 // Breaks the cable, waits until the arm stands in FAULT, clears for the way back, enables and leads back.
-WayBack break_and_lead_back(ArmUnderControl& arm, std::size_t cable, const Path& path);
+LeadOut break_and_lead_out(ArmUnderControl& arm, std::size_t cable, const Path& path);
 
 }  // namespace liana::closed_loop
