@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "firmware_like/math/enumerators.hpp"
+#include "firmware_like/safety/fault_causes.hpp"
 
 namespace liana {
 namespace {
@@ -143,6 +145,30 @@ TEST(Faults, NoFaultIsNeverLatched) {
   FaultList faults{};
   EXPECT_FALSE(latch(faults, Fault{}));
   EXPECT_EQ(faults.count, 0);
+}
+
+TEST(FaultCauses, ALostDriveIsTheCauseOfWhatMissesItAndOfNothingElse) {
+  FaultList list;
+  latch(list, {FaultNumber::kDriveSilent, 3, 0, 100});
+  latch(list, {FaultNumber::kDriveMissing, 3, 0, 190});
+  latch(list, {FaultNumber::kDriveMissing, 4, 0, 190});
+  latch(list, {FaultNumber::kDriveStopTimeout, 3, 0, 400});
+  EXPECT_EQ(cause_of(list, 0), std::nullopt);
+  EXPECT_EQ(cause_of(list, 1), 0);
+  EXPECT_EQ(cause_of(list, 2), std::nullopt) << "another drive";
+  EXPECT_EQ(cause_of(list, 3), 0);
+}
+
+TEST(FaultCauses, AConsequenceIsNotOlderThanItsCause) {
+  const Fault broken{FaultNumber::kCableBreak, 4, 0, 100};
+  EXPECT_FALSE(is_consequence(broken, {FaultNumber::kCableSlack, 5, 0, 99}));
+  EXPECT_TRUE(is_consequence(broken, {FaultNumber::kCableSlack, 5, 0, 100}));
+  EXPECT_FALSE(is_consequence(broken, {FaultNumber::kCableBreak, 5, 0, 101})) << "a second break is a cause itself";
+}
+
+TEST(FaultCauses, NoFaultFollowsFromItself) {
+  for (const FaultInfo& info : all_faults())
+    EXPECT_FALSE(is_consequence({info.number, 0, 0, 1}, {info.number, 0, 0, 1})) << info.name;
 }
 
 }  // namespace

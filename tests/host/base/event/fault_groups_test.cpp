@@ -27,6 +27,19 @@ TEST(FaultGroups, OtherDetailsStandApart) {
   EXPECT_EQ(groups[0].title(), "3003 drive_silent: drive 1 (node 1) (detail 16)");
 }
 
+TEST(FaultGroups, WhatFollowsFromAFaultIsCountedBelowIt) {
+  Json silent = fault(3002, "drive 4 (node 4)"), missing = fault(3001, "drive 4 (node 4)");
+  Json stopped = fault(3008, "drive 4 (node 4)"), other = fault(5002, "drive 9 (node 9)");
+  silent["cause"] = other["cause"] = nullptr;
+  missing["cause"] = 0;
+  stopped["cause"] = 1;
+  const auto groups = fault_groups({silent, missing, stopped, other});
+  ASSERT_EQ(groups.size(), 2U);
+  EXPECT_EQ(groups[0].follows.size(), 2U);
+  EXPECT_EQ(groups[0].alarm(), "3002 drive_silent: drive 4 (node 4) and 2 consequences");
+  EXPECT_EQ(groups[1].alarm(), groups[1].title());
+}
+
 TEST(FaultGroups, ManyDrivesAreNumbersOnly) {
   EXPECT_EQ(places_text({"drive 1 (node 1)", "drive 2 (node 2)", "drive 3 (node 3)", "drive 4 (node 4)"}),
             "drives 1, 2, 3 and 4");

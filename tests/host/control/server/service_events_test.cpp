@@ -49,12 +49,16 @@ TEST(Faults, EachIsAnEventWhenItAppearsAndAgainAfterAClear) {
   const std::vector<event::Event> first = watch.changes(list, kBuses, kNames);
   EXPECT_EQ(summaries(first),
             (std::vector<std::string>{"fault 3003 drive 4 (node 4, segment 2)", "fault 4001 bus can0"}));
-  EXPECT_EQ(first[0].values, (std::vector<event::EventValue>{{"detail", 0x2310}, {"tick", 100.0}}));
+  EXPECT_EQ(first[0].values, (std::vector<event::EventValue>{{"detail", 0x2310}, {"tick", 100.0}, {"cause", 0.0}}));
   EXPECT_NE(first[0].text.find(fault_info(FaultNumber::kDriveFault).name), std::string::npos);
   EXPECT_TRUE(watch.changes(list, kBuses, kNames).empty()) << "it is still there";
   latch(list, {FaultNumber::kGateRefused, -1, 0, 101});
   EXPECT_EQ(summaries(watch.changes(list, kBuses, kNames)), (std::vector<std::string>{"fault 6001 "}));
   EXPECT_TRUE(watch.changes(FaultList{}, kBuses, kNames).empty()) << "that they are gone, the clear says";
+  FaultList plug;
+  latch(plug, {FaultNumber::kDriveSilent, 3, 0, 200});
+  latch(plug, {FaultNumber::kDriveMissing, 3, 0, 300});
+  EXPECT_EQ(watch.changes(plug, kBuses, kNames)[1].values.back(), (event::EventValue{"cause", 3002.0}));
   FaultList again;
   latch(again, {FaultNumber::kDriveFault, 3, 0x2310, 500});
   EXPECT_EQ(summaries(watch.changes(again, kBuses, kNames)),
