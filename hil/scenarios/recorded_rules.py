@@ -239,7 +239,7 @@ def faults_gone_unasked(ticks):
     """A latched fault goes away only by an operator's clear, and Fault is left only so."""
     asked, complaints = -math.inf, []
     for before, now in neighbours(ticks):
-        if now.request == "clear":
+        if now.request in ("clear", "recover"):
             asked = now.tick
         gone = names(before) - names(now)
         if gone and now.tick > asked + CLEAR_TICKS:

@@ -102,5 +102,23 @@ TEST(Recovery, ASecondBreakOnTheWayStopsTheArm) {
   EXPECT_EQ(broken.arm().outputs().state, OperatingState::kFault);
 }
 
+TEST(Recovery, WeightIsHeldByTheCablesThatAreLeftWhereTheyCanHoldIt) {
+  ArmUnderControl arm({"nominal", 3, true, "park", CLOSED_LOOP_DATA "/lab_1g.json", kLying_m_s2},
+                      lab_table(kLying_m_s2));
+  arm.boot();
+  arm.plant().loosen(0, 1.0);
+  arm.wait(3.0);
+  ASSERT_EQ(arm.outputs().faults.fault[0].number, FaultNumber::kCableBreak);
+  arm.ask(Request::kRecover);
+  arm.wait(0.5);
+  const Vec3 before_m = arm.plant().tip_in_base().position_m;
+  arm.ask(Request::kEnable);
+  arm.wait(6.0);
+  EXPECT_EQ(arm.outputs().state, OperatingState::kEnabled);
+  EXPECT_EQ(arm.outputs().tension_plan_N[0], 0.0);
+  EXPECT_GE(arm.outputs().tension_plan_N[1], arm.table().tension.floor_motor_N) << "its segment holds the weight";
+  EXPECT_LT(distance_mm(before_m, arm.plant().tip_in_base().position_m), 20.0);
+}
+
 }  // namespace
 }  // namespace liana::closed_loop

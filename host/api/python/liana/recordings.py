@@ -52,7 +52,7 @@ OUTPUTS: Wanted = {
 }
 ANGLE_COLUMN = re.compile(r"(?:theta|joint)_deg_\d+")  # of truth.bin
 STATES = ("DISABLED", "ENABLING", "ENABLED", "STOPPING", "FAULT")
-REQUESTS = ("none", "enable", "disable", "clear", "stop")
+REQUESTS = ("none", "enable", "disable", "clear", "stop", "recover")
 FIELD_NAME = re.compile(r"(\w+)((?:\[\d+\])*)$")
 MAX_ELEMENTS = 1 << 20  # of all fields of a schema
 

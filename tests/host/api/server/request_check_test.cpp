@@ -58,7 +58,7 @@ TEST(RequestCheck, RefusesByFieldValueAllowedRangeAndWhatToDo) {
       {R"({"op":"servo_cp"})", "bad_request", {"goal", "[x,y,z,qw,qx,qy,qz]"}, "required"},
       {R"({"op":"state_command","command":"fly"})",
        "bad_request",
-       {"command", "fly", "enable", "disable", "clear", "home"},
+       {"command", "fly", "enable", "disable", "clear", "home", "recover"},
        "a word"},
       {R"({"op":"use_device","device":"none","scale":-1})",
        "out_of_range",
