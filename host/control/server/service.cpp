@@ -120,7 +120,7 @@ void Service::note_clear() {
   const ClearResult& clear = desk_.supervisor().clear;
   if (clear.tick == clear_seen_tick_) return;
   clear_seen_tick_ = clear.tick;
-  note(clear_event(clear));
+  note(clear_event(clear, drives_that_keep(desk_, config_.drive_names)));
 }
 
 // An arm that is not homed some time after booting says why, once; the refusal to enable it says how it stands.

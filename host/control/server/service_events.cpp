@@ -4,8 +4,10 @@
 #include <cstdio>
 
 #include "firmware_like/drive/cia402.hpp"
+#include "firmware_like/safety/drive_link_monitor.hpp"
 #include "firmware_like/safety/fault_causes.hpp"
 #include "host/api/server/request_text.hpp"
+#include "host/base/event/fault_groups.hpp"
 #include "host/control/verification/refusal_table.hpp"
 #include "host/drives/canopen/emergency.hpp"
 
@@ -103,9 +105,31 @@ std::string why_enabling_waits(const ArmServer& desk, const config::DriveNames& 
   return text.empty() ? desk.why_not_taut() : text + ", needed operation_enabled";
 }
 
-event::Event clear_event(const ClearResult& clear) {
+std::string drives_that_keep(const ArmServer& desk, const config::DriveNames& names) {
+  std::vector<std::string> silent, stopped, in_fault;
+  for (std::size_t i = 0; i < desk.drive_count(); ++i) {
+    const DriveFeedback& drive = desk.inputs().drive[i];
+    const DriveState state = decode(drive.statusword);
+    if (drive.feedback_age_ticks > kFeedbackAgeTicks)
+      silent.push_back(names.drive(i));
+    else if (drive.operational == 0)
+      stopped.push_back(names.drive(i));
+    else if (state == DriveState::kFault || state == DriveState::kFaultReactionActive)
+      in_fault.push_back(names.drive(i));
+  }
+  std::string text;
+  const auto add = [&](const std::vector<std::string>& places, const char* what) {
+    if (!places.empty()) text += "; " + event::places_text(places) + what;
+  };
+  add(silent, ": no feedback");
+  add(stopped, ": not operational");
+  add(in_fault, ": in fault");
+  return text;
+}
+
+event::Event clear_event(const ClearResult& clear, const std::string& keeps) {
   const std::string result =
-      clear.missing == 0 ? "faults cleared" : "faults not cleared, not met: " + condition_names(clear.missing);
+      clear.missing == 0 ? "faults cleared" : "faults not cleared, not met: " + condition_names(clear.missing) + keeps;
   return {.kind = event::EventKind::kClear,
           .number = clear.missing,
           .values = {{"checked", static_cast<double>(clear.checked)}},

@@ -9,10 +9,10 @@
 #include "firmware_like/safety/faults.hpp"
 #include "firmware_like/safety/supervisor.hpp"
 #include "host/base/event/event.hpp"
-#include "host/control/server/arm_server.hpp"
 #include "host/control/arbiter/path_events.hpp"
 #include "host/control/arbiter/retract_events.hpp"
 #include "host/control/realtime/boot_problem.hpp"
+#include "host/control/server/arm_server.hpp"
 #include "host/control/server/emergency_stop.hpp"
 #include "host/control/server/owner.hpp"
 #include "host/control/verification/verdict.hpp"
@@ -33,7 +33,9 @@ event::Event homed_event();
 event::Event not_homed_event(const std::string& why);
 // What keeps an arm from being enabled: cables, or drives that are not yet in Operation enabled; empty: nothing.
 std::string why_enabling_waits(const ArmServer& desk, const config::DriveNames& names);
-event::Event clear_event(const ClearResult& clear);
+// Drives that keep a clear, with the reason: "; drive 7 (node 7, segment 3): no feedback"; empty: none.
+std::string drives_that_keep(const ArmServer& desk, const config::DriveNames& names);
+event::Event clear_event(const ClearResult& clear, const std::string& keeps);
 // `drive`: 0-based.
 event::Event emergency_event(std::size_t drive, std::uint16_t code, const config::DriveNames& names);
 // A command that verification refused.
