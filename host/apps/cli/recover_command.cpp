@@ -44,13 +44,12 @@ class Recovery {
 
   void begin() {
     loss_ = look().value("recovery", Json());
-    if (!loss_.is_object())
-      throw std::runtime_error("no cable is lost: fault 5006 is not latched; liana status says what is");
+    request({{"op", "acquire"}});
+    if (!loss_.is_object()) return command("recover");  // lianad says why not
     std::string slack;
     for (const Json& cable : loss_["slack"]) slack += (slack.empty() ? "" : ", ") + std::to_string(cable.get<int>());
     tell("lost: " + loss_.value("where", "") + "; cables " + slack +
          " stay slack, the others are pulled by their plan");
-    request({{"op", "acquire"}});
   }
 
   void clear() {

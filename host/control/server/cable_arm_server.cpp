@@ -137,6 +137,7 @@ void CableArmServer::watch(bool booted) {
 
 // Verified as the motion is, it is no more than its cables that are left: what stands in its way shows in them.
 void CableArmServer::watch_loss() {
+  if (outputs().state == OperatingState::kEnabled) called_whole_.clear();  // it has taken tension
   const std::string over = overpulled_cable(loss());
   if (!over.empty() && arbiter_.is_going_back()) arbiter_.hold(over);
 }

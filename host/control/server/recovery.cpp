@@ -57,6 +57,22 @@ std::string why_weight_falls(const LossView& arm, Index lost, const Path& path) 
   return why;
 }
 
+// A drive that is lost holds its cable with its brake, and nobody can pay that out: so much does a millimetre of way
+// pull it.
+std::string why_drive_holds(const LossView& arm) {
+  for (Index i = 0; i < static_cast<Index>(arm.outputs.faults.count); ++i) {
+    const Fault& fault = arm.outputs.faults.fault[i];
+    const auto group = static_cast<int>(fault.number) / 1000;
+    if (group != 3 || fault.index < arm.table.feed_count()) continue;
+    const auto cable = static_cast<Index>(fault.index);
+    const double per_mm_N = 1e-3 * arm.table.cable_EA_N / arm.outputs.payout_command_m[cable];
+    return arm.names.drive(cable) + " is lost (fault " + std::to_string(static_cast<int>(fault.number)) +
+           "): its brake holds its cable, and each millimetre of way would pull it by " + newtons(per_mm_N) +
+           ". Bring the drive back, then liana clear; or slacken its drum by hand (docs/how-to/a-cable-broke.md)";
+  }
+  return "no cable is lost: fault 5006 is not latched; see docs/how-to/arm-stands-in-the-slit-with-a-fault.md";
+}
+
 }  // namespace
 
 std::vector<std::size_t> lost_cables(const LossView& arm) {
@@ -85,8 +101,7 @@ std::string why_loss_stands(const LossView& arm) {
 
 std::string why_not_recover(const LossView& arm, const Path& path) {
   const std::vector<Index> lost = lost_cables(arm);
-  if (lost.empty())
-    return "no cable is lost: fault 5006 is not latched; see docs/how-to/arm-stands-in-the-slit-with-a-fault.md";
+  if (lost.empty()) return why_drive_holds(arm);
   for (const Index cable : lost) {
     const bool is_same =
         cable::may_let_go(arm.table) ? arm.names.segment_of(cable) == arm.names.segment_of(lost[0]) : cable == lost[0];

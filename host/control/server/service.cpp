@@ -136,13 +136,14 @@ void Service::watch_homing() {
 
 // Who enables has to know soon what keeps the arm; a cable that is not whole is not pulled for up to a minute.
 void Service::watch_enabling() {
+  const bool was_told = !notes_.enabling_waits.empty();
   notes_.enabling_waits.clear();
   if (now().state != OperatingState::kEnabling) return enabling_since_.reset();
   if (!enabling_since_) enabling_since_ = tick();
   const std::uint64_t waited = tick() - *enabling_since_;
   if (waited < ticks_in(kEnabling_s)) return;
   notes_.enabling_waits = why_enabling_waits(desk_, config_.drive_names);
-  if (notes_.enabling_waits.empty() || waited >= ticks_in(kEnabling_s) + config_.buses.interval_ticks()) return;
+  if (notes_.enabling_waits.empty() || was_told) return;
   note({.kind = event::EventKind::kHostWarning,
         .number = event::number_of(event::HostTroubleEvent::kEnablingWaits),
         .text = "enabling waits: " + notes_.enabling_waits});

@@ -139,10 +139,10 @@ Json Service::on_state_command(const api::ClientInfo&, const api::Arguments& fie
     notes_.stop.release();
     this->request(Request::kClear);
   } else if (command == "recover") {
-    if (now().state != OperatingState::kFault && !desk_.recovers())
-      throw api::RequestError("refused", "the arm is not in FAULT: wait until it stands still without power");
     const std::string why = desk_.why_not_recover();
     if (!why.empty()) throw api::RequestError("refused", why);
+    if (now().state != OperatingState::kFault && !desk_.recovers())
+      throw api::RequestError("busy", "the arm is stopping: ask again when it stands in FAULT, without power");
     notes_.stop.release();
     if (!desk_.recovers()) this->request(Request::kRecover);
   } else {

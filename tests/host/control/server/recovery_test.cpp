@@ -66,6 +66,14 @@ TEST_F(RecoveryTest, WithoutALossOrAPathThereIsNoRecovery) {
   EXPECT_NE(why_not_recover(arm(), Path()), "");
 }
 
+TEST_F(RecoveryTest, ALostDriveIsToldWithWhatItsBrakeWouldPullBy) {
+  outputs_.payout_command_m.fill(2.4);
+  latch(outputs_.faults, {FaultNumber::kDriveSilent, 14, 0, 7});
+  const std::string why = why_not_recover(arm(), path_);
+  EXPECT_NE(why.find(names_.drive(14)), std::string::npos) << why;
+  EXPECT_NE(why.find("100.0 N"), std::string::npos) << "EA 240 kN over 2.4 m";
+}
+
 TEST_F(RecoveryTest, TwoCablesOfASegmentAreOneLossTwoOfTwoSegmentsAreNot) {
   lose(3);
   lose(5);
