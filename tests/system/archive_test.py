@@ -60,7 +60,7 @@ class RunsWithoutRecord(SystemTest):
         names = {file.name for file in self.folder.iterdir()}
         page = {"page.html"} if (SOURCE / "build/page/view.html").exists() else set()
         ring = {name for name in names if name.startswith("ring-")}
-        self.assertEqual(names - ring, LASTING | {"truth.bin", "telemetry-1-000000000000.db"} | page)
+        self.assertEqual(names - ring, LASTING | {"lock", "truth.bin", "telemetry-1-000000000000.db"} | page)
         self.assertEqual({name.rsplit("-", 1)[0] for name in ring}, {"ring-inputs-1", "ring-outputs-1"})
         self.assertEqual(list(self.home.glob("liana-run-*")), [])
 
