@@ -72,7 +72,7 @@ std::vector<std::uint64_t> parse_rows(const std::string& text, std::uint64_t cou
   std::istringstream list(text);
   const auto number = [&](const std::string& word) {
     return static_cast<std::uint64_t>(
-        parse_whole("--rows", word, 0, static_cast<std::int64_t>(count) - 1, "the rows of this campaign"));
+        parse_whole("--rows", word, 0, static_cast<std::int64_t>(count) - 1, ", the rows of this campaign"));
   };
   for (std::string word; std::getline(list, word, ',');) {
     const std::size_t dash = word.find('-', 1);
