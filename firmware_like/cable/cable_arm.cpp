@@ -151,7 +151,7 @@ void CableArm::stop_planning() noexcept {
   lift_N_ = SegmentVector{};
   taut_N_ = CableVector{};
   dither_ = DitherState{};
-  if (!does_without(let_go_)) let_go_ = SegmentReleaseState{};
+  if (is_let_go(let_go_) && !does_without(let_go_)) let_go_ = SegmentReleaseState{};
   lets_out_ = false;
   payout_command_m_ = payout_measured_m_;
 }

@@ -89,6 +89,10 @@ TEST(Recovery, AClearMakesTheCableCountAgainAndAnArmWithoutItIsNotEnabled) {
   EXPECT_FALSE(cable::does_without(broken.arm().controller().arm().release()));
   broken.enable();
   EXPECT_EQ(broken.arm().outputs().state, OperatingState::kEnabling) << "10 s on, the cable is still missed";
+  broken.arm().disable();
+  broken.arm().ask(Request::kRecover);
+  broken.run(0.1);
+  EXPECT_TRUE(cable::does_without(broken.arm().controller().arm().release())) << "it was not whole";
 }
 
 TEST(Recovery, ASecondBreakOnTheWayStopsTheArm) {

@@ -6,7 +6,9 @@ namespace liana::cable {
 
 void answer_loss(const RobotParams& table, const CableLayout& layout, Request request, const FaultList& faults,
                  SegmentReleaseState& state) noexcept {
-  if (request == Request::kClear) state = SegmentReleaseState{};
+  if (request == Request::kClear) state.stage = SegmentReleaseStage::kNone;
+  const bool was_lost = !is_let_go(state) && state.ticks == kLetGoSettleTicks;
+  if (request == Request::kRecover && was_lost) state.stage = SegmentReleaseStage::kBroken;
   for (std::int32_t i = 0; i < faults.count && request == Request::kRecover; ++i) {
     const Fault& fault = faults.fault[as_index(i)];
     if (fault.number != FaultNumber::kCableBreak) continue;

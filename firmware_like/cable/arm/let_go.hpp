@@ -95,7 +95,8 @@ inline bool may_be_slack(const SegmentReleaseState& state, const CableLayout& la
 }
 
 // While the drives are without torque: a clear forgets what was lost, a recovery does without the first cable that
-// `faults` have as broken, and without its segment where the arm has no weight that the others carry.
+// `faults` have as broken, and without its segment where the arm has no weight that the others carry. Without such a
+// fault it does without the cable that a clear has forgotten: it was not whole.
 void answer_loss(const RobotParams& table, const CableLayout& layout, Request request, const FaultList& faults,
                  SegmentReleaseState& state) noexcept;
 

@@ -138,6 +138,10 @@ void Service::watch_homing() {
 void Service::watch_enabling() {
   const bool was_told = !notes_.enabling_waits.empty();
   notes_.enabling_waits.clear();
+  if (takes_back_ && now().state == OperatingState::kDisabled) {
+    takes_back_ = false;
+    request(Request::kRecover);
+  }
   if (now().state != OperatingState::kEnabling) return enabling_since_.reset();
   if (!enabling_since_) enabling_since_ = tick();
   const std::uint64_t waited = tick() - *enabling_since_;
@@ -150,7 +154,8 @@ void Service::watch_enabling() {
   if (!desk_.is_untrue()) return;
   note({.kind = event::EventKind::kHostWarning,
         .number = event::number_of(event::HostTroubleEvent::kEnablingWaits),
-        .text = "enabling ends: a cable that was called whole takes no tension"});
+        .text = "enabling ends: a cable that was called whole takes no tension, and counts as lost again"});
+  takes_back_ = true;
   request(Request::kDisable);
 }
 

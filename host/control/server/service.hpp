@@ -160,6 +160,7 @@ class Service : private api::ApiHandler {
   realtime::Overruns overruns_before_;          // at the last reset of the timing
   RunLifecycle lifecycle_;
   std::optional<std::uint64_t> enabling_since_;
+  bool takes_back_ = false;  // a cable was called whole and is not: it counts as lost again, once the arm is disabled
   std::optional<std::uint64_t> stop_tick_;     // of the last stop, whoever asked for it
   std::optional<std::uint64_t> disable_tick_;  // of the last disable that was asked for
   int mission_asked_ = 0;                      // how often somebody has told the mission something
