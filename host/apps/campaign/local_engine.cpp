@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr int kMaxTries = 3;  // of a row whose run was killed, or whose programs did not start
 constexpr double kEndGrace_s = 10.0;
-constexpr auto kLook = std::chrono::milliseconds(5);
+constexpr auto kLook = std::chrono::milliseconds(20);
 
 std::string text_of(const std::string& path) {
   std::ifstream file(path);
