@@ -3,10 +3,12 @@
 #include <fcntl.h>
 #include <sys/file.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 #include "host/apps/launcher/errors.hpp"
 #include "host/model/config/canonical.hpp"
