@@ -5,6 +5,7 @@ import os
 import pathlib
 import re
 import signal
+import socket
 import struct
 import subprocess
 import tempfile
@@ -100,6 +101,24 @@ class WhatAClientSees(GatewayTest):
         self.assertEqual(len(said["tension_N"]), len(tensions))
         for mine, his in zip(tensions, said["tension_N"]):
             self.assertAlmostEqual(mine, his, delta=1.0)
+
+    def test_states_go_out_as_datagrams_until_an_interrupt(self):
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as plot:
+            plot.bind(("127.0.0.1", 0))
+            plot.settimeout(30)
+            words = [program("liana"), "status", "--api", self.system.api, "--json"]
+            words += ["--udp", f"127.0.0.1:{plot.getsockname()[1]}"]
+            with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as sender:
+                told = [json.loads(plot.recv(65536)) for _ in range(20)]
+                sender.send_signal(signal.SIGINT)
+                said = json.loads(sender.communicate(timeout=30)[0])
+        self.assertEqual(sender.returncode, 0)
+        self.assertGreaterEqual(said["sent"], 20)
+        self.assertEqual(said["unheard"], 0)
+        times = [state["timestamp"] for state in told]
+        self.assertEqual(times, sorted(set(times)))
+        wait_until(lambda: told[0]["tick"] in self.states, "the same state")
+        self.assertEqual(told[0]["measured_js_deg"], self.states[told[0]["tick"]]["measured_js_deg"])
 
     def test_events_come_in_order_each_once_and_those_kept_come_to_a_latecomer(self):
         first = self.console().until(lambda me: me.facts.get("is_homed"))

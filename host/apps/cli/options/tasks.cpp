@@ -115,7 +115,8 @@ constexpr CommandText kCommands[] = {
      "liana robot new my_arm --segments 3 --modules 4"},
     {"liana robot check", kBelow, "check whether a robot fits: capacity, bus load, workspace, tensions, holes, jigs",
      "liana robot check three_segment_lab"},
-    {"liana robot export", kBelow, "write a robot table as canonical JSON, or as a model for ROS (URDF) or MuJoCo (MJCF)",
+    {"liana robot export", kBelow,
+     "write a robot table as canonical JSON, or as a model for ROS (URDF) or MuJoCo (MJCF)",
      "liana robot export zhu2022 --mjcf --scene panel_slit --out zhu2022.xml"},
 };
 
