@@ -1,5 +1,5 @@
-"""An arm that loses a cable in the slit, led out on the cables that are left (docs/how-to/a-cable-broke.md): every cable,
-two moments, seeded arms, judged by the truth.
+"""An arm that loses a cable in the slit, led out on the cables that are left (docs/how-to/a-cable-broke.md): every
+cable, two moments, seeded arms, judged by the truth.
 
 Alone: recover.py [--bin DIR] [--count SEEDS] [--json].
 """

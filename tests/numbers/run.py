@@ -21,7 +21,8 @@ mutations gateway frames latency sources worst fuzz stability filter human hands
 feeding install recover""".split()
 # Programs that sections are measured with, beside those of users.
 PROGRAMS = """planning_goals planning_shape planning_teleop plan_from_straight detectors force_friction distances verdicts
-stability filter pushes insertion_speeds bench_core bench_worst bits_tape recover""".split()
+stability filter pushes insertion_speeds bench_core bench_worst bits_tape
+recover""".split()
 PACKAGES = {"frames": ["chromium", "npm"], "made_up": ["bits"], "fuzz": ["clang"]}
 
 
