@@ -67,11 +67,11 @@ TEST_F(RecoveryTest, WithoutALossOrAPathThereIsNoRecovery) {
 }
 
 TEST_F(RecoveryTest, ALostDriveIsToldWithWhatItsBrakeWouldPullBy) {
-  outputs_.payout_command_m.fill(2.4);
+  outputs_.payout_command_m.fill(1e-5 * table_.cable_EA_N);  // of which 1 mm is 100 N
   latch(outputs_.faults, {FaultNumber::kDriveSilent, 14, 0, 7});
   const std::string why = why_not_recover(arm(), path_);
   EXPECT_NE(why.find(names_.drive(14)), std::string::npos) << why;
-  EXPECT_NE(why.find("100.0 N"), std::string::npos) << "EA 240 kN over 2.4 m";
+  EXPECT_NE(why.find("100.0 N"), std::string::npos) << why;
 }
 
 TEST_F(RecoveryTest, TwoCablesOfASegmentAreOneLossTwoOfTwoSegmentsAreNot) {
