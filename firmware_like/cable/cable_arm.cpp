@@ -50,6 +50,9 @@ CableArm::CableArm(const RobotParams& table) noexcept
       cables_with_cells_(cables_with_cells(table)),
       tension_watch_limits_(make_tension_watch_limits(table)) {
   for (Index c = 0; c < cables(); ++c) zero_payout_m_[c] = layout_.zero_length_m[c] + table.lead_m;
+  for (Index c = 0; c < cables(); ++c)
+    if (!reports_torque(table, c))
+      pull_N_[c] = table.tension.plan_N;  // what brakes are taken to hold, until it is planned
   cable_watch_limits_ = make_cable_watch_limits(table, zero_payout_m_);
   torque_limits_ = make_torque_limits(table);
   reset_friction_watch(declared_mu_, friction_);
@@ -71,7 +74,8 @@ void CableArm::read(const DriveFeedbacks& drives, const LoadCells& cells) noexce
     const DriveFeedback& drive = drives[c];
     if (drive.feedback_age_ticks > feedback_age_ticks_) feedback_age_ticks_ = drive.feedback_age_ticks;
     payout_measured_m_[c] = payout_at_counts(table_.drive[c], zero_payout_m_[c], drive.position_counts);
-    tension_measured_N_[c] = table_.drive[c].newtons_per_permille * drive.torque_permille;
+    tension_measured_N_[c] =
+        reports_torque(table_, c) ? table_.drive[c].newtons_per_permille * drive.torque_permille : pull_N_[c];
   }
   if (first_cable_ != 0) tension_measured_N_[0] = tension_measured_N_[1] = 0.0;
   if (cables_with_cells_ != 0) read_cells(cells);

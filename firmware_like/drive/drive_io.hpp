@@ -8,6 +8,8 @@ namespace liana {
 
 constexpr std::int32_t kMaxDrives = 32;  // compiled capacity
 
+constexpr std::uint8_t kInOtherMode = 2;
+
 // What one drive reported; ages count ticks since the last message (0 = in this tick).
 struct DriveFeedback {
   std::uint16_t statusword = 0;      // 6041
@@ -17,7 +19,7 @@ struct DriveFeedback {
   std::uint16_t feedback_age_ticks = 0xFFFF;
   std::uint16_t heartbeat_age_ticks = 0xFFFF;
   std::uint16_t emergency_code = 0;  // last EMCY error code of this tick, 0 = none
-  std::uint8_t operational = 0;      // NMT state is operational
+  std::uint8_t operational = 0;      // NMT state is operational; kInOtherMode: and it shows a mode that is not its own
 };
 using DriveFeedbacks = std::array<DriveFeedback, kMaxDrives>;
 

@@ -43,11 +43,11 @@ bool decode_rpdo1(std::span<const std::uint8_t> data, DriveCommand& command) noe
   return true;
 }
 
-bool decode_tpdo1(std::span<const std::uint8_t> data, Tpdo1& report) noexcept {
-  if (data.size() != static_cast<std::size_t>(kTpdo1Bytes)) return false;
+bool decode_tpdo1(std::span<const std::uint8_t> data, Tpdo1& report, bool has_torque) noexcept {
+  if (data.size() != static_cast<std::size_t>(has_torque ? kTpdo1Bytes : kTpdo1BytesWithoutTorque)) return false;
   report.statusword = read_u16(data, 0);
   report.position_counts = static_cast<std::int32_t>(read_u32(data, 2));
-  report.torque_permille = static_cast<std::int16_t>(read_u16(data, 6));
+  report.torque_permille = has_torque ? static_cast<std::int16_t>(read_u16(data, 6)) : std::int16_t{0};
   return true;
 }
 

@@ -19,6 +19,7 @@ constexpr std::int32_t kRpdo1Bytes = 6;
 constexpr std::int32_t kTorqueRpdo1Bytes = 8;
 constexpr std::int32_t kTpdo2Bytes = 4;
 constexpr std::int32_t kTpdo1Bytes = 8;
+constexpr std::int32_t kTpdo1BytesWithoutTorque = 6;
 
 // Node id of a drive, 1-based; drive i (0-based) drives cable i.
 constexpr std::uint32_t node_of_drive(std::size_t drive) noexcept { return static_cast<std::uint32_t>(drive + 1); }
@@ -46,8 +47,9 @@ std::array<std::uint8_t, kTpdo1Bytes> encode_tpdo1(const Tpdo1& report) noexcept
 // Reads RPDO1; false, with `command` untouched, unless there are exactly kRpdo1Bytes.
 [[nodiscard]] bool decode_rpdo1(std::span<const std::uint8_t> data, DriveCommand& command) noexcept;
 
-// Reads TPDO1; false, with `report` untouched, unless there are exactly kTpdo1Bytes.
-[[nodiscard]] bool decode_tpdo1(std::span<const std::uint8_t> data, Tpdo1& report) noexcept;
+// Reads TPDO1; false, with `report` untouched, unless there are exactly kTpdo1Bytes, or kTpdo1BytesWithoutTorque of a
+// drive that reports no torque, which is then 0.
+[[nodiscard]] bool decode_tpdo1(std::span<const std::uint8_t> data, Tpdo1& report, bool has_torque = true) noexcept;
 
 // Reads RPDO1 of a torque drive; false, with `command` untouched, unless there are exactly kTorqueRpdo1Bytes.
 [[nodiscard]] bool decode_torque_rpdo1(std::span<const std::uint8_t> data, DriveCommand& command) noexcept;

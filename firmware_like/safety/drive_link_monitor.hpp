@@ -18,7 +18,8 @@ constexpr double kHeartbeatTimeout_s = 0.3;       // drives produce one every 0.
 constexpr std::uint16_t kFollowingDebounceTicks = 5;
 constexpr std::uint16_t kTwiceTicks =
     8;  // in a row with two voices under one drive's identifiers; the host counts them
-constexpr double kFollowingDeadTicks = 4.0;  // target to sample two ticks, feedback up to two ticks old
+constexpr std::uint32_t kModeRoundTicks = 8;  // the host asks every drive with power for its mode once in so many
+constexpr double kFollowingDeadTicks = 4.0;   // target to sample two ticks, feedback up to two ticks old
 
 // How much faster than the arm's own limit a target may move, for the gate and for the following error: room for what
 // an arm adds to its planned motion (elongation of cables, damping).

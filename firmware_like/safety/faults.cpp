@@ -66,6 +66,11 @@ constexpr std::array<FaultInfo, count_enumerators<FaultNumber, 1000>()> kFaultTa
      "Another sender uses the identifiers of a drive: two drives have one node id, or another master commands it.",
      "Look for a second drive with this node id, or another program that commands drives; give each drive an id of its "
      "own or end the program, then clear."},
+    {kDriveOtherMode, "drive_other_mode", kStop, true, false,
+     "A drive with power shows another mode of operation (6061) than it was told: it does not follow its targets.",
+     "Look for another tool or master that writes 6060, and for a setting of the drive that changes its mode; then "
+     "clear "
+     "and enable again."},
     {kBusLost, "bus_lost", kStop, true, false, "A drive bus is down, in bus-off, or none of its drives sends.",
      "Check connector, termination and interface state of the bus, then clear."},
     {kCableSlack, "cable_slack", kHold, false, true, "A cable's tension stayed under the floor.",

@@ -29,6 +29,7 @@ enum class FaultNumber : std::uint16_t {
   kDriveNotOperational = 3007,  // NMT state is no longer operational
   kDriveStopTimeout = 3008,     // drive did not confirm that it is without power
   kNodeTwice = 3009,            // somebody else speaks under the identifiers of a drive
+  kDriveOtherMode = 3010,       // a drive that follows targets shows another mode than it was told
   kBusLost = 4001,
   kCableSlack = 5001,             // tension under the floor for too long
   kCableOverload = 5002,          // tension over the hard limit

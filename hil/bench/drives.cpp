@@ -78,6 +78,9 @@ void Drives::begin(const FaultConfig& fault, std::size_t i) {
     case FaultKind::kNodeTwice:
       drive.defects().twice = true;
       return;
+    case FaultKind::kOtherMode:
+      drive.defects().mode = static_cast<std::int8_t>(with.mode);
+      return;
     case FaultKind::kSlowReset:
       drive.defects().reset_us = microseconds(with.seconds);
       return;
@@ -120,6 +123,9 @@ void Drives::end(const FaultConfig& fault, std::size_t i) {
       return;
     case FaultKind::kNodeTwice:
       defects.twice = none.twice;
+      return;
+    case FaultKind::kOtherMode:
+      drives_[i]->leave_other_mode();
       return;
     case FaultKind::kSlowReset:
       defects.reset_us = none.reset_us;

@@ -33,6 +33,7 @@ enum class FaultKind {
   kLoadCellOff,
   kNoReports,
   kNodeTwice,
+  kOtherMode,
   kSlowReset,
   kSlowPower,
   kSlowSdo,
@@ -77,6 +78,7 @@ struct FaultParameters {
   double counts = 0.0;    // encoder
   double permille = 0.0;  // of rated torque
   double bytes = 7.0;
+  double mode = 1;       // of operation (6061)
   double code = 0x2310;  // emergency code; the default is continuous over-current
   double length_m = 0.0;
   double slots = 1.0;      // SYNC periods that it takes

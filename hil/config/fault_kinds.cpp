@@ -30,6 +30,7 @@ std::vector<KindOfFault> of_drives() {
           {"encoder_jump", kEncoderJump, kOf, false, {{"counts", &P::counts, -1e6, 1e6, true, true}}},
           {"no_reports", kNoReports, kOf, true, {}},
           {"duplicate_node_id", kNodeTwice, kOf, true, {}},
+          {"other_mode", kOtherMode, kOf, true, {{"mode", &P::mode, -128, 127, true, true}}},
           {"slow_reset", kSlowReset, kOf, true, {{"seconds", &P::seconds, 0.001, 60, false, false}}},
           {"slow_power", kSlowPower, kOf, true, {{"seconds", &P::seconds, 0.001, 60, false, false}}},
           {"slow_sdo", kSlowSdo, kOf, true, {{"seconds", &P::seconds, 0.001, 60, false, false}}}};

@@ -229,7 +229,7 @@ void Drive::handle_sync(FrameList& out) {
     pending_[i].reset();
     act_on_controlword(static_cast<std::uint16_t>(objects_.get(0x6040)));
   }
-  motor_.set_target(static_cast<double>(objects_.get(0x607A)) - encoder_offset_counts_);
+  if (!defects_.mode) motor_.set_target(static_cast<double>(objects_.get(0x607A)) - encoder_offset_counts_);
   sample();
   send_process_data(out);
 }
@@ -270,6 +270,7 @@ void Drive::sample() {
   objects_.set(0x6062, 0, objects_.get(0x607A));
   objects_.set(0x60F4, 0, objects_.get(0x607A) - objects_.get(0x6064));
   objects_.set(0x6041, 0, statusword());
+  if (defects_.mode) objects_.set(0x6061, 0, *defects_.mode);
 }
 
 std::uint16_t Drive::statusword() const {

@@ -66,6 +66,10 @@ class Drive {
   void raise_fault(std::uint16_t emergency_code);
   void report_emergency(std::uint16_t code) { emergencies_.push_back(code); }  // sent, and nothing else happens
   void set_identity(std::uint32_t product);
+  void leave_other_mode() {  // back to the mode that 6060 says
+    defects_.mode.reset();
+    objects_.set(0x6061, 0, objects_.get(0x6060));
+  }
   void jump_encoder(double counts) {
     encoder_offset_counts_ += counts;
   }  // reads so much more from now on; the servo goes by it

@@ -124,7 +124,9 @@ ObjectDictionary make_objects(const DriveSettings& settings) {
     add_pdo(objects, number, settings.node, false);
   }
   change_objects(settings.dictionary, objects);
-  return ObjectDictionary(std::move(objects));
+  ObjectDictionary out(std::move(objects));
+  out.set(0x6061, 0, out.get(0x6060));  // the mode of power-on is the one that it is in
+  return out;
 }
 
 }  // namespace liana::bench

@@ -33,6 +33,7 @@ PERSIST_TICKS = 1250  # a hold that stays so long is a stop
 QUICK_STOP_TICKS = 120  # a quick stop that takes longer is ended
 PATH_STOP_TICKS = 500  # twice what rest from full speed takes
 STILL_RAD_S = 1e-6
+IN_OTHER_MODE = 2  # of `operational`: the drive shows another mode than its own
 TELL_TICKS = 10  # two command intervals: the next state tells
 SETTLE_TICKS = 5  # from the state on: drives have heard the last command, their brakes are closed
 
@@ -322,6 +323,8 @@ class Watch:
                 found.append((3003, drive))
             elif powered and not is_enabled(status):
                 found.append((3004, drive))
+            elif powered and now.operational[drive] == IN_OTHER_MODE:
+                found.append((3010, drive))
             found += ((number, drive) for number in self.of_cable(now, drive, powered))
             found += ((number, drive) for number in self.of_joint(before, now, drive, powered))
         return found
@@ -376,7 +379,7 @@ def faults_not_latched(ticks, limits):
 
 
 # Numbers whose cause is plain in the reports, so that the watch here finds exactly what the core may latch.
-PLAIN = (2001, 3001, 3002, 3003, 3004, 3007, 3009, 4001, 5001, 5002, 5003)
+PLAIN = (2001, 3001, 3002, 3003, 3004, 3007, 3009, 3010, 4001, 5001, 5002, 5003)
 
 
 def false_alarms(ticks, limits, first_cause):

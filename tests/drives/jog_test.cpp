@@ -77,7 +77,7 @@ class JogLine : public ::testing::Test {
       out = {report.statusword, report.torque_permille, report.position_counts, 0, 0, 0, 0, 1};
     }
     out.heartbeat_age_ticks = heartbeat_age_ticks;
-    out.operational = 1;
+    out.operational = operational;
     return last_ = out;
   }
 
@@ -90,6 +90,7 @@ class JogLine : public ::testing::Test {
   test::BootedDrive line;
   std::vector<std::int32_t> targets;
   std::uint16_t heartbeat_age_ticks = 0;
+  std::uint8_t operational = 1;
 
  private:
   DriveFeedback last_;
@@ -204,6 +205,16 @@ TEST_F(JogLine, ALostHeartbeatStopsIt) {
     if (tick >= 60) ++heartbeat_age_ticks;
   });
   EXPECT_EQ(jog.end(), JogResult::kHeartbeatLost);
+  EXPECT_LT(moved(), kBy - 500.0);
+  expect_disabled();
+}
+
+TEST_F(JogLine, ADriveThatLeavesItsModeIsStoppedAndNamed) {
+  commissioning::Jog jog(request(), kRate_hz);
+  carry_out(jog, [&](int tick) {
+    if (tick == 60) operational = kInOtherMode;
+  });
+  EXPECT_EQ(jog.end(), JogResult::kOtherMode);
   EXPECT_LT(moved(), kBy - 500.0);
   expect_disabled();
 }

@@ -67,6 +67,25 @@ TEST_F(WatchdogsOfAnArm, ADriveUnderWhoseIdentifiersSomebodyElseSpeaksIsNamed) {
   EXPECT_EQ(faults_.immediate, 1);
 }
 
+// 6061 counts only with power: before, a drive may be in any mode.
+TEST_F(WatchdogsOfAnArm, ADriveWithPowerThatShowsAnotherModeIsNamedTheFirstAndTheLast) {
+  for (const std::size_t drive : {std::size_t{0}, std::size_t{14}}) {
+    faults_ = {};
+    inputs_ = healthy(kStatusEnabled);
+    inputs_.drive[drive].operational = kInOtherMode;
+    EXPECT_EQ(run(kUnpowered), 0);
+    EXPECT_EQ(run(kRunning), 1);
+    ASSERT_EQ(faults_.count, 1);
+    EXPECT_TRUE(has(faults_, FaultNumber::kDriveOtherMode, static_cast<std::int16_t>(drive)));
+    EXPECT_EQ(faults_.category, StopCategory::kStop);
+    EXPECT_EQ(faults_.immediate, 1);
+    faults_ = {};
+    inputs_.drive[drive].statusword = kStatusDisabled;
+    run(kRunning);
+    EXPECT_FALSE(has(faults_, FaultNumber::kDriveOtherMode, static_cast<std::int16_t>(drive))) << "3004 says it";
+  }
+}
+
 TEST(WatchFromStart, ADriveThatIsNeverHeardIsWatchedAfterTheTimeOfAHeartbeat) {
   LinkLimits limits;
   limits.drive_count = 3;

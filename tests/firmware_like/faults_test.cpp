@@ -36,6 +36,7 @@ const std::vector<Published> kPublished{
     {FaultNumber::kDriveNotOperational, 3007, "drive_not_operational"},
     {FaultNumber::kDriveStopTimeout, 3008, "drive_stop_timeout"},
     {FaultNumber::kNodeTwice, 3009, "duplicate_node_id"},
+    {FaultNumber::kDriveOtherMode, 3010, "drive_other_mode"},
     {FaultNumber::kBusLost, 4001, "bus_lost"},
     {FaultNumber::kCableSlack, 5001, "cable_slack"},
     {FaultNumber::kCableOverload, 5002, "cable_overload"},
@@ -91,7 +92,7 @@ TEST(Faults, EnumeratorsAreCountedAndOtherValuesAreNone) {
   enum class Few : std::uint16_t { kA = 0, kB = 7, kC = 101, kD = 150 };
   static_assert(is_enumerator<Few::kB>() && !is_enumerator<static_cast<Few>(8)>());
   static_assert(count_enumerators<Few, 100>() == 4 && count_enumerators<Few, 1000>() == 2);
-  static_assert(count_enumerators<FaultNumber, 1000>() == 29);
+  static_assert(count_enumerators<FaultNumber, 1000>() == 30);
 }
 
 TEST(Faults, TheSameNumberAndIndexIsLatchedOnceAndKeepsItsFirstTick) {

@@ -104,6 +104,23 @@ TEST(LoadCell, OneAtOddsWithTheTorqueIsNotBelievedAtOnceAndFault5011AfterFiveTic
   }
 }
 
+// A drive without 6077: its cell alone counts, and is not to be lost, whatever the table says of torque.
+TEST(LoadCell, WhereTheDriveReportsNoTorqueTheCellIsBelievedAndALostOneIsAFaultAlways) {
+  for (const std::size_t cable : {kFirstCable, kLastCable}) {
+    Cells cells(true);
+    cells.table.no_torque = 1u << cable;
+    for (int i = 0; i < 50; ++i) EXPECT_NEAR(cells.tick(cable, 40.0 + i, 400.0), 40.0 + i, 0.02);
+    EXPECT_EQ(cells.faults.count, 0);
+    for (int i = 0; i < kLoadCellLostTicks - 1; ++i) cells.tick(cable, 40.0, 400.0, kWithPower, 9);
+    EXPECT_EQ(cells.faults.count, 0);
+    cells.tick(cable, 40.0, 400.0, kWithPower, 9);
+    EXPECT_TRUE(has(cells.faults, FaultNumber::kLoadCellLost, static_cast<std::int16_t>(cable)));
+    const std::size_t other = cable == kFirstCable ? kLastCable : kFirstCable;
+    EXPECT_TRUE(reports_torque(cells.table, other));
+    EXPECT_FALSE(reports_torque(cells.table, cable));
+  }
+}
+
 TEST(LoadCell, WithoutPowerTorqueSaysNothingAndTheCellCounts) {
   Cells cells;
   for (int i = 0; i < 100; ++i) EXPECT_NEAR(cells.tick(kFirstCable, 60.0, 0.0, kWithoutPower), 60.0, 0.02);

@@ -57,6 +57,9 @@ TEST(Pdo, AFrameOfAnyOtherLengthIsRefusedAndChangesNothing) {
     EXPECT_EQ(decode_tpdo1(data, report), length == 8);
     EXPECT_EQ(command.target_counts == 7, length != 6);
     EXPECT_EQ(report.position_counts == 7, length != 8);
+    Tpdo1 without{7, 7, 7};
+    EXPECT_EQ(decode_tpdo1(data, without, false), length == 6) << "of a drive that reports no torque";
+    EXPECT_EQ(without.torque_permille, length == 6 ? 0 : 7);
   }
 }
 

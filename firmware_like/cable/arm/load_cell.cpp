@@ -36,7 +36,8 @@ double believed_tension_N(const RobotParams& table, const LoadCells& cells, std:
   }
   const bool usable = is_usable(table.load_cell, cells, cable);
   const bool was_at_odds = (state.usable >> cable & 1u) != 0 && (state.believed >> cable & 1u) == 0;
-  const bool at_odds = (was_at_odds && !changed) || is_at_odds(table.load_cell, cells, cable, torque_N, state);
+  const bool at_odds = reports_torque(table, cable) &&
+                       ((was_at_odds && !changed) || is_at_odds(table.load_cell, cells, cable, torque_N, state));
   const bool believed = usable && (state.powered == 0 || !at_odds);
   put_bit(state.usable, cable, usable);
   put_bit(state.believed, cable, believed);
@@ -47,7 +48,7 @@ void watch_load_cell(const RobotParams& table, WatchScope scope, std::int32_t ca
                      Watch& out) noexcept {
   const std::size_t c = as_index(cable);
   const bool usable = (state.usable >> c & 1u) != 0;
-  const bool lost = !usable && table.load_cell.goes_on == 0;
+  const bool lost = !usable && (table.load_cell.goes_on == 0 || !reports_torque(table, c));
   out.debounced(lost, kLoadCellLostTicks, state.lost_ticks[c], FaultNumber::kLoadCellLost, cable);
   const bool doubted = usable && (state.believed >> c & 1u) == 0;
   out.debounced(doubted, kLoadCellDoubtTicks, state.doubt_ticks[c], FaultNumber::kLoadCellContradicts, cable);

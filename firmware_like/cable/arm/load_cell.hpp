@@ -46,6 +46,11 @@ inline bool has_load_cell(const RobotParams& table, std::size_t cable) noexcept 
   return table.load_cell.newtons_per_step[cable] > 0.0;
 }
 
+// Whether the drive of a cable reports torque (6077).
+inline bool reports_torque(const RobotParams& table, std::size_t cable) noexcept {
+  return (table.no_torque >> cable & 1u) == 0;
+}
+
 // Bit i: cable i has a load cell.
 inline std::uint32_t cables_with_cells(const RobotParams& table) noexcept {
   std::uint32_t mask = 0;
@@ -54,9 +59,9 @@ inline std::uint32_t cables_with_cells(const RobotParams& table) noexcept {
   return mask;
 }
 
-// Tension of a cable with a cell: the cell's; the torque's, `torque_N`, where the reading is not usable or, of drives
-// with power, at odds with it: further off than LoadCellParams::agree_N, or the very same while the torque went on by a
-// quarter of that.
+// Tension of a cable with a cell, which alone counts where the drive reports no torque: the cell's; the torque's,
+// `torque_N`, where the reading is not usable or, of drives with power, at odds with it: further off than
+// LoadCellParams::agree_N, or the very same while the torque went on by a quarter of that.
 double believed_tension_N(const RobotParams& table, const LoadCells& cells, std::size_t cable, double torque_N,
                           LoadCellState& state) noexcept;
 

@@ -132,6 +132,7 @@ struct RobotParams {
   CableMonitorParams cable_monitor{};
   TorqueZeroTable torque_zero{};
   LoadCellParams load_cell{};
+  std::uint32_t no_torque = 0;  // bit i: the drive of cable i reports no torque; without a cell the plan is its tension
   MotionLimits limits{};
   std::array<DriveParams, kMaxCables> drive{};
 

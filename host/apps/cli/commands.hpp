@@ -351,8 +351,10 @@ struct DriveOptions {
   std::string first = "1", last = "126";  // node ids
   std::string rate_hz = "5", seconds = "10";
   std::string type = "cia402_csp";
-  std::string robot;  // check: all drives of it; empty: the node
+  std::string robot;   // check: all drives of it; empty: the node
+  bool tries = false;  // check: writes, too, and puts back
   JogOptions jog;
+  std::string eds, mode = "csp", out = "-";  // type
   bool json = false;
 };
 // One motor on a desk. All end with 3 when nobody answers, and with 1 when the drive refuses.
@@ -362,9 +364,12 @@ int drive_scan_command(const DriveOptions& options);
 int drive_read_command(const DriveOptions& options);
 int drive_write_command(const DriveOptions& options);
 int drive_watch_command(const DriveOptions& options);
-// Resets communication and goes through the boot of a drive type, or of all drives of a robot, reading only: everything
-// it would refuse, what is missing, and what would be written.
+// Resets communication and goes through the boot of a drive type, or of all drives of a robot: whether it would boot,
+// everything it would refuse, what is missing, and what would be written. Reads only, or carries it out and takes it
+// back.
 int drive_check_command(const DriveOptions& options);
+// A drive type from the maker's electronic data sheet, and in words what the drive lacks; needs no bus.
+int drive_type_command(const DriveOptions& options);
 // Boots a drive, enables it, turns its motor a short way, and disables it; only when somebody has said so.
 int drive_jog_command(const DriveOptions& options);
 

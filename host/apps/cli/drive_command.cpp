@@ -24,6 +24,8 @@ config::ObjectId object_of(const std::string& text) {
 
 Json found_json(DriveSession& session, commissioning::Place at) {
   Json out = {{"bus", session.buses.buses[static_cast<std::size_t>(at.bus)].name}, {"node", at.node}};
+  const commissioning::Answer type = session.desk.read(at, 0x1000, 0);
+  if (type.odd_length) out["answer_bytes"] = *type.odd_length;
   const auto add = [&](const char* key, std::uint16_t index, std::uint8_t sub) {
     const commissioning::Answer answer = session.desk.read(at, index, sub);
     if (!answer.is_done()) return;
@@ -48,6 +50,9 @@ std::string described(const Json& found) {
     return found.contains(key) ? hex(found[key].get<std::uint32_t>(), 1) : std::string("-");
   };
   const bool has_csp = (found.value<std::uint32_t>("modes", 0) & 0x80) != 0;
+  if (found.contains("answer_bytes"))
+    return found["bus"].text() + " node " + std::to_string(found["node"].get<int>()) + ": answers with " +
+           std::to_string(found["answer_bytes"].get<int>()) + " bytes, and an SDO answer has 8 (CiA 301)";
   return found["bus"].text() + " node " + std::to_string(found["node"].get<int>()) + ": vendor " + number("vendor") +
          ", product " + number("product") + ", revision " + number("revision") + ", serial " + number("serial") +
          (found.contains("name") && found["name"].is_string() ? ", \"" + found["name"].text() + "\"" : "") +

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <optional>
 
 #include "host/apps/cli/arguments.hpp"
 #include "host/apps/cli/drive_session.hpp"
@@ -172,6 +173,8 @@ std::string why(const commissioning::JogOutcome& outcome) {
       return "its reports stopped coming: is its cable, or its supply, off?";
     case JogResult::kHeartbeatLost:
       return "its heartbeat stopped, or says that it is not operational any more";
+    case JogResult::kOtherMode:
+      return "it shows another mode (6061) than 8, csp, which it was told: does something else write its 6060?";
     case JogResult::kRanAway:
       return "the motor is not where it was told to be: is it blocked, too weak for --torque, or is "
              "--counts-per-turn another?";
@@ -191,26 +194,29 @@ std::string why(const commissioning::JogOutcome& outcome) {
 
 std::string state_of(std::uint16_t statusword) { return drive_state_name(decode(statusword)); }
 
-Json sample_json(const commissioning::JogSample& sample, double turn) {
+Json sample_json(const commissioning::JogSample& sample, double turn, bool has_torque) {
   Json out = {{"time_s", sample.time_s},
               {"position_counts", sample.seen.position_counts},
               {"moved_turns", sample.moved_counts / turn},
-              {"torque_permille", sample.seen.torque_permille},
               {"status", state_of(sample.seen.statusword)}};
+  if (has_torque) out["torque_permille"] = sample.seen.torque_permille;
   if (sample.current_permille) out["current_permille"] = *sample.current_permille;
   return out;
 }
 
-void print_sample(const commissioning::JogSample& sample, const Way& way, double turn) {
-  std::string current = "   -";
-  if (sample.current_permille) {
-    char text[16];
-    std::snprintf(text, sizeof text, "%4.1f", 0.1 * *sample.current_permille);
-    current = text;
-  }
-  std::printf("%6.2f s  %9d counts  %12s  torque %5.1f %%  current %s %%  %s\n", sample.time_s,
-              sample.seen.position_counts, way.said(sample.moved_counts / turn).c_str(),
-              0.1 * sample.seen.torque_permille, current.c_str(), state_of(sample.seen.statusword).c_str());
+// Permille as percent; nothing: the drive does not report it.
+std::string percent(std::optional<std::int16_t> permille) {
+  char text[16] = "   -";
+  if (permille) std::snprintf(text, sizeof text, "%4.1f", 0.1 * *permille);
+  return text;
+}
+
+void print_sample(const commissioning::JogSample& sample, const Way& way, double turn, bool has_torque) {
+  const std::string current = percent(sample.current_permille);
+  const std::string torque = percent(has_torque ? std::optional(sample.seen.torque_permille) : std::nullopt);
+  std::printf("%6.2f s  %9d counts  %12s  torque %5s %%  current %s %%  %s\n", sample.time_s,
+              sample.seen.position_counts, way.said(sample.moved_counts / turn).c_str(), torque.c_str(),
+              current.c_str(), state_of(sample.seen.statusword).c_str());
   std::fflush(stdout);
 }
 
@@ -227,9 +233,9 @@ Json outcome_json(const commissioning::JogOutcome& outcome, const Prepared& prep
                {"start_counts", outcome.start_counts},
                {"moved_counts", outcome.moved_counts},
                {"moved_turns", outcome.moved_counts / static_cast<double>(prepared.counts_per_turn)},
-               {"most_torque_permille", outcome.most_torque_permille},
                {"is_off", outcome.is_off},
                {"status", state_of(outcome.statusword)}};
+  if (prepared.drive.type.has_torque) said["most_torque_permille"] = outcome.most_torque_permille;
   if (outcome.end != JogResult::kArrived) said["why"] = why(outcome);
   if (outcome.emergency_code != 0) said["emergency_code"] = outcome.emergency_code;
   return said;
@@ -247,8 +253,11 @@ int tell_outcome(const DriveSession& session, commissioning::Place at, const com
   if (outcome.end != JogResult::kArrived) {
     std::fprintf(stderr, "liana: %s: %s; it has moved %s\n", where.c_str(), why(outcome).c_str(), moved.c_str());
   } else if (json == nullptr) {
-    std::printf("%s moved %s (%d counts), at most %.1f %% of its rated torque\n", where.c_str(), moved.c_str(),
-                outcome.moved_counts, 0.1 * outcome.most_torque_permille);
+    std::printf("%s moved %s (%d counts)", where.c_str(), moved.c_str(), outcome.moved_counts);
+    if (prepared.drive.type.has_torque)
+      std::printf(", at most %.1f %% of its rated torque\n", 0.1 * outcome.most_torque_permille);
+    else
+      std::printf("; it reports no torque, and nothing watched it\n");
   }
   if (!outcome.is_off) {
     std::fprintf(stderr, "liana: %s does not say that it is disabled (%s): switch off its supply\n", where.c_str(),
@@ -298,9 +307,9 @@ int drive_jog_command(const DriveOptions& options) {
   const double turn = prepared.counts_per_turn;
   const commissioning::JogOutcome outcome = run.jog(prepared.request, [&](const commissioning::JogSample& sample) {
     if (options.json) {
-      samples.push_back(sample_json(sample, turn));
+      samples.push_back(sample_json(sample, turn, type.has_torque));
     } else {
-      print_sample(sample, way, turn);
+      print_sample(sample, way, turn, type.has_torque);
     }
   });
   return tell_outcome(session, at, outcome, prepared, way, options.json ? &samples : nullptr);

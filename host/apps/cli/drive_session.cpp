@@ -84,19 +84,28 @@ std::string hex(std::uint32_t value, int digits) {
   return text;
 }
 
+std::string failure_text(const commissioning::Answer& answer) {
+  if (answer.odd_length)
+    return "its answer has " + std::to_string(*answer.odd_length) +
+           " bytes, and an SDO answer has 8 (CiA 301): nothing of it is taken; update the drive's firmware, or ask its "
+           "maker";
+  if (answer.status == canopen::SdoStatus::kTimeout)
+    return "no answer within 1 s: the node is missing, stopped, or has another id or bit rate";
+  return "refused with abort code " + hex(answer.abort_code, 8) + ", " + canopen::abort_text(answer.abort_code);
+}
+
 int tell_failure(const DriveSession& session, commissioning::Place at, const std::string& what,
                  const commissioning::Answer& answer, bool json, const std::string& remedy) {
-  const bool silent = answer.status == canopen::SdoStatus::kTimeout;
-  const std::string why = silent ? "no answer within 1 s: the node is missing, stopped, or has another id or bit rate"
-                                 : "refused with abort code " + hex(answer.abort_code, 8) + ", " +
-                                       canopen::abort_text(answer.abort_code) + remedy;
+  const bool aborted = answer.status == canopen::SdoStatus::kAborted;
+  const std::string why = failure_text(answer) + (aborted ? remedy : "");
   if (json) {
     Json said = {{"node", at.node}, {"ok", false}, {"why", why}};
-    if (!silent) said["abort_code"] = answer.abort_code;
+    if (aborted) said["abort_code"] = answer.abort_code;
+    if (answer.odd_length) said["answer_bytes"] = *answer.odd_length;
     std::printf("%s\n", said.dump().c_str());
   }
   std::fprintf(stderr, "liana: %s: %s: %s\n", session.where(at).c_str(), what.c_str(), why.c_str());
-  return silent ? kNobodyAnswers : launcher::ExitCode::kExitFailure;
+  return aborted || answer.odd_length ? launcher::ExitCode::kExitFailure : kNobodyAnswers;
 }
 
 std::string nothing_stops(const config::DriveType& type) {

@@ -39,6 +39,8 @@ struct DriveSession {
 
 // "0x1A", at least so many digits.
 std::string hex(std::uint32_t value, int digits);
+// Why a transfer failed: an answer of the wrong length, silence, or an abort code in words.
+std::string failure_text(const commissioning::Answer& answer);
 // One exit code for what came of a transfer, told with `what` where it failed, and what to do after an abort code.
 int tell_failure(const DriveSession& session, commissioning::Place at, const std::string& what,
                  const commissioning::Answer& answer, bool json, const std::string& remedy = "");

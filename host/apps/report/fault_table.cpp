@@ -68,6 +68,8 @@ constexpr std::array<Detection, count_enumerators<FaultNumber, 1000>() - 1> kDet
      [](const FaultTimes& times) { return static_cast<int>(patience(times.tick_s).off_budget) + 1; }},
     {kNodeTwice, "host: two reports that differ in one tick, or a command that is not ours, in a row",
      ticks<kTwiceTicks>},
+    {kDriveOtherMode, "host: 6061 of a drive in Operation enabled, asked by SDO once in 8 ticks; the answer takes one",
+     ticks<kModeRoundTicks + 2>},
     {kBusLost, "interface down or in bus-off (1 tick), or no drive of the bus sends", ticks<kFeedbackAgeTicks + 1>},
     {kCableSlack, "tension monitor: motor tension under the floor, in a row",
      ticks_of_cables<cable::kSlackDebounceTicks>},

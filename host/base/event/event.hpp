@@ -38,7 +38,12 @@ enum class EventKind : std::uint8_t {
 };
 constexpr std::size_t kEventKinds = 22;
 
-enum class BootEvent : std::uint8_t { kFailed = 0, kDone = 1, kGoesOn = 2 };
+enum class BootEvent : std::uint8_t {
+  kFailed = 0,
+  kDone = 1,
+  kGoesOn = 2,
+  kUnwatched = 3,  // something of a drive is not watched; the text says what
+};
 enum class HomingEvent : std::uint8_t { kContradicted = 0, kHomed = 1 };
 enum class OwnerEvent : std::uint8_t { kAcquired = 1, kReleased = 2, kGone = 3, kStandsStill = 4, kTaken = 5 };
 enum class HostTroubleEvent : std::uint8_t {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware_like/drive/cia402.hpp"
 #include "firmware_like/drive/pdo.hpp"
 #include "firmware_like/math/convert.hpp"
 #include "firmware_like/safety/drive_link_monitor.hpp"
@@ -60,6 +61,10 @@ DriveChannel::DriveChannel(const std::vector<canopen::ExpectedDrive>& drives, co
     drive_of_node_[static_cast<std::size_t>(drives_[i].bus)][drives_[i].node] = static_cast<int>(i);
     has_drives_[static_cast<std::size_t>(drives_[i].bus)] = true;
   }
+  for (const config::BusConfig& each : buses.buses)
+    for (const config::LoadCellNode& node : each.load_cells)
+      for (const std::size_t cable : node.cables)
+        if (cable < has_cell_.size()) has_cell_[cable] = true;
 }
 
 // Everything that came in since the last tick; what did not come grows older.
@@ -85,7 +90,12 @@ void DriveChannel::collect(const timing::TickStart& start, CycleInputs& inputs) 
   }
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     inputs.drive[i].heartbeat_age_ticks = narrow<std::uint16_t>(master_.heartbeats().age_ticks(drives_[i].node));
-    inputs.drive[i].operational = master_.heartbeats().state(drives_[i].node) == canopen::kStateOperational ? 1 : 0;
+    const bool operational = master_.heartbeats().state(drives_[i].node) == canopen::kStateOperational;
+    const bool other_mode = (master_.modes().other_mode() >> i & 1u) != 0;
+    inputs.drive[i].operational = !operational ? std::uint8_t{0} : other_mode ? kInOtherMode : std::uint8_t{1};
+    const bool enabled =
+        inputs.drive[i].feedback_age_ticks == 0 && decode(inputs.drive[i].statusword) == DriveState::kOperationEnabled;
+    in_operation_ = enabled ? in_operation_ | 1u << i : in_operation_ & ~(1u << i);
   }
   take_emergencies(inputs);
   inputs.lost_bus_mask = lost_buses();
@@ -102,7 +112,7 @@ void DriveChannel::take_rate(int bus, const bus::CanFrame& frame, CycleInputs& i
 
 void DriveChannel::take_report(int bus, std::size_t drive, const bus::CanFrame& frame, CycleInputs& inputs) noexcept {
   Tpdo1 report;
-  if (!decode_tpdo1({frame.data.data(), frame.length}, report)) return;
+  if (!decode_tpdo1({frame.data.data(), frame.length}, report, drives_[drive].type.has_torque)) return;
   DriveFeedback& feedback = inputs.drive[drive];
   feedback.statusword = report.statusword;
   feedback.position_counts = report.position_counts;
@@ -167,7 +177,7 @@ BootPhase DriveChannel::boot_phase() const noexcept {
 }
 
 void DriveChannel::step_master() noexcept {
-  master_.step(bus_);
+  master_.step(bus_, in_operation_);
   const canopen::BootState before = boot_seen_;
   boot_seen_ = master_.boot().state();
   if (boot_seen_ == canopen::BootState::kFailed && before != boot_seen_) publish_refusals();
@@ -209,6 +219,25 @@ std::vector<BootProblem> DriveChannel::boot_problems() {
                                               bus_names_[static_cast<std::size_t>(drives_[i].bus)])});
   }
   return problems;
+}
+
+std::vector<std::string> DriveChannel::unwatched() const {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    const std::string name = canopen::name_of(drives_[i]);
+    if (!drives_[i].type.has_torque)
+      lines.push_back(name + (has_cell_[i] ? ": reports no torque: the tension of its cable is by its load cell alone"
+                                           : ": reports no torque and has no load cell: the tension of its cable is "
+                                             "taken as planned, and slack, overload, slip, break and contact (5001 to "
+                                             "5003, 5005 to 5009) are not watched"));
+    const bool has_mode = master_.boot().has(i, {canopen::kModeDisplay, 0});
+    if (!has_mode) lines.push_back(name + ": has no 6061: whether it stays in its mode is not watched");
+    if (has_mode && master_.modes().bus_is_full(i))
+      lines.push_back(name +
+                      ": its bus has no room to ask for 6061 (max_load): whether it stays in its mode is not "
+                      "watched");
+  }
+  return lines;
 }
 
 std::vector<std::uint32_t> DriveChannel::serials() const {

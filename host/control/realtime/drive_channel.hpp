@@ -57,6 +57,8 @@ class DriveChannel {
   // After booting: serial number of every drive (0x1018:4), 0 where it has none. They do not change any more. Not for
   // the real-time thread.
   std::vector<std::uint32_t> serials() const;
+  // After booting: what nobody watches, one line a drive and thing. Not for the real-time thread.
+  std::vector<std::string> unwatched() const;
 
  private:
   void take_rate(int bus, const bus::CanFrame& frame, CycleInputs& inputs) noexcept;
@@ -84,6 +86,8 @@ class DriveChannel {
     std::uint16_t ticks = 0;                            // in a row in which he did
   };
   std::array<Voices, kMaxDrives> voices_{};
+  std::array<bool, kMaxDrives> has_cell_{};  // the cable of a drive has a load cell
+  std::uint32_t in_operation_ = 0;           // bit i: drive i says so in this tick
   std::array<bool, bus::kMaxDriveBuses> has_drives_{};
   std::array<std::uint16_t, bus::kMaxDriveBuses> silent_ticks_{};  // in a row without a report of any drive of the bus
 };

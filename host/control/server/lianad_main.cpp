@@ -122,6 +122,7 @@ int serve(const Setup& setup, const Robot& robot, liana::realtime::ArmMailbox<Ar
   if constexpr (std::is_same_v<Robot, liana::config::RobotConfig>)
     config.drive_names = liana::config::DriveNames(robot.table);
   config.boot_problems = [&] { return cycle->line().boot_problems(); };
+  config.unwatched = [&] { return cycle->line().unwatched(); };
   config.serials = [&] { return cycle->line().serials(); };
   liana::server::Service service(config, desk);
   const std::optional<liana::api::Registration> registration = registered(setup.options.api);

@@ -185,6 +185,8 @@ void Service::watch_arm() {
     note(booted_event());
     image_sent_ = false;  // one from the time before, after a boot that had failed, is of another tick
     notes_.serials = config_.serials();
+    if (config_.unwatched)
+      for (const std::string& line : config_.unwatched()) note(unwatched_event(line));
     homing_due_tick_ = tick() + ticks_in(kHoming_s);
   }
   if (boot != realtime::BootPhase::kFailed) return;

@@ -44,6 +44,7 @@ struct ServiceConfig {
   std::string way_file;                                               // path; empty: the way back is kept nowhere
   std::string verify_times_file;                                      // path; empty: nobody asks how long commands take
   bool ends_with_mission = false;                                     // stop the arm once the mission has come and gone
+  std::function<std::vector<std::string>()> unwatched;                // asked when booting is done: what nobody watches
   std::function<std::vector<realtime::BootProblem>()> boot_problems;  // asked once, when booting has failed
   std::function<std::vector<std::uint32_t>()> serials;                // of the drives; asked once, when they are booted
 };

@@ -60,6 +60,10 @@ event::Event booted_event() {
           .text = "all drives are booted"};
 }
 
+event::Event unwatched_event(const std::string& what) {
+  return {.kind = event::EventKind::kBoot, .number = event::number_of(event::BootEvent::kUnwatched), .text = what};
+}
+
 event::Event boot_goes_on_event() {
   return {.kind = event::EventKind::kBoot,
           .number = event::number_of(event::BootEvent::kGoesOn),

@@ -25,6 +25,7 @@ namespace liana::server {
 std::string place_of(const Fault& fault, const config::BusesConfig& buses, const config::DriveNames& names);
 
 event::Event booted_event();
+event::Event unwatched_event(const std::string& what);
 event::Event boot_goes_on_event();
 // One for each drive that did not boot, and one for all of them.
 std::vector<event::Event> boot_failed_events(const std::vector<realtime::BootProblem>& problems,

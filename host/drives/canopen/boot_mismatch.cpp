@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "host/drives/canopen/cob_id.hpp"
 #include "host/drives/canopen/sdo_client.hpp"
 
 namespace liana::canopen {
@@ -15,8 +16,16 @@ std::string hex(const char* format, std::uint32_t value) {
 
 std::string number(std::uint32_t value) { return std::to_string(value) + hex(" (0x%X)", value); }
 
+// What an entry of a mapping names, e.g. ", which maps 6077 with 16 bits".
+std::string mapped_text(const BootMismatch& m) {
+  if (!is_mapping_entry(m.index, m.sub)) return "";
+  const config::ObjectId mapped = mapped_object(m.expected);
+  return ", which maps " + config::object_name(mapped) + " with " + std::to_string(m.expected & 0xFF) + " bits";
+}
+
 std::string object_text(const BootMismatch& m) {
-  return "object " + hex("0x%04X", m.index) + ":" + std::to_string(m.sub) + " (" + m.object_name + "): ";
+  return "object " + hex("0x%04X", m.index) + ":" + std::to_string(m.sub) + " (" + m.object_name + mapped_text(m) +
+         "): ";
 }
 
 // What is said otherwise where there is no robot table.
@@ -40,6 +49,8 @@ constexpr Words kDeskWords{"this way needs", "this drive is not of the type that
 
 std::string advice(const BootMismatch& m, const Words& words) {
   if (m.index == 0x1000 || m.index == 0x1018) return words.other_drive;
+  if (m.index == kModeDisplay)
+    return "the drive takes the mode and stays in another; set it up for this mode with the maker's tool";
   if (m.written) return "the drive does not keep what it is told; it may be the wrong type or have other firmware";
   return m.rule == BootRule::kAtLeast || m.rule == BootRule::kRange ? words.too_fast : words.other_set_up;
 }
@@ -61,7 +72,15 @@ std::string difference(const BootMismatch& m, const Words& words) {
     case BootRule::kEqual:
       break;
   }
-  return "expected " + number(m.expected) + ", found " + number(m.found);
+  const std::string in_bits = m.mask == 0xFFFFFFFF ? "" : " in the bits" + hex(" 0x%X", m.mask);
+  return "expected " + number(m.expected) + in_bits + ", found " + number(m.found);
+}
+
+// What came in the place of a message, and is none for its length.
+std::string odd(const BootMismatch& m, const char* what, int right_bytes) {
+  if (!m.odd_length) return "";
+  return std::string("; ") + what + " came with " + std::to_string(*m.odd_length) + " bytes in place of " +
+         std::to_string(right_bytes) + ", which is none (CiA 301)";
 }
 
 // What was refused, and what is there instead.
@@ -76,10 +95,15 @@ std::string text_of(const BootMismatch& m, const Words& words) {
     case BootFailure::kNone:
       return "ok";
     case BootFailure::kNoBootUp:
-      return "no boot-up message after reset communication: the drive is missing, without power, or has another node "
-             "id or bit rate";
+      return std::string(
+                 "no boot-up message after reset communication: the drive is missing, without power, or has another "
+                 "node "
+                 "id or bit rate") +
+             odd(m, "a boot-up message", 1);
     case BootFailure::kNoAnswer:
-      return object_text(m) + "no answer: the drive fell silent; check its power and the cable";
+      return object_text(m) + (m.odd_length ? "no answer" + odd(m, "an SDO answer", 8) +
+                                                  ": update the drive's firmware, or ask its maker"
+                                            : "no answer: the drive fell silent; check its power and the cable");
     case BootFailure::kAborted:
       return object_text(m) + refusal(m) + ": " + words.which_drive +
              " If it is, say in its drive type what it has (docs/reference/drives.md)";
@@ -88,8 +112,9 @@ std::string text_of(const BootMismatch& m, const Words& words) {
     case BootFailure::kRestarts:
       return "it keeps restarting while it is configured: check its supply";
     case BootFailure::kNotOperational:
-      return "does not become operational after NMT start; last state heard " + hex("0x%02X", m.found) +
-             ": its error register (0x1001) says more";
+      return "does not become operational after NMT start; " +
+             (m.has_found ? "state of its last heartbeat" + hex(" 0x%02X", m.found) : "no heartbeat came") +
+             odd(m, "a heartbeat", 1) + ": its error register (0x1001) says more";
   }
   return "";
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -28,9 +29,11 @@ struct BootMismatch {
   bool written = false;  // the object was being written
   const char* object_name = "";
   std::uint32_t expected = 0;
-  std::uint32_t found = 0;  // kNotOperational: last NMT state heard
+  std::uint32_t mask = 0xFFFFFFFF;  // bits that are compared; those that the object has not are set
+  std::uint32_t found = 0;          // whole, whatever the mask; kNotOperational: byte of the last heartbeat
   std::uint32_t abort_code = 0;
-  bool has_found = false;  // kAborted: what could not be written was read instead
+  bool has_found = false;  // kAborted: what could not be written was read instead; kNotOperational: it had a heartbeat
+  std::optional<std::uint8_t> odd_length;  // bytes of an answer or heartbeat that was none for its length
   BootRule rule = BootRule::kEqual;
   std::uint32_t expected_before = 0;  // kPair, kRange: of the object before it
   std::uint32_t found_before = 0;

@@ -35,6 +35,14 @@ BootNode::BootNode(const ExpectedDrive& drive, const BootTiming& timing, bool lo
       outcomes_(plan_.objects().size()),
       sdo_(drive.node, timing.sdo_ticks) {}
 
+bool BootNode::has(config::ObjectId object) const noexcept {
+  for (std::size_t i = 0; i < outcomes_.size(); ++i) {
+    const BootObject& each = plan_.objects()[i];
+    if (each.index == object.index && each.sub == object.sub && outcomes_[i].found) return true;
+  }
+  return false;
+}
+
 void BootNode::enter(NodePhase phase) noexcept {
   phase_ = phase;
   waited_ticks_ = 0;
@@ -76,7 +84,7 @@ void BootNode::advance() noexcept {
       send_nmt(kNmtStart);
       return enter(NodePhase::kWaitOperational);
     case NodePhase::kWaitOperational:  // nobody confirms a start: a lost one is sent again
-      if (waited_ticks_ >= timing_.operational_ticks) return fail(BootFailure::kNotOperational, last_state_);
+      if (waited_ticks_ >= timing_.operational_ticks) return fail(BootFailure::kNotOperational);
       if (waited_ticks_ % timing_.start_ticks == 0) send_nmt(kNmtStart);
       return;
     case NodePhase::kFailed:  // it may have come without a word: with its cable, after its boot-up message
@@ -111,7 +119,8 @@ void BootNode::finish_transfer() noexcept {
   const std::optional<std::uint32_t> before = at_ == 0 ? std::nullopt : outcomes_[at_ - 1].found;
   const TransferResult end = transfer_.advance(plan_, before, sdo_);
   if (end == TransferResult::kNotYet) return;
-  outcomes_[at_] = {transfer_.found(), end != TransferResult::kRight && end != TransferResult::kMissing};
+  outcomes_[at_] = {transfer_.found(), end != TransferResult::kRight && end != TransferResult::kMissing,
+                    transfer_.said_bytes()};
   switch (end) {
     case TransferResult::kAborted:
       return refused(BootFailure::kAborted);
@@ -130,7 +139,10 @@ void BootNode::finish_transfer() noexcept {
 
 // The rest of the plan is gone through all the same, so that what else does not fit is told at once.
 void BootNode::refused(BootFailure failure) noexcept {
-  BootMismatch mismatch = {failure, bus_, node_};
+  BootMismatch mismatch;
+  mismatch.failure = failure;
+  mismatch.bus = bus_;
+  mismatch.node = node_;
   mismatch.index = object().index;
   mismatch.sub = failure == BootFailure::kValue ? plan_.sub_to_blame(at_, *transfer_.found()) : object().sub;
   mismatch.written = object().write && !look_only_;
@@ -138,8 +150,9 @@ void BootNode::refused(BootFailure failure) noexcept {
   mismatch.rule = object().rule;
   mismatch.expected_before = object().before;
   mismatch.found_before = at_ == 0 ? 0 : outcomes_[at_ - 1].found.value_or(0);
-  mismatch.expected = object().value & object().mask;
-  mismatch.found = transfer_.found().value_or(0) & object().mask;
+  mismatch.expected = object().value;
+  mismatch.mask = object().mask | ~all_bits(object().bytes);
+  mismatch.found = transfer_.found().value_or(0);
   mismatch.has_found = transfer_.found().has_value();
   mismatch.abort_code = failure == BootFailure::kAborted ? transfer_.abort_code() : 0;
   if (is_identity(object())) is_another_ = true;
@@ -165,10 +178,15 @@ bool BootNode::lacks_what_it_needs() const noexcept {
   return false;
 }
 
-void BootNode::on_heartbeat(std::uint8_t state) noexcept {
-  last_state_ = state & 0x7F;
-  if (last_state_ == kStateOperational && phase_ == NodePhase::kWaitOperational) return enter(NodePhase::kOperational);
-  if (last_state_ == kStateBootUp) restart();
+void BootNode::on_heartbeat(const bus::CanFrame& frame) noexcept {
+  if (frame.length != 1) {
+    odd_heartbeat_ = frame.length;
+    return;
+  }
+  last_state_ = frame.data[0];
+  const int state = frame.data[0] & kNmtStateMask;
+  if (state == kStateOperational && phase_ == NodePhase::kWaitOperational) return enter(NodePhase::kOperational);
+  if (state == kStateBootUp) restart();
 }
 
 void BootNode::begin_plan() noexcept {
@@ -219,14 +237,22 @@ void BootNode::on_sdo_response(const bus::CanFrame& frame) noexcept {
   if (phase_ == NodePhase::kObjects) sdo_.on_response(frame);
 }
 
-void BootNode::fail(BootFailure failure, std::uint32_t found) noexcept {
-  BootMismatch mismatch = {failure, bus_, node_};
+void BootNode::fail(BootFailure failure) noexcept {
+  BootMismatch mismatch;
+  mismatch.failure = failure;
+  mismatch.bus = bus_;
+  mismatch.node = node_;
+  const bool of_sdo = failure == BootFailure::kNoAnswer;
+  const bool of_heartbeat = failure == BootFailure::kNoBootUp || failure == BootFailure::kNotOperational;
+  if (of_sdo) mismatch.odd_length = sdo_.odd_length();
+  if (of_heartbeat) mismatch.odd_length = odd_heartbeat_;
   if (phase_ == NodePhase::kObjects) {
     mismatch.index = object().index;
     mismatch.sub = object().sub;
     mismatch.object_name = object().name.c_str();
   }
-  mismatch.found = found;
+  mismatch.found = last_state_.value_or(0);
+  mismatch.has_found = last_state_.has_value();
   note(mismatch);
   enter(NodePhase::kFailed);
 }

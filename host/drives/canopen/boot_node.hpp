@@ -51,6 +51,7 @@ constexpr std::size_t kMaxMismatches = 32;  // kept of one node; a wrong drive r
 struct BootOutcome {
   std::optional<std::uint32_t> found;  // nothing: not asked for, or the drive has none
   bool is_refused = false;
+  std::size_t said_bytes = 0;  // of the object, as the drive says; 0: it does not
 };
 
 class BootNode {
@@ -68,6 +69,8 @@ class BootNode {
   // The plan, and what has come of each of its objects so far.
   const BootPlan& plan() const noexcept { return plan_; }
   std::span<const BootOutcome> outcomes() const noexcept { return outcomes_; }
+  // Whether the drive has answered for this object of the plan.
+  bool has(config::ObjectId object) const noexcept;
   // After its first boot: what 0x1018:4 of the drive says, and must say when it comes back; 0 when it has none.
   std::uint32_t serial() const noexcept { return plan_.serial(); }
   // Objects of the plan that are done, and how many there are.
@@ -82,7 +85,8 @@ class BootNode {
   void sent(bool accepted) noexcept;
   // A boot-up message of an operational or a failed node begins its plan again: the drive has come, or come back. (One
   // that kept restarting waits for recover().)
-  void on_heartbeat(std::uint8_t state) noexcept;
+  // A frame on its identifier that has not one byte is no heartbeat, and is named where one was missed.
+  void on_heartbeat(const bus::CanFrame& frame) noexcept;
   // Somebody wants the node back (clear). One that is pre-operational works through its plan again, since it may have
   // restarted unheard; one that is lost or has failed is reset first. Nothing happens to one that is well or on its
   // way.
@@ -102,7 +106,7 @@ class BootNode {
   bool is_missing() const noexcept;
   bool lacks_what_it_needs() const noexcept;
   void refused(BootFailure failure) noexcept;
-  void fail(BootFailure failure, std::uint32_t found = 0) noexcept;
+  void fail(BootFailure failure) noexcept;
   void note(const BootMismatch& mismatch) noexcept;
   void forget_mismatches() noexcept;
   const BootObject& object() const noexcept { return plan_.objects()[at_]; }
@@ -124,8 +128,9 @@ class BootNode {
   std::uint32_t without_boot_up_ = 0;  // since the first reset
   std::size_t at_ = 0;                 // object of the plan
   int restarts_ = 0;
-  bool is_another_ = false;         // its identity is not the one expected
-  std::uint8_t last_state_ = 0xFF;  // NMT state last heard, 0xFF = none
+  bool is_another_ = false;                    // its identity is not the one expected
+  std::optional<std::uint8_t> last_state_;     // byte of its last heartbeat
+  std::optional<std::uint8_t> odd_heartbeat_;  // bytes of the last frame in the place of a heartbeat that was none
   bus::CanFrame out_;
   bool out_waiting_ = false;
 };

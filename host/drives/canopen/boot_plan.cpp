@@ -25,8 +25,6 @@ constexpr std::uint16_t kMaxPdos = 32;   // of each direction; drives have 4 to 
 constexpr std::uint16_t kUsualPdos = 4;  // among these there may be gaps
 constexpr double kSecondsPerMinute = 60.0;
 
-std::uint32_t mask_of(std::uint8_t bytes) { return bytes == 4 ? 0xFFFFFFFF : (1U << (8U * bytes)) - 1U; }
-
 // A limit in the drive's 32 bits, rounded to the strict side.
 std::uint32_t rounded_up(double value) {
   return value >= 4294967295.0 ? 0xFFFFFFFF : static_cast<std::uint32_t>(std::ceil(std::max(value, 0.0)));
@@ -77,13 +75,14 @@ BootPlan::BootPlan(const ExpectedDrive& drive) : type_(drive.type), rpdo_deadlin
   } else {
     map_pdo(0x1400, kRpdo1Base + drive.node, kTargets);
   }
-  map_pdo(0x1800, kTpdo1Base + drive.node, kReports);
+  map_pdo(0x1800, kTpdo1Base + drive.node, std::span(kReports).first(type_.has_torque ? 3 : 2));
   if (type_.is_cst) map_pdo(0x1801, kTpdo2Base + drive.node, kRates);
   disable_other_pdos();
   start_up_writes();
   set_motion(drive);
   check_limits(drive);
   set_heartbeats(drive);
+  check_mode();
 }
 
 // Nothing for an object that the type does not have; what the type fixes is read, and compared with its value.
@@ -94,7 +93,7 @@ BootObject* BootPlan::add(BootObject object) {
     object.write = false;
     object.keep = 0;
     object.rule = BootRule::kEqual;
-    object.mask = mask_of(object.bytes);
+    object.mask = all_bits(object.bytes);
     object.value = *rule.value & object.mask;
   }
   object.may_be_missing = object.may_be_missing || rule.presence == Presence::kOptional;
@@ -137,7 +136,7 @@ BootObject* BootPlan::write(std::uint16_t index, std::uint8_t sub, std::uint8_t 
   object.sub = sub;
   object.bytes = bytes;
   object.write = true;
-  object.mask = mask_of(bytes);
+  object.mask = all_bits(bytes);
   object.value = value & object.mask;
   object.name = name;
   return add(std::move(object));
@@ -291,6 +290,19 @@ void BootPlan::check_limits(const ExpectedDrive& drive) {
 void BootPlan::set_heartbeats(const ExpectedDrive& drive) {
   write(0x1017, 0, 2, drive.heartbeat_ms, "producer heartbeat time");
   write(0x1016, 1, 4, (std::uint32_t{kMasterNode} << 16) | drive.master_timeout_ms, "consumer heartbeat time");
+}
+
+// Last, so that the drive has had time: what it was told as mode has to be the one that it is in.
+void BootPlan::check_mode() {
+  const std::uint32_t mode = type_.is_cst ? kModeCst : kModeCsp;
+  if (BootObject* shown = expect(kModeDisplay, 0, mode, "mode of operation display", 0xFF)) {
+    shown->bytes = 1;
+    const auto told = std::find_if(objects_.begin(), objects_.end(),
+                                   [](const BootObject& object) { return object.index == kModeOfOperation; });
+    shown->needs_from = static_cast<std::size_t>(told - objects_.begin());
+    shown->needs_to = shown->needs_from + 1;
+    shown->settles = shown->rule == BootRule::kEqual && shown->value == mode;
+  }
 }
 
 bool BootPlan::accepts(std::size_t at, std::uint32_t found, std::optional<std::uint32_t> before) const noexcept {

@@ -31,6 +31,7 @@ struct BootObject {
   bool ends_list_if_missing = false;  // then the following objects with the same name are not asked for
   std::uint32_t value = 0;            // expected, or to be written
   std::uint32_t mask = 0xFFFFFFFF;    // bits that are compared
+  bool settles = false;               // it may take half a second to become right after the write that it shows
   std::uint32_t keep = 0;             // bits that stay as the drive has them: it is read before it is written
   BootRule rule = BootRule::kEqual;
   std::uint32_t before = 0;    // kPair: expected of the object before it; kRange: least position, `value` the most
@@ -38,6 +39,19 @@ struct BootObject {
   std::size_t needs_to = 0;    // ... to before here was refused
   std::string name;            // as CiA 301/402 call it
 };
+
+// All bits of an object of so many bytes (1 to 4).
+constexpr std::uint32_t all_bits(std::uint8_t bytes) noexcept {
+  return bytes == 4 ? 0xFFFFFFFF : (1U << (8U * bytes)) - 1U;
+}
+
+// Whether an object is one entry of a PDO mapping, and what such an entry names.
+constexpr bool is_mapping_entry(std::uint16_t index, std::uint8_t sub) noexcept {
+  return sub != 0 && ((index & 0xFE00) == 0x1600 || (index & 0xFE00) == 0x1A00);
+}
+constexpr config::ObjectId mapped_object(std::uint32_t entry) noexcept {
+  return {static_cast<std::uint16_t>(entry >> 16), static_cast<std::uint8_t>(entry >> 8)};
+}
 
 class BootPlan {
  public:
@@ -71,6 +85,7 @@ class BootPlan {
   void set_motion(const ExpectedDrive& drive);
   void check_limits(const ExpectedDrive& drive);
   void set_heartbeats(const ExpectedDrive& drive);
+  void check_mode();
 
   config::DriveType type_;
   std::uint16_t rpdo_deadline_ms_ = 0;

@@ -31,8 +31,8 @@ void BootSequence::on_frame(int bus, const bus::CanFrame& frame) noexcept {
     if (node.node() != from.node || node.bus() != bus) continue;
     if (from.kind == FrameKind::kSdoResponse) {
       node.on_sdo_response(frame);
-    } else if (frame.length == 1) {
-      node.on_heartbeat(frame.data[0]);
+    } else {
+      node.on_heartbeat(frame);
       if (node.phase() == NodePhase::kObjects) state_ = BootState::kRunning;
     }
   }

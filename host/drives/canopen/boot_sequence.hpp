@@ -44,6 +44,8 @@ class BootSequence {
   std::span<const BootMismatch> mismatches(std::size_t drive) const noexcept { return nodes_[drive].mismatches(); }
   std::uint32_t more_mismatches(std::size_t drive) const noexcept { return nodes_[drive].more_mismatches(); }
   std::uint32_t serial(std::size_t drive) const noexcept { return nodes_[drive].serial(); }
+  // Whether a drive that has gone through its plan has this object of it.
+  bool has(std::size_t drive, config::ObjectId object) const noexcept { return nodes_[drive].has(object); }
   NodePhase phase(std::size_t drive) const noexcept { return nodes_[drive].phase(); }
 
  private:

@@ -7,7 +7,8 @@
 namespace liana::canopen {
 namespace {
 
-constexpr int kAttempts = 3;  // each of its requests may be lost twice
+constexpr int kSettlingReads = 125;  // half a second at 250 Hz, at least a tick for each
+constexpr int kAttempts = 3;         // each of its requests may be lost twice
 
 }  // namespace
 
@@ -17,6 +18,9 @@ void BootTransfer::begin(const BootPlan& plan, std::size_t at, bool look_only, S
   writes_ = object_->write && !look_only;
   value_ = object_->value;
   found_.reset();
+  said_bytes_ = 0;
+  look_only_ = look_only;
+  settling_ = 0;
   abort_code_ = 0;
   enter(writes_ && object_->keep == 0 ? Stage::kWrite : Stage::kLook, sdo);
 }
@@ -67,12 +71,19 @@ TransferResult BootTransfer::refused(SdoClient& sdo) noexcept {
 
 TransferResult BootTransfer::read(const BootPlan& plan, std::optional<std::uint32_t> before, SdoClient& sdo) noexcept {
   found_ = sdo.value();
+  said_bytes_ = sdo.said_bytes();
   const bool right = plan.accepts(at_, *found_, before);
   switch (stage_) {
     case Stage::kReadRefused:
       return right ? TransferResult::kRight : TransferResult::kAborted;
     case Stage::kLook:
       if (object_->write && !writes_) return TransferResult::kRight;
+      if (!right && object_->settles) {
+        if (look_only_) return TransferResult::kRight;  // nothing was written that it could show
+        if (++settling_ >= kSettlingReads) break;
+        enter(Stage::kLook, sdo);
+        return TransferResult::kNotYet;
+      }
       if (right || !writes_) break;
       value_ = object_->value | (*found_ & object_->keep);
       enter(Stage::kWrite, sdo);

@@ -27,6 +27,8 @@ class BootTransfer {
   TransferResult advance(const BootPlan& plan, std::optional<std::uint32_t> before, SdoClient& sdo) noexcept;
 
   std::optional<std::uint32_t> found() const noexcept { return found_; }
+  // Bytes that the drive says the object has; 0: it was not read, or does not say.
+  std::size_t said_bytes() const noexcept { return said_bytes_; }
   std::uint32_t abort_code() const noexcept { return abort_code_; }
 
  private:
@@ -41,8 +43,11 @@ class BootTransfer {
   bool writes_ = false;
   Stage stage_ = Stage::kLook;
   int attempts_ = 0;
+  bool look_only_ = false;
+  int settling_ = 0;         // reads so far of an object that may take its time
   std::uint32_t value_ = 0;  // to be written
   std::optional<std::uint32_t> found_;
+  std::size_t said_bytes_ = 0;
   std::uint32_t abort_code_ = 0;
 };
 

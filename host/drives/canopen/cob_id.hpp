@@ -18,6 +18,9 @@ constexpr std::uint32_t kSdoResponseBase = 0x580;
 constexpr std::uint32_t kSdoRequestBase = 0x600;
 constexpr std::uint32_t kHeartbeatBase = 0x700;
 
+constexpr std::uint16_t kModeOfOperation = 0x6060;
+constexpr std::uint16_t kModeDisplay = 0x6061;  // the mode that the drive is in
+
 // NMT commands.
 constexpr std::uint8_t kNmtStart = 0x01;
 constexpr std::uint8_t kNmtStop = 0x02;
@@ -30,6 +33,7 @@ constexpr std::uint8_t kStateBootUp = 0x00;
 constexpr std::uint8_t kStateStopped = 0x04;
 constexpr std::uint8_t kStateOperational = 0x05;
 constexpr std::uint8_t kStatePreOperational = 0x7F;
+constexpr std::uint8_t kNmtStateMask = 0x7F;  // bit 7 is the toggle bit of node guarding
 
 // What kind of frame an identifier stands for.
 enum class FrameKind : std::uint8_t {

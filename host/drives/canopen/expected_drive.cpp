@@ -113,7 +113,15 @@ std::vector<ExpectedDrive> drive_expectations(const config::SerialRobotConfig& r
          0,
          {limits.drive[i].min_counts, limits.drive[i].max_counts, robot.table.joint[i].rate_rad_s / rad_per_count}});
   }
-  return expectations(robot, own, buses);
+  std::vector<ExpectedDrive> drives = expectations(robot, own, buses);
+  for (const ExpectedDrive& drive : drives) {
+    if (drive.type.has_torque) continue;
+    throw std::runtime_error("bus table " + buses.name + ": drives: " + name_of(drive) + " of robot " + robot.name +
+                             " is of type " + drive.type.name +
+                             ", which reports no torque (torque = \"none\"): allowed is a type with 6077, since joints "
+                             "are watched by it");
+  }
+  return drives;
 }
 
 }  // namespace liana::canopen

@@ -30,7 +30,7 @@ HeartbeatMonitor::HeartbeatMonitor(std::int32_t limit_ms, double rate_hz) noexce
 void HeartbeatMonitor::on_heartbeat(std::uint8_t node, std::uint8_t state) noexcept {
   Node& entry = nodes_[node & 0x7F];
   entry.age_ticks = 0;
-  entry.state = state & 0x7F;
+  entry.state = state & kNmtStateMask;
   if (entry.state == kStateBootUp) ++entry.boot_ups;
 }
 

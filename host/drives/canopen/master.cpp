@@ -12,7 +12,8 @@ constexpr std::int32_t kHeartbeatsMissed = 3;
 Master::Master(const std::vector<ExpectedDrive>& drives, const config::BusesConfig& buses)
     : boot_(drives, buses.rate_hz),
       producer_(buses.heartbeat_ms, buses.rate_hz),
-      monitor_(kHeartbeatsMissed * buses.heartbeat_ms, buses.rate_hz) {}
+      monitor_(kHeartbeatsMissed * buses.heartbeat_ms, buses.rate_hz),
+      modes_(drives, buses) {}
 
 bool Master::on_frame(int bus, const bus::CanFrame& frame, std::uint64_t tick) noexcept {
   const FrameRoute from = route(frame.id);
@@ -23,6 +24,7 @@ bool Master::on_frame(int bus, const bus::CanFrame& frame, std::uint64_t tick) n
       return true;
     case FrameKind::kSdoResponse:
       boot_.on_frame(bus, frame);
+      modes_.on_frame(bus, frame);
       return true;
     case FrameKind::kEmergency:
       emergencies_.on_frame(bus, from.node, frame, tick);
@@ -32,10 +34,11 @@ bool Master::on_frame(int bus, const bus::CanFrame& frame, std::uint64_t tick) n
   }
 }
 
-void Master::step(bus::DriveBus& bus) noexcept {
+void Master::step(bus::DriveBus& bus, std::uint32_t in_operation) noexcept {
   monitor_.step();
   producer_.step(bus);
   boot_.step(bus);
+  modes_.step(bus, boot_.state() == BootState::kOperational ? in_operation : 0);
 }
 
 void Master::recover(std::size_t drive, std::uint8_t node, bool reports) noexcept {

@@ -6,6 +6,7 @@
 #include "host/drives/canopen/boot_sequence.hpp"
 #include "host/drives/canopen/emergency.hpp"
 #include "host/drives/canopen/heartbeat.hpp"
+#include "host/drives/canopen/mode_monitor.hpp"
 
 namespace liana::canopen {
 
@@ -16,8 +17,9 @@ class Master {
 
   // True when the frame was the master's business (boot-up, heartbeat, emergency, SDO response).
   bool on_frame(int bus, const bus::CanFrame& frame, std::uint64_t tick) noexcept;
-  // Once per tick, after the frames of the tick: heartbeat out, ages up, next SDO requests of the boot.
-  void step(bus::DriveBus& bus) noexcept;
+  // Once per tick, after the frames of the tick: heartbeat out, ages up, next SDO requests of the boot. Bit i of
+  // `in_operation`: drive i is in Operation enabled, and asked for its mode.
+  void step(bus::DriveBus& bus, std::uint32_t in_operation = 0) noexcept;
   // Somebody wants a booted drive back (clear): BootNode::recover, by what is heard of it. `reports`: its TPDO comes.
   void recover(std::size_t drive, std::uint8_t node, bool reports) noexcept;
   // NMT command to all drives of all buses, as kNmtStop.
@@ -25,6 +27,7 @@ class Master {
 
   const BootSequence& boot() const noexcept { return boot_; }
   const HeartbeatMonitor& heartbeats() const noexcept { return monitor_; }
+  const ModeMonitor& modes() const noexcept { return modes_; }
   EmergencyLog& emergencies() noexcept { return emergencies_; }
 
  private:
@@ -32,6 +35,7 @@ class Master {
   HeartbeatProducer producer_;
   HeartbeatMonitor monitor_;
   EmergencyLog emergencies_;
+  ModeMonitor modes_;
 };
 
 }  // namespace liana::canopen

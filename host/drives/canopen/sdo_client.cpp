@@ -33,6 +33,8 @@ void SdoClient::begin(bool download, std::uint16_t index, std::uint8_t sub) noex
   status_ = SdoStatus::kBusy;
   abort_code_ = 0;
   announced_ = 0;
+  is_sized_ = false;
+  odd_length_.reset();
   at_ = 0;
 }
 
@@ -105,7 +107,11 @@ bool SdoClient::is_late(const bus::CanFrame& frame) noexcept {
 }
 
 void SdoClient::on_response(const bus::CanFrame& frame) noexcept {
-  if (status_ != SdoStatus::kBusy || pending_ || frame.length != 8) return;
+  if (status_ != SdoStatus::kBusy || pending_) return;
+  if (frame.length != 8) {
+    if (frame.length < 4 || answers_this_object(frame)) odd_length_ = frame.length;
+    return;
+  }
   const bool names_object = phase_ == Phase::kInitiate || frame.data[0] == kAbortCommandByte;
   if (names_object && (!answers_this_object(frame) || is_late(frame))) return;
   if (frame.data[0] == kAbortCommandByte) {
@@ -121,7 +127,7 @@ void SdoClient::on_response(const bus::CanFrame& frame) noexcept {
 
 void SdoClient::on_upload_initiated(const bus::CanFrame& frame) noexcept {
   const std::uint8_t command = frame.data[0];
-  const bool sized = (command & 1) != 0;
+  const bool sized = is_sized_ = (command & 1) != 0;
   if ((command & 2) != 0) {
     size_ = sized ? 4U - ((command >> 2) & 3U) : 4U;
     std::copy_n(frame.data.begin() + 4, size_, buffer_.begin());

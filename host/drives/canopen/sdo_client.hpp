@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "host/drives/bus/can_frame.hpp"
@@ -55,6 +56,10 @@ class SdoClient {
   std::uint32_t abort_code() const noexcept { return abort_code_; }
   // What was read.
   std::span<const std::uint8_t> data() const noexcept { return {buffer_.data(), size_}; }
+  // How many bytes the server said that the object has; 0: it did not say, or nothing was read.
+  std::size_t said_bytes() const noexcept { return is_sized_ ? size_ : 0; }
+  // Bytes of an answer for this object that is none, since it has not 8 (CiA 301, 7.2.4.3); nothing: none came.
+  std::optional<std::uint8_t> odd_length() const noexcept { return odd_length_; }
   // The first four bytes of it (or fewer) as a little-endian number.
   std::uint32_t value() const noexcept;
   std::uint8_t node() const noexcept { return node_; }
@@ -89,8 +94,10 @@ class SdoClient {
   Phase phase_ = Phase::kInitiate;
   SdoStatus status_ = SdoStatus::kIdle;
   std::uint32_t abort_code_ = 0;
+  std::optional<std::uint8_t> odd_length_;
   std::array<std::uint8_t, kSdoBufferBytes> buffer_{};
   std::size_t size_ = 0;       // bytes in buffer_
+  bool is_sized_ = false;      // the server said how many they are
   std::size_t announced_ = 0;  // upload: size the server announced, 0 = none
   std::size_t at_ = 0;         // download: bytes already sent
   bus::CanFrame request_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "host/drives/canopen/cob_id.hpp"
 #include "host/drives/canopen/messages.hpp"
@@ -24,7 +25,10 @@ std::uint32_t Answer::value() const {
 
 Desk::Desk(const config::BusesConfig& buses, timing::TimeMode time, const std::string& bus_socket,
            const std::atomic<bool>& interrupt)
-    : rate_hz_(buses.rate_hz), interrupt_(interrupt), bus_(bus::open_drive_bus(buses, time, bus_socket)) {}
+    : Desk(bus::open_drive_bus(buses, time, bus_socket), buses.rate_hz, interrupt) {}
+
+Desk::Desk(std::unique_ptr<bus::DriveBus> bus, double rate_hz, const std::atomic<bool>& interrupt)
+    : rate_hz_(rate_hz), interrupt_(interrupt), bus_(std::move(bus)) {}
 
 std::uint64_t Desk::ticks(double seconds) const {
   return static_cast<std::uint64_t>(std::max(1.0, std::ceil(seconds * rate_hz_)));
@@ -64,7 +68,11 @@ Answer Desk::finish(Place place, canopen::SdoClient& client) {
   };
   do tick(take, send);
   while (client.status() == canopen::SdoStatus::kBusy);
-  return {client.status(), client.abort_code(), {client.data().begin(), client.data().end()}};
+  return {client.status(),
+          client.abort_code(),
+          {client.data().begin(), client.data().end()},
+          client.said_bytes() != 0,
+          client.odd_length()};
 }
 
 Answer Desk::read(Place place, std::uint16_t index, std::uint8_t sub) {
@@ -103,22 +111,30 @@ std::vector<Place> Desk::scan(std::uint8_t first, std::uint8_t last) {
 }
 
 std::unique_ptr<canopen::BootNode> Desk::look_at_boot(const canopen::ExpectedDrive& drive) {
-  const canopen::BootTiming timing = canopen::boot_timing(rate_hz_, drive.type.times);
-  auto node = std::make_unique<canopen::BootNode>(drive, timing, true);
+  auto node = std::make_unique<canopen::BootNode>(drive, canopen::boot_timing(rate_hz_, drive.type.times), true);
+  work_through(*node, canopen::NodePhase::kConfigured);
+  return node;
+}
+
+std::unique_ptr<canopen::BootNode> Desk::boot(const canopen::ExpectedDrive& drive) {
+  auto node = std::make_unique<canopen::BootNode>(drive, canopen::boot_timing(rate_hz_, drive.type.times));
+  work_through(*node, canopen::NodePhase::kOperational);
+  return node;
+}
+
+void Desk::work_through(canopen::BootNode& node, canopen::NodePhase end) {
   const auto take = [&](const bus::ReceivedFrame& received) {
     const canopen::FrameRoute from = canopen::route(received.frame.id);
-    if (received.bus != drive.bus || from.node != drive.node) return;
-    if (from.kind == canopen::FrameKind::kSdoResponse) node->on_sdo_response(received.frame);
-    if (from.kind == canopen::FrameKind::kHeartbeat && received.frame.length == 1)
-      node->on_heartbeat(received.frame.data[0]);
+    if (received.bus != node.bus() || from.node != node.node()) return;
+    if (from.kind == canopen::FrameKind::kSdoResponse) node.on_sdo_response(received.frame);
+    if (from.kind == canopen::FrameKind::kHeartbeat) node.on_heartbeat(received.frame);
   };
   const auto send = [&] {
+    if (end == canopen::NodePhase::kOperational) node.allow_start();
     bus::CanFrame frame;
-    if (node->step(frame)) node->sent(bus_->send(drive.bus, frame) == bus::SendResult::kOk);
+    if (node.step(frame)) node.sent(bus_->send(node.bus(), frame) == bus::SendResult::kOk);
   };
-  while (node->phase() != canopen::NodePhase::kConfigured && node->phase() != canopen::NodePhase::kFailed)
-    tick(take, send);
-  return node;
+  while (node.phase() != end && node.phase() != canopen::NodePhase::kFailed) tick(take, send);
 }
 
 bool Desk::hears_master() {

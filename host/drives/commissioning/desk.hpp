@@ -29,7 +29,9 @@ constexpr double kAnswer_s = 1.0;  // a drive has for each SDO transfer
 struct Answer {
   canopen::SdoStatus status = canopen::SdoStatus::kIdle;  // kDone, kAborted or kTimeout
   std::uint32_t abort_code = 0;
-  std::vector<std::uint8_t> bytes;  // read
+  std::vector<std::uint8_t> bytes;         // read
+  bool has_size = false;                   // the drive said how many bytes they are
+  std::optional<std::uint8_t> odd_length;  // kTimeout: bytes of an answer that is none, since it has not 8
   bool is_done() const { return status == canopen::SdoStatus::kDone; }
   std::uint32_t value() const;  // of the first four bytes
 };
@@ -45,6 +47,9 @@ class Desk {
   Desk(const config::BusesConfig& buses, timing::TimeMode time, const std::string& bus_socket,
        const std::atomic<bool>& interrupt);
 
+  // On a bus that is open already, at so many ticks a second.
+  Desk(std::unique_ptr<bus::DriveBus> bus, double rate_hz, const std::atomic<bool>& interrupt);
+
   // Reads or writes an object; an answer may take 1 s.
   Answer read(Place place, std::uint16_t index, std::uint8_t sub);
   Answer write(Place place, std::uint16_t index, std::uint8_t sub, std::span<const std::uint8_t> bytes);
@@ -52,6 +57,8 @@ class Desk {
   std::vector<Place> scan(std::uint8_t first, std::uint8_t last);
   // Resets communication of the node and goes through its boot, reading only. The result is kConfigured or kFailed.
   std::unique_ptr<canopen::BootNode> look_at_boot(const canopen::ExpectedDrive& drive);
+  // Boots the node as lianad does, writing, to kOperational or kFailed. Nothing gives it torque.
+  std::unique_ptr<canopen::BootNode> boot(const canopen::ExpectedDrive& drive);
   // Whether another master's heartbeat (0x77F) is heard within 0.35 s.
   bool hears_master();
   // Lets `seconds` pass.
@@ -73,6 +80,7 @@ class Desk {
 
  private:
   void tick(const OnFrame& take, const std::function<void()>& send);
+  void work_through(canopen::BootNode& node, canopen::NodePhase end);
   Answer finish(Place place, canopen::SdoClient& client);
 
   double rate_hz_;

@@ -122,6 +122,7 @@ void Jog::watch() noexcept {
   if (last_.feedback_age_ticks > ticks(kReports_s)) return end_with(JogResult::kReportsLost, Phase::kDisable);
   if (last_.heartbeat_age_ticks > ticks(kHeartbeat_s) || last_.operational == 0)
     return end_with(JogResult::kHeartbeatLost, Phase::kDisable);
+  if (last_.operational == kInOtherMode) return end_with(JogResult::kOtherMode, Phase::kDisable);
   const bool is_strained = std::abs(last_.torque_permille) > kStrained * request_.most_torque_permille;
   strained_ticks_ = is_strained ? strained_ticks_ + 1 : 0;
   if (strained_ticks_ > ticks(kStrained_s)) return end_with(JogResult::kTorque, Phase::kDisable);

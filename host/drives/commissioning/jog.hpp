@@ -37,6 +37,7 @@ enum class JogResult : std::uint8_t {
   kEmergency,      // it sent an emergency message
   kReportsLost,    // no TPDO for 0.1 s
   kHeartbeatLost,  // no heartbeat for 0.35 s, or one that is not of Operational
+  kOtherMode,      // it shows another mode (6061) than it was told
   kRanAway,        // farther from its target than the window
   kTorque,         // it needed more torque than it may have
   kBounds,         // a target was out of bounds: a mistake of this program, and nothing left

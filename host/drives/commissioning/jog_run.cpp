@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdlib>
 
+#include "firmware_like/drive/cia402.hpp"
 #include "firmware_like/drive/pdo.hpp"
 #include "host/drives/canopen/messages.hpp"
 
@@ -11,6 +12,7 @@ namespace liana::commissioning {
 namespace {
 
 constexpr double kTell_s = 0.1;
+constexpr std::int8_t kModeCsp = 8;
 constexpr std::uint16_t kNeverHeard = 0xFFFF;  // ticks
 
 }  // namespace
@@ -38,8 +40,7 @@ const canopen::BootNode& JogRun::boot() {
   using canopen::NodePhase;
   const auto take = [this](const bus::ReceivedFrame& received) {
     if (is_from_drive(received, canopen::FrameKind::kSdoResponse)) node_.on_sdo_response(received.frame);
-    if (is_from_drive(received, canopen::FrameKind::kHeartbeat) && received.frame.length == 1)
-      node_.on_heartbeat(received.frame.data[0]);
+    if (is_from_drive(received, canopen::FrameKind::kHeartbeat)) node_.on_heartbeat(received.frame);
   };
   const auto send = [this] {
     heartbeat_.step(desk_.bus());
@@ -66,13 +67,13 @@ void JogRun::on_frame(const bus::ReceivedFrame& received) {
   if (is_from_drive(received, canopen::FrameKind::kSdoResponse)) sdo_.on_response(frame);
   if (is_from_drive(received, canopen::FrameKind::kHeartbeat) && frame.length == 1) {
     seen_.heartbeat_age_ticks = 0;
-    seen_.operational = (frame.data[0] & 0x7F) == canopen::kStateOperational ? 1 : 0;
+    is_operational_ = (frame.data[0] & canopen::kNmtStateMask) == canopen::kStateOperational;
   }
 }
 
 void JogRun::on_report(const bus::CanFrame& frame) {
   Tpdo1 report;
-  if (!decode_tpdo1({frame.data.data(), frame.length}, report)) return;
+  if (!decode_tpdo1({frame.data.data(), frame.length}, report, drive_.type.has_torque)) return;
   seen_.statusword = report.statusword;
   seen_.position_counts = report.position_counts;
   seen_.torque_permille = report.torque_permille;
@@ -94,6 +95,9 @@ void JogRun::cycle(Jog& jog) {
     if (*age < kNeverHeard) ++*age;
   seen_.emergency_code = 0;
   const auto send = [&] {
+    take_answer();
+    const bool other_mode = mode_ && *mode_ != kModeCsp;
+    seen_.operational = !is_operational_ ? std::uint8_t{0} : other_mode ? kInOtherMode : std::uint8_t{1};
     heartbeat_.step(desk_.bus());
     bus::CanFrame command{rpdo1_cob_id(drive_.node), kRpdo1Bytes, {}, 0};
     const std::array<std::uint8_t, kRpdo1Bytes> data = encode_rpdo1(jog.step(seen_));
@@ -108,16 +112,36 @@ void JogRun::cycle(Jog& jog) {
       Desk::Tick::kCyclic, [this](const bus::ReceivedFrame& received) { on_frame(received); }, send);
 }
 
-void JogRun::ask_current() {
+void JogRun::take_answer() {
   using canopen::SdoStatus;
-  if (sdo_.status() == SdoStatus::kDone) current_permille_ = static_cast<std::int16_t>(sdo_.value());
-  if (sdo_.status() == SdoStatus::kAborted) has_current_ = false;
-  if (has_current_ && sdo_.status() != SdoStatus::kBusy) sdo_.start_upload(0x6078, 0);
+  if (sdo_.status() == SdoStatus::kBusy) return;
+  const bool is_done = sdo_.status() == SdoStatus::kDone, is_refused = sdo_.status() == SdoStatus::kAborted;
+  if (asked_ == Asked::kCurrent && is_done) current_permille_ = static_cast<std::int16_t>(sdo_.value());
+  if (asked_ == Asked::kCurrent && is_refused) has_current_ = false;
+  if (asked_ == Asked::kMode && is_done) mode_ = static_cast<std::int8_t>(sdo_.value());
+  if (asked_ == Asked::kMode && is_refused) has_mode_ = false;
+  asked_ = Asked::kNothing;
+}
+
+// The mode again and again while the drive has power; its current in between.
+void JogRun::ask_next(bool wants_current) {
+  take_answer();
+  if (sdo_.status() == canopen::SdoStatus::kBusy) return;
+  const bool is_enabled = decode(seen_.statusword) == DriveState::kOperationEnabled;
+  if (!is_enabled) mode_.reset();
+  if (has_current_ && wants_current) {
+    asked_ = Asked::kCurrent;
+    sdo_.start_upload(0x6078, 0);
+  } else if (has_mode_ && is_enabled) {
+    asked_ = Asked::kMode;
+    sdo_.start_upload(canopen::kModeDisplay, 0);
+  }
 }
 
 // A drive in Fault without an emergency message, or from before: 603F has its code.
 void JogRun::ask_error_code(Jog& jog) {
   while (sdo_.status() == canopen::SdoStatus::kBusy) cycle(jog);
+  asked_ = Asked::kNothing;
   sdo_.start_upload(0x603F, 0);
   do cycle(jog);
   while (sdo_.status() == canopen::SdoStatus::kBusy);
@@ -128,16 +152,16 @@ JogOutcome JogRun::jog(const JogRequest& request, const std::function<void(const
   Jog jog(request, desk_.rate_hz());
   seen_ = {};
   seen_.heartbeat_age_ticks = 0;
-  seen_.operational = 1;  // as its last heartbeat said
+  is_operational_ = true;  // as its last heartbeat said
   first_emergency_ = 0;
   const std::uint64_t tell_ticks = desk_.ticks(kTell_s);
   bool has_stopped = false;
   for (std::uint64_t tick = 0; !jog.is_over(); ++tick) {
+    ask_next(tick % tell_ticks == 0);
     cycle(jog);
     if (desk_.is_interrupted() && !has_stopped) jog.interrupt();
     has_stopped = desk_.is_interrupted();
     if (tick % tell_ticks != 0) continue;
-    ask_current();
     if (seen_.feedback_age_ticks == 0)
       tell({static_cast<double>(tick) / desk_.rate_hz(), seen_, jog.moved_counts(), current_permille_});
   }

@@ -50,7 +50,8 @@ class JogRun {
   void on_report(const bus::CanFrame& frame);
   void on_emergency(const bus::CanFrame& frame);
   void cycle(Jog& jog);
-  void ask_current();
+  void ask_next(bool wants_current);
+  void take_answer();
   void ask_error_code(Jog& jog);
   bool is_from_drive(const bus::ReceivedFrame& received, canopen::FrameKind kind) const;
 
@@ -63,7 +64,12 @@ class JogRun {
   std::uint16_t first_emergency_ = 0;
   std::int32_t max_torque_permille_ = 0;
   std::optional<std::int16_t> current_permille_;
-  bool has_current_ = true;  // until it says that it has no 6078
+  enum class Asked : std::uint8_t { kNothing, kCurrent, kMode };
+  Asked asked_ = Asked::kNothing;    // by the transfer of `sdo_` that is under way
+  bool is_operational_ = true;       // as its last heartbeat said
+  std::optional<std::int8_t> mode_;  // 6061, since it was enabled
+  bool has_current_ = true;          // until it says that it has no 6078
+  bool has_mode_ = true;             // and 6061
 };
 
 }  // namespace liana::commissioning

@@ -220,12 +220,12 @@ const std::map<ObjectId, Presence>& generic_rules() {
       {{0x1018, 2}, kRequired}, {{0x1018, 3}, kRequired}, {{0x1018, 4}, kOptional}, {{0x1400, 1}, kRequired},
       {{0x1400, 2}, kRequired}, {{0x1400, 5}, kOptional}, {{0x1800, 1}, kRequired}, {{0x1800, 2}, kRequired},
       {{0x6007, 0}, kOptional}, {{0x605A, 0}, kOptional}, {{0x605E, 0}, kOptional}, {{0x6060, 0}, kRequired},
-      {{0x6065, 0}, kOptional}, {{0x6066, 0}, kOptional}, {{0x6072, 0}, kOptional}, {{0x6076, 0}, kOptional},
-      {{0x607D, 1}, kOptional}, {{0x607D, 2}, kOptional}, {{0x607E, 0}, kOptional}, {{0x607F, 0}, kOptional},
-      {{0x6080, 0}, kOptional}, {{0x6085, 0}, kOptional}, {{0x608F, 1}, kOptional}, {{0x608F, 2}, kOptional},
-      {{0x6091, 1}, kOptional}, {{0x6091, 2}, kOptional}, {{0x6092, 1}, kOptional}, {{0x6092, 2}, kOptional},
-      {{0x60A8, 0}, kOptional}, {{0x60A9, 0}, kOptional}, {{0x60C2, 1}, kRequired}, {{0x60C2, 2}, kRequired},
-      {{0x60C5, 0}, kOptional}, {{0x6502, 0}, kRequired}};
+      {{0x6061, 0}, kOptional}, {{0x6065, 0}, kOptional}, {{0x6066, 0}, kOptional}, {{0x6072, 0}, kOptional},
+      {{0x6076, 0}, kOptional}, {{0x607D, 1}, kOptional}, {{0x607D, 2}, kOptional}, {{0x607E, 0}, kOptional},
+      {{0x607F, 0}, kOptional}, {{0x6080, 0}, kOptional}, {{0x6085, 0}, kOptional}, {{0x608F, 1}, kOptional},
+      {{0x608F, 2}, kOptional}, {{0x6091, 1}, kOptional}, {{0x6091, 2}, kOptional}, {{0x6092, 1}, kOptional},
+      {{0x6092, 2}, kOptional}, {{0x60A8, 0}, kOptional}, {{0x60A9, 0}, kOptional}, {{0x60C2, 1}, kRequired},
+      {{0x60C2, 2}, kRequired}, {{0x60C5, 0}, kOptional}, {{0x6502, 0}, kRequired}};
   return rules;
 }
 
@@ -277,7 +277,7 @@ DriveType read_drive_type(const Json& json, const std::string& file) {
   const Field table(json, file, "");
   check_kind(table, "drive");
   table.only({"format", "kind", "name", "source", "identity", "objects", "units", "polarity", "max_torque_permille",
-              "following_time_ms", "stop", "mapping", "times", "writes", "dictionary", "mode"});
+              "following_time_ms", "stop", "mapping", "times", "writes", "dictionary", "mode", "torque"});
   DriveType out;
   out.name = table.at("name").name(40);
   out.source = read_text(table.at("source"), 400);
@@ -297,6 +297,11 @@ DriveType read_drive_type(const Json& json, const std::string& file) {
   read_if_there(table, "mapping", out.mapping_is_fixed, [](const Field& field) {
     return field.choice({"written", "fixed"}) == "fixed";
   });
+  read_if_there(table, "torque", out.has_torque, [](const Field& field) {
+    return field.choice({"6077", "none"}) == "6077";
+  });
+  if (!out.has_torque && out.is_cst)
+    table.at("torque").refuse("\"6077\" with mode = \"cst\"", "a drive that follows torques has to report them");
   if (json.contains("times")) read_times(table.at("times"), out.times);
   if (json.contains("dictionary")) check_dictionary(table.at("dictionary"));
   if (!json.contains("writes")) return out;

@@ -90,6 +90,7 @@ struct DriveType {
   std::int16_t fault_option = 2;             // 605E
   std::int16_t abort_connection_option = 3;  // 6007
   double stop_within_s = 0.1;                // 6085 and 60C5: from the fastest command to rest, and back
+  bool has_torque = true;                    // 6077 is reported; else tension has another source, or none
   bool mapping_is_fixed = false;             // 1600 and 1A00 are read and compared, never written
   std::vector<StartUpWrite> writes;
   DriveTimes times;

@@ -2,6 +2,7 @@
 #include "host/model/config/campaign.hpp"
 #include "host/model/config/canonical.hpp"
 #include "host/model/config/drive_type.hpp"
+#include "host/model/config/drive_types_of_buses.hpp"
 #include "host/model/config/error_budget.hpp"
 #include "host/model/config/robot_parts.hpp"
 #include "host/model/config/serial_robot.hpp"
@@ -55,6 +56,12 @@ void take_load_cells(const BusesConfig& buses, const std::string& file, RobotCon
   cell.goes_on = buses.load_cell.goes_on ? 1 : 0;
 }
 
+// Drives whose type has no 6077.
+void take_torqueless(const BusesConfig& buses, RobotConfig& out) {
+  for (const auto& [node, type] : drive_types(buses))
+    if (!type.has_torque && node <= out.table.cable_count()) out.table.no_torque |= 1u << (node - 1);
+}
+
 }  // namespace
 
 RobotConfig parse_robot(const std::string& text, const std::string& file, const std::string& physics,
@@ -65,6 +72,7 @@ RobotConfig parse_robot(const std::string& text, const std::string& file, const 
   out.table.tick_s = buses.tick_s();
   out.table.interval_ticks = buses.interval_ticks();
   take_load_cells(buses, file, out);
+  take_torqueless(buses, out);
   return out;
 }
 

@@ -89,13 +89,15 @@ std::vector<bus::CanFrame> FakeDrive::receive(const bus::CanFrame& frame) {
 
 std::vector<bus::CanFrame> FakeDrive::heartbeat() const {
   if (dead || objects.at(key(0x1017, 0)).value == 0) return {};
-  return {{0x700U + node, 1, {state}, 0}};
+  return {{0x700U + node, heartbeat_bytes, {state}, 0}};
 }
 
 std::vector<bus::CanFrame> FakeDrive::answer_sdo(const bus::CanFrame& request) {
   const std::uint32_t object_key = key(little_endian(request, 1, 2), request.data[3]);
   if (object_key == deaf_from) return {};
-  bus::CanFrame answer{0x580U + node, 8, {0, request.data[1], request.data[2], request.data[3]}, 0};
+  if (object_key == key(0x6061, 0) && mode_reads > 0 && --mode_reads == 0)
+    objects[object_key].value = objects.at(key(0x6060, 0)).value;
+  bus::CanFrame answer{0x580U + node, answer_bytes, {0, request.data[1], request.data[2], request.data[3]}, 0};
   const auto abort = aborts.find(object_key);
   const auto found = objects.find(object_key);
   const bool write = (request.data[0] & 0xE0) == 0x20;

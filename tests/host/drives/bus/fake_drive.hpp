@@ -39,8 +39,11 @@ class FakeDrive {
   bool never_operational = false;
   int restarts = 0;  // boots again at so many writes of 0x6060
   std::uint8_t state = 0x7F;
-  int reset_ticks = 0;   // from a reset to the boot-up message; deaf meanwhile
-  int answer_ticks = 0;  // from an SDO request to its answer
+  int reset_ticks = 0;               // from a reset to the boot-up message; deaf meanwhile
+  int answer_ticks = 0;              // from an SDO request to its answer
+  std::uint8_t answer_bytes = 8;     // length of its SDO answers
+  std::uint8_t heartbeat_bytes = 1;  // and of its heartbeats
+  int mode_reads = -1;               // 6061 shows the mode after so many reads; -1: it has what `objects` say
 
  private:
   bus::CanFrame boot_up() const;

@@ -655,6 +655,70 @@ TEST(Boot, NothingIsWrittenToADriveThatIsAnother) {
   EXPECT_EQ(bench.mismatches(4)[1].index, 0x6060) << "what it lacks is said all the same";
 }
 
+// 6061 is the mode that the drive is in; some take their time to show it.
+TEST(Boot, ADriveThatTakesAModeAndStaysInAnotherIsRefusedByName) {
+  BootBench bench;
+  bench.drive(1).objects[key(0x6061, 0)] = {1, 1};
+  bench.drive(15).objects[key(0x6061, 0)] = {1, 0};
+  bench.drive(8).objects[key(0x6061, 0)] = {1, 1};
+  bench.drive(8).mode_reads = 125;
+  bench.run();
+  for (const auto& [node, shown] : {std::pair{1, 1U}, std::pair{15, 0U}}) {
+    ASSERT_EQ(bench.mismatches(node).size(), 1U) << bench.text(node);
+    EXPECT_EQ(bench.mismatch(node).index, 0x6061);
+    EXPECT_EQ(bench.mismatch(node).expected, 8U);
+    EXPECT_EQ(bench.mismatch(node).found, shown);
+  }
+  EXPECT_TRUE(bench.mismatches(8).empty()) << bench.text(8);
+  BootBench later;
+  later.drive(8).objects[key(0x6061, 0)] = {1, 1};
+  later.drive(8).mode_reads = 126;
+  later.run();
+  EXPECT_EQ(later.mismatch(8).index, 0x6061);
+}
+
+TEST(Boot, WhereTheModeCannotBeWrittenOnlyThatIsNamed) {
+  BootBench bench;
+  bench.drive(4).objects[key(0x6061, 0)] = {1, 1};
+  bench.drive(4).read_only = {key(0x6060, 0)};
+  bench.run();
+  ASSERT_EQ(bench.mismatches(4).size(), 1U) << bench.text(4);
+  EXPECT_EQ(bench.mismatch(4).index, 0x6060);
+}
+
+TEST(Boot, AnswersAndHeartbeatsOfAnotherLengthAreNamedAsSuch) {
+  for (const std::uint8_t bytes : {std::uint8_t{7}, std::uint8_t{4}, std::uint8_t{3}, std::uint8_t{0}}) {
+    BootBench bench;
+    bench.drive(2).answer_bytes = bytes;
+    bench.run();
+    EXPECT_EQ(bench.mismatch(2).failure, BootFailure::kNoAnswer);
+    EXPECT_EQ(bench.mismatch(2).odd_length, bytes) << bench.text(2);
+  }
+  for (const std::uint8_t bytes : {std::uint8_t{0}, std::uint8_t{2}, std::uint8_t{8}}) {
+    BootBench bench;
+    bench.drive(2).heartbeat_bytes = bytes;
+    bench.run();
+    EXPECT_EQ(bench.mismatch(2).failure, BootFailure::kNotOperational);
+    EXPECT_EQ(bench.mismatch(2).odd_length, bytes) << bench.text(2);
+  }
+  BootBench silent;
+  silent.drive(2).deaf_from = key(0x6076, 0);
+  silent.run();
+  EXPECT_EQ(silent.mismatch(2).odd_length, std::nullopt);
+}
+
+TEST(Boot, AValueIsToldWholeAlsoWhereOnlySomeOfItsBitsAreCompared) {
+  BootBench bench;
+  bench.drive(2).objects[key(0x1000, 0)].value = 0x00020191;
+  bench.drive(3).objects[key(0x607E, 0)] = {1, 0xA1};
+  bench.run();
+  EXPECT_EQ(bench.mismatch(2).found, 0x00020191U);
+  EXPECT_EQ(bench.mismatch(2).mask, 0xFFFFU);
+  EXPECT_TRUE(names(bench.text(2), {"0x20191", "0x192", "0xFFFF"}));
+  EXPECT_EQ(bench.mismatch(3).found, 0xA1U);
+  EXPECT_TRUE(names(bench.text(3), {"161", "0xA1"}));
+}
+
 // field-notes D7: what decides direction, scale and stopping distance is read.
 TEST(Boot, DirectionScaleLimitsAndStoppingAreReadAndRefusedByName) {
   struct Case {

@@ -45,6 +45,37 @@ TEST(SdoClient, ReadsExpeditedValuesOfOneToFourBytes) {
   }
 }
 
+TEST(SdoClient, AnAnswerOfAnotherLengthIsNoAnswerAndItsLengthIsKept) {
+  SdoClient client(kNode, kTimeoutTicks);
+  client.start_upload(0x1018, 2);
+  request_of(client);
+  bus::CanFrame brief = response({0x43, 0x18, 0x10, 2, 0x11, 0x22, 0x33});
+  brief.length = 7;
+  bus::CanFrame of_another = response({0x43, 0x18, 0x10, 3, 0x11});
+  of_another.length = 5;
+  client.on_response(of_another);
+  EXPECT_EQ(client.odd_length(), std::nullopt) << "another tool's";
+  client.on_response(brief);
+  EXPECT_EQ(client.status(), SdoStatus::kBusy);
+  EXPECT_EQ(client.odd_length(), std::uint8_t{7});
+  for (std::uint32_t tick = 0; tick < kTimeoutTicks; ++tick) client.tick();
+  EXPECT_EQ(client.status(), SdoStatus::kTimeout);
+  EXPECT_EQ(client.odd_length(), std::uint8_t{7});
+  client.start_upload(0x1018, 2);
+  EXPECT_EQ(client.odd_length(), std::nullopt);
+}
+
+TEST(SdoClient, KnowsHowManyBytesAnObjectHasOnlyWhereTheServerSaysIt) {
+  for (const auto& [command, bytes] : {std::pair{0x4F, 1U}, std::pair{0x43, 4U}, std::pair{0x42, 0U}}) {
+    SdoClient client(kNode, kTimeoutTicks);
+    client.start_upload(0x6061, 0);
+    request_of(client);
+    client.on_response(response({command, 0x61, 0x60, 0, 8}));
+    EXPECT_EQ(client.status(), SdoStatus::kDone);
+    EXPECT_EQ(client.said_bytes(), bytes);
+  }
+}
+
 TEST(SdoClient, WritesExpeditedValuesOfOneToFourBytes) {
   const int commands[] = {0x2F, 0x2B, 0x27, 0x23};
   const std::uint8_t bytes[] = {1, 2, 3, 4};

@@ -1,10 +1,15 @@
 // Heartbeats both ways, emergencies, frame routing, and what is expected of the drives of a table.
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <utility>
+#include <vector>
+
 #include "host/drives/canopen/cob_id.hpp"
 #include "host/drives/canopen/emergency.hpp"
 #include "host/drives/canopen/heartbeat.hpp"
 #include "host/drives/canopen/master.hpp"
+#include "host/drives/canopen/mode_monitor.hpp"
 #include "tests/host/drives/bus/quiet_bus.hpp"
 #include "tests/message.hpp"
 
@@ -204,6 +209,90 @@ TEST(Master, CommandsAllDrivesOfAllBuses) {
   EXPECT_EQ(bus.sent[1].frame.id, 0U);
   EXPECT_EQ(bus.sent[1].frame.data[0], kNmtStop);
   EXPECT_EQ(bus.sent[1].frame.data[1], 0);
+}
+
+// Drives that answer for 6061 in the next tick, on one bus at 250 Hz.
+struct ModeBench {
+  explicit ModeBench(int count, double max_load = 1.0) : shown(static_cast<std::size_t>(count), 8) {
+    buses.rate_hz = 250.0;
+    buses.heartbeat_ms = 100;
+    buses.max_load = max_load;
+    buses.buses = {{"can0", 1000000, {}}};
+    for (int i = 0; i < count; ++i) {
+      buses.buses[0].nodes.push_back(i + 1);
+      drives.emplace_back();
+      drives.back().node = static_cast<std::uint8_t>(i + 1);
+    }
+    monitor.emplace(drives, buses);
+  }
+  void tick(std::uint32_t in_operation) {
+    for (const bus::ReceivedFrame& sent : std::exchange(bus.sent, {})) {
+      const std::size_t i = (sent.frame.id & 0x7F) - 1;
+      if (sent.frame.data[0] != 0x40) continue;
+      ++asked;
+      bus::CanFrame answer{0x580U + static_cast<std::uint32_t>(i + 1), 8, {0x4F, 0x61, 0x60, 0}, 0};
+      answer.data[4] = static_cast<std::uint8_t>(shown[i]);
+      if (has_none) answer.data = {0x80, 0x61, 0x60, 0, 0, 0, 0x02, 0x06};
+      monitor->on_frame(0, answer);
+    }
+    monitor->step(bus, in_operation);
+  }
+
+  config::BusesConfig buses;
+  std::vector<ExpectedDrive> drives;
+  std::optional<ModeMonitor> monitor;
+  RecordingBus bus;
+  std::vector<int> shown;
+  int asked = 0;
+  bool has_none = false;
+};
+
+TEST(ModeMonitor, SeesAnotherModeOfAnyDriveWithinTenTicksHoweverManyThereAre) {
+  for (const int count : {1, 3, 8, 9, 15, 32}) {
+    const std::uint32_t all = count == 32 ? ~0U : (1U << count) - 1U;
+    for (const int drive : {0, count / 2, count - 1}) {
+      for (int phase = 0; phase < 8; ++phase) {
+        ModeBench bench(count, 1e9);
+        for (int i = 0; i < 40 + phase; ++i) bench.tick(all);
+        ASSERT_EQ(bench.monitor->other_mode(), 0U);
+        bench.shown[static_cast<std::size_t>(drive)] = -1;
+        int ticks = 0;
+        while (bench.monitor->other_mode() == 0 && ticks < 50) {
+          bench.tick(all);
+          ++ticks;
+        }
+        EXPECT_EQ(bench.monitor->other_mode(), 1U << drive);
+        EXPECT_LE(ticks, 10) << count << " drives, " << drive << ", " << phase;
+        bench.shown[static_cast<std::size_t>(drive)] = 8;
+        for (int i = 0; i < 10; ++i) bench.tick(all);
+        EXPECT_EQ(bench.monitor->other_mode(), 0U);
+      }
+    }
+  }
+}
+
+TEST(ModeMonitor, AsksOnlyInOperationAndForgetsWhatWasShownBefore) {
+  ModeBench bench(2);
+  bench.shown = {0, 0};
+  for (int i = 0; i < 50; ++i) bench.tick(0);
+  EXPECT_EQ(bench.asked, 0);
+  for (int i = 0; i < 20; ++i) bench.tick(2);
+  EXPECT_EQ(bench.monitor->other_mode(), 2U);
+  bench.tick(0);
+  EXPECT_EQ(bench.monitor->other_mode(), 0U);
+}
+
+TEST(ModeMonitor, ADriveWithout6061OrABusWithoutRoomIsNotAsked) {
+  ModeBench none(2);
+  none.has_none = true;
+  for (int i = 0; i < 40; ++i) none.tick(3);
+  EXPECT_EQ(none.asked, 2) << "each once";
+  EXPECT_FALSE(none.monitor->is_asked(0));
+  EXPECT_EQ(none.monitor->other_mode(), 0U);
+  ModeBench full(2, 0.001);
+  for (int i = 0; i < 40; ++i) full.tick(3);
+  EXPECT_EQ(full.asked, 0);
+  EXPECT_TRUE(full.monitor->bus_is_full(0));
 }
 
 }  // namespace

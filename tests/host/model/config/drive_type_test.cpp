@@ -66,6 +66,7 @@ TEST(DriveTypes, AreRefusedWithFileFieldValueRangeAndAdvice) {
       {"/dictionary", {{"values", {{"6066", 1.5}}}}, "dictionary.values.6066", {"whole"}},
       {"/dictionary", {{"added", Json::array({Json{{"object", "6066"}}})}}, "dictionary.added[1].type", {"missing"}},
       {"/objects", {{"gone", {"6065"}}}, "objects.gone", {"field"}},
+      {"/torque", "maybe", "torque", {"6077", "none"}},
       {"/writes", write("6060", 8), "writes[1].object", {"6060"}},
       {"/writes", write("2000:1", 24), "writes[1].bits", {"8", "16", "32"}}};
   for (const Spoiled& spoiled : cases)
