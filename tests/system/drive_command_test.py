@@ -144,6 +144,59 @@ class DriveCommand(SystemTest):
         generic = self.drive("check", "--node", "2", "--json", bus=bus)
         self.assertIn("608F:1 (encoder counts)", json.loads(generic.stdout)["not_there"])
 
+    def test_check_says_that_it_would_boot_and_with_try_carries_the_boot_out(self):
+        read = json.loads(self.drive("check", "--node", "3", "--json").stdout)
+        self.assertEqual((read["would_boot"], read["writes_tried"], read["mode_watched"]), (True, False, True))
+        self.assertGreater(read["pdo_writes"], 0)
+        done = self.drive("check", "--node", "3", "--try", "--json")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        tried = json.loads(done.stdout)
+        self.assertEqual((tried["would_boot"], tried["writes_tried"], tried["not_restored"]), (True, True, []))
+
+    def test_a_drive_without_torque_is_refused_by_check_as_by_jog_until_its_type_says_so(self):
+        folder = pathlib.Path(tempfile.mkdtemp(prefix="liana-drives-"))
+        self.addCleanup(shutil.rmtree, folder)
+        (folder / "drives").mkdir()
+        text = "return { format = 1, kind = 'drive', name = '%s', source = 'a manual', %s dictionary = { absent = { '6077' } } }"
+        for name, torque in (("weak", ""), ("plain", "torque = 'none',")):
+            (folder / "drives" / f"{name}.lua").write_text(text % (name, torque))
+        with unittest.mock.patch.dict(os.environ, LIANA_LUA_PATH=str(folder)):
+            for name, code in (("weak", 1), ("plain", 0)):
+                where = {"bus": self.bus_of("{ type = '%s', nodes = { 2 } }" % name)}
+                checked = self.drive("check", "--node", "2", "--type", name, "--json", **where)
+                self.assertEqual(checked.returncode, code, checked.stdout + checked.stderr)
+                self.assertEqual(json.loads(checked.stdout)["would_boot"], code == 0)
+                jogged = self.drive("jog", "--node", "2", "--type", name, "--by", "0.01", "--yes", **where)
+                self.assertEqual(jogged.returncode, code, jogged.stdout + jogged.stderr)
+                if code:
+                    self.assert_names(checked.stdout, "6077", "1A00:3", "0x06020000")
+                    self.assert_names(jogged.stderr, "6077", "0x06020000")
+
+    def test_a_type_is_made_from_a_data_sheet_or_what_is_missing_is_named(self):
+        folder = pathlib.Path(tempfile.mkdtemp(prefix="liana-drives-"))
+        self.addCleanup(shutil.rmtree, folder)
+        sheet = pathlib.Path(__file__).resolve().parents[2] / "hil" / "drive" / "liana_bench_drive.eds"
+        out = folder / "made.lua"
+        done = run("liana", "drive", "type", "--from-eds", sheet, "--out", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        checked = run("liana-mission", "eval", "drive", out)
+        self.assertEqual(checked.returncode, 0, checked.stderr)
+        poor = folder / "poor.eds"
+        poor.write_text("[1000]\nDataType=7\nDefaultValue=0x20191\n[1018sub1]\nDataType=7\nDefaultValue=1\n")
+        done = run("liana", "drive", "type", "--from-eds", poor, "--out", folder / "no.lua", "--json")
+        said = json.loads(done.stdout)
+        self.assertEqual((done.returncode, said["ok"], said["table"]), (1, False, ""))
+        self.assert_names(" ".join(said["missing"]), "6040", "401", "402")
+        self.assertFalse((folder / "no.lua").exists())
+        os.mkfifo(folder / "pipe.eds")
+        for bad in (folder / "pipe.eds", folder, folder / "nobody.eds", "/dev/zero", out):
+            done = run("liana", "drive", "type", "--from-eds", bad)
+            self.assertEqual(done.returncode, 2, (bad, done.stderr))
+            self.assert_names(done.stderr, pathlib.Path(bad).name)
+        done = run("liana", "drive", "type", "--from-eds", sheet, "--mode", "pp")
+        self.assertEqual(done.returncode, 2)
+        self.assert_names(done.stderr, "pp", "csp", "cst")
+
     def test_a_drive_that_counts_over_several_turns_of_its_motor_is_as_good(self):
         folder = pathlib.Path(tempfile.mkdtemp(prefix="liana-drives-"))
         self.addCleanup(shutil.rmtree, folder)

@@ -59,10 +59,22 @@ void add_type(CLI::App& sub, DriveOptions& drive) {
 void add_drive_check(CLI::App& group, Action& action) {
   auto [sub, check] = add_on_node(group, action, "check", drive_check_command);
   add_type(sub, check);
+  sub.add_flag("--try", check.tries,
+               "carry the boot out, without torque, and put back what it wrote; not given: only read");
   sub.add_option("--robot", check.robot,
                  "in place of --node: all drives of a robot table, of the types that the bus table says")
       ->excludes(sub.get_option("--node"))
       ->excludes(sub.get_option("--type"));
+}
+
+void add_drive_type(CLI::App& group, Action& action) {
+  auto [sub, type] = add<DriveOptions>(group, action, "type", drive_type_command);
+  sub.add_option("--from-eds", type.eds, "electronic data sheet (EDS) or device configuration (DCF) of the maker")
+      ->required();
+  sub.add_option("--mode", type.mode, "csp (follows positions) or cst (follows torques)")->capture_default_str();
+  sub.add_option("--out", type.out, "file for the table, e.g. drives/NAME.lua; - is standard output")
+      ->capture_default_str();
+  add_json(sub, type.json);
 }
 
 void add_jog(CLI::App& group, Action& action) {
@@ -91,6 +103,7 @@ void declare_drive(CLI::App& app, Action& action) {
   add_write(group, action);
   add_watch(group, action);
   add_drive_check(group, action);
+  add_drive_type(group, action);
   add_jog(group, action);
 }
 
