@@ -29,6 +29,10 @@ class CableArmServer final : public TypedArmServer<cable::CableArm, arbiter::Cab
   void leave_out_fixtures() { has_fixtures_ = false; }
 
   void watch(bool booted) override;
+  void restore_way(const arbiter::KeptWay& kept) override {
+    if (!kept.points.empty()) homing_.remember(kept.points.back().joint_rad);
+    TypedArmServer::restore_way(kept);
+  }
   const std::string& why_not_homed() const override { return homing_.why_not(); }
   std::string why_not_clear(std::int64_t whole) override;
   std::string why_not_recover() const override;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/drives/calibration/jig.hpp"
+#include "host/model/config/drive_names.hpp"
 
 namespace liana::server {
 namespace {
@@ -80,6 +81,27 @@ Homing::Homing(const config::RobotConfig& robot, const std::string& in_pose) : r
   if (!in_pose.empty()) calibration::check_tells_apart(robot, in_pose);
 }
 
+void Homing::remember(std::span<const double> joint_rad) {
+  cable::ThetaVector theta_rad{};
+  std::copy_n(joint_rad.begin(), std::min(joint_rad.size(), theta_rad.size()), theta_rad.begin());
+  cable::CableVector tension_N;
+  tension_N.fill(robot_.table.tension.plan_N);
+  left_m_ = calibration::beyond_zero_m(robot_.table, theta_rad, tension_N);
+}
+
+// Drives that stand whole turns of their encoders from where they were left.
+std::string Homing::lost_turns(const cable::CableVector& now_m) const {
+  std::string out;
+  const config::DriveNames names(robot_.table);
+  for (Index i = 0; left_m_ && i < static_cast<Index>(robot_.table.cable_count()); ++i) {
+    const std::string turns = calibration::whole_turns(robot_, i, now_m[i] - (*left_m_)[i]);
+    if (!turns.empty()) out += (out.empty() ? "" : ", ") + names.drive(i) + " " + turns;
+  }
+  if (out.empty()) return "";
+  return "; from where the arm was left, its encoder has lost or gained whole turns: " + out +
+         ": does it count turns without power? Set its place with the maker's tool, or run liana calibrate";
+}
+
 void Homing::look(const realtime::ArmTickStatus<cable::CableArm>& report, const cable::EstimatorState& estimator) {
   const cable::RobotParams& table = robot_.table;
   for (Index i = 0; i < static_cast<Index>(table.cable_count()); ++i) {
@@ -91,7 +113,10 @@ void Homing::look(const realtime::ArmTickStatus<cable::CableArm>& report, const 
                                           reported_tension_N(table, report.inputs));
     if (why_not_.empty() && report.outputs.homed != 0) in_pose_.clear();
   }
-  if (why_not_.empty() && report.outputs.homed == 0) why_not_ = why_lengths_do_not_fit(table, estimator);
+  const cable::CableVector now_m = paid_out_m(table, report.inputs);
+  if (why_not_.empty() && report.outputs.homed == 0)
+    why_not_ = why_lengths_do_not_fit(table, estimator) + lost_turns(now_m);
+  if (why_not_.empty()) left_m_ = now_m;
 }
 
 }  // namespace liana::server

@@ -2,6 +2,8 @@
 // found.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 
 #include "firmware_like/cable_controller.hpp"
@@ -26,6 +28,8 @@ class Homing {
   // std::runtime_error when there is no such pose, or when it does not tell every two cables apart.
   Homing(const config::RobotConfig& robot, const std::string& in_pose);
 
+  // Joint angles at which the arm was left, of which a file told: until it is homed the drives are compared with them.
+  void remember(std::span<const double> joint_rad);
   // Once per interval after booting. The pose is compared until it fits once: then the arm may leave it.
   void look(const realtime::ArmTickStatus<cable::CableArm>& report, const cable::EstimatorState& estimator);
 
@@ -34,8 +38,11 @@ class Homing {
   const std::string& why_not() const { return why_not_; }
 
  private:
+  std::string lost_turns(const cable::CableVector& now_m) const;
+
   const config::RobotConfig& robot_;
-  std::string in_pose_;  // still to be found
+  std::string in_pose_;                       // still to be found
+  std::optional<cable::CableVector> left_m_;  // paid out beyond zero when it was homed last
   std::string why_not_ = "the drives have not been heard yet";
 };
 

@@ -40,6 +40,15 @@ std::string exchanged(const config::DriveNames& names, const std::vector<Index>&
 
 }  // namespace
 
+std::string whole_turns(const config::RobotConfig& robot, std::size_t drive, double off_m) {
+  const double turn_m = robot.counts_per_turn * robot.table.drive[drive].metres_per_count;
+  const double turns = turn_m > 0.0 ? std::round(off_m / turn_m) : 0.0;
+  const bool is_whole =
+      turns != 0.0 && std::fabs(off_m - turns * turn_m) <= kFixtureTolerance_m && turn_m > 4.0 * kFixtureTolerance_m;
+  if (!is_whole) return "";
+  return std::fabs(turns) == 1.0 ? "one turn" : text("%.0f turns", std::fabs(turns));
+}
+
 ThetaVector named_pose_rad(const config::RobotConfig& robot, const std::string& name) {
   const auto found = robot.named_poses_deg.find(name);
   if (found == robot.named_poses_deg.end())
@@ -87,9 +96,12 @@ std::string contradiction(const config::RobotConfig& robot, const std::string& n
   std::stable_sort(off.begin(), off.end(), [&](Index a, Index b) { return by_m(a) > by_m(b); });
   const config::DriveNames names(robot.table);
   std::string out = "the arm does not lie in pose " + name + ": ";
-  for (Index i = 0; i < std::min(off.size(), kNamed); ++i)
-    out += (i == 0 ? "" : ", ") + names.drive(off[i]) +
-           text(" is off by %+.1f mm", 1e3 * (paid_out_m[off[i]] - expected_m[off[i]]));
+  for (Index i = 0; i < std::min(off.size(), kNamed); ++i) {
+    const double off_m = paid_out_m[off[i]] - expected_m[off[i]];
+    const std::string turns = whole_turns(robot, off[i], off_m);
+    out += (i == 0 ? "" : ", ") + names.drive(off[i]) + text(" is off by %+.1f mm", 1e3 * off_m) +
+           (turns.empty() ? "" : ", which is " + turns + " of its encoder");
+  }
   if (off.size() > kNamed) out += text(" and %zu more", off.size() - kNamed);
   out += text(", allowed %.0f mm", 1e3 * kFixtureTolerance_m);
   return out + exchanged(names, off, paid_out_m, expected_m) +

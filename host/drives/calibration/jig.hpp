@@ -31,4 +31,8 @@ void check_tells_apart(const config::RobotConfig& robot, const std::string& name
 std::string contradiction(const config::RobotConfig& robot, const std::string& name,
                           const cable::CableVector& paid_out_m, const cable::CableVector& tension_N);
 
+// "one turn", "2 turns" where a drive is off by whole turns of its motor's encoder, to a jig's tolerance; else empty.
+// An encoder that counts its turns only with power loses them so.
+std::string whole_turns(const config::RobotConfig& robot, std::size_t drive, double off_m);
+
 }  // namespace liana::calibration

@@ -66,6 +66,40 @@ TEST_F(HomingOfAnArm, NamesTheCablesThatContradictEachOtherTheWorstFirst) {
   EXPECT_LT(homing.why_not().find("segment 4"), homing.why_not().find("segment 1")) << homing.why_not();
 }
 
+// An encoder that counts its turns only with power: before and after, and also from the file that outlives lianad.
+TEST_F(HomingOfAnArm, ADriveThatStandsWholeTurnsFromWhereItWasLeftIsNamed) {
+  robot_.counts_per_turn = 65536;
+  const double turn_m = 65536.0 * robot_.table.drive[4].metres_per_count;
+  for (const bool from_file : {false, true}) {
+    for (const auto& [turns, said] :
+         {std::pair{1.0, "one turn"}, std::pair{-1.0, "one turn"}, std::pair{2.0, "2 turns"}}) {
+      Homing homing(robot_, "");
+      report_.outputs.homed = 1;
+      if (from_file) {
+        const cable::ThetaVector left_rad = calibration::named_pose_rad(robot_, "jig");
+        homing.remember(left_rad);
+      } else {
+        homing.look(report_, estimator_);
+        ASSERT_TRUE(homing.is_homed());
+      }
+      turn(turns * turn_m);
+      report_.outputs.homed = 0;
+      estimator_.residual_m[4] = turns * turn_m / 3.0;
+      homing.look(report_, estimator_);
+      EXPECT_TRUE(names(homing.why_not(), {"drive 5 (node 5, segment 2)", said})) << homing.why_not();
+      EXPECT_EQ(homing.why_not().find("drive 4"), std::string::npos) << homing.why_not();
+      turn(-turns * turn_m);
+    }
+  }
+  Homing part(robot_, "");
+  report_.outputs.homed = 1;
+  part.look(report_, estimator_);
+  turn(0.5 * turn_m);
+  report_.outputs.homed = 0;
+  part.look(report_, estimator_);
+  EXPECT_EQ(part.why_not().find("turn"), std::string::npos) << "half a turn is no lost turn";
+}
+
 TEST_F(HomingOfAnArm, IsRefusedUntilThePoseFitsOnceThenTheArmMayLeaveIt) {
   Homing homing(robot_, "jig");
   turn(0.004);
