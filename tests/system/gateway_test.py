@@ -346,9 +346,29 @@ class WhoIsLetIn(GatewayAloneTest):
         for name in ("..", "../page.html", "%2e%2e", "..%2f", "%2e%2e%2fpage.html", "..%5cpage.html"):
             self.assertFalse(b"nobody may read this" in http_get(gateway.address, f"/run/{name}")[2], name)
 
-    def test_where_tokens_are_asked_for_runs_take_the_ticket_of_a_client_that_is_connected(self):
-        (self.folder / "runs" / "one").mkdir(parents=True)
-        (self.folder / "runs" / "one" / "page.html").write_text("page of one")
+    def test_a_page_of_a_run_is_sandboxed_and_a_link_or_pipe_in_its_place_is_none(self):
+        for name in ("foreign", "link", "pipe"):
+            (self.folder / "runs" / name).mkdir(parents=True)
+        (self.folder / "runs" / "foreign" / "page.html").write_text("<script>new WebSocket('ws://' + location.host)")
+        (self.folder / "runs" / "link" / "page.html").symlink_to(self.tokens)
+        os.mkfifo(self.folder / "runs" / "pipe" / "page.html")
+        gateway = Gateway(self, self.api, "--runs", self.folder / "runs")
+        policies = [
+            line.partition(":")[2]
+            for line in http_get(gateway.address, "/run/foreign")[1].lower().splitlines()
+            if line.startswith("content-security-policy:")
+        ]
+        sandbox = next(policy.partition("sandbox")[2].partition(";")[0].split() for policy in policies if "sandbox" in policy)
+        self.assertEqual(sandbox, ["allow-scripts", "allow-downloads"])  # above all no allow-same-origin
+        self.assertTrue(any("connect-src data: blob:" in policy for policy in policies))  # without 'self'
+        self.assertNotIn("sandbox", http_get(gateway.address)[1])
+        for name in ("link", "pipe"):
+            self.assertEqual(http_get(gateway.address, f"/run/{name}")[0], 404)
+
+    def test_where_tokens_are_asked_for_each_run_takes_its_ticket_of_the_list_while_its_client_is_connected(self):
+        for name in ("one", "two"):
+            (self.folder / "runs" / name).mkdir(parents=True)
+            (self.folder / "runs" / name / "page.html").write_text(f"page of {name}")
         with System() as system:
             gateway = Gateway(self, system.api, "--runs", self.folder / "runs", "--token-file", self.tokens)
             self.assertEqual(http_get(gateway.address, "/runs")[0], 403)
@@ -357,12 +377,14 @@ class WhoIsLetIn(GatewayAloneTest):
             system.client("keeper").step()
             watcher = self.console(gateway.address, token_name="will", token="watches-the-arm-00002")
             ticket = watcher.until(lambda me: me.welcome).welcome["ticket"]
-            self.assertEqual(http_get(gateway.address, f"/run/one?ticket={ticket}")[2], b"page of one")
+            runs = json.loads(http_get(gateway.address, f"/runs?ticket={ticket}")[2])
+            one = next(run["ticket"] for run in runs if run["name"] == "one")
+            self.assertEqual(http_get(gateway.address, f"/run/one?ticket={one}")[2], b"page of one")
+            for path in (f"/run/two?ticket={one}", f"/runs?ticket={one}", f"/run/one?ticket={ticket}"):
+                self.assertEqual(http_get(gateway.address, path)[0], 403, path)  # a page reads its own address
             self.assertEqual(http_get(gateway.address, f"/metrics?ticket={ticket}")[0], 200)
             watcher.close()
-            wait_until(
-                lambda: http_get(gateway.address, f"/run/one?ticket={ticket}")[0] == 403, "the end of the ticket"
-            )
+            wait_until(lambda: http_get(gateway.address, f"/run/one?ticket={one}")[0] == 403, "the end of the ticket")
 
     def test_a_message_that_is_too_long_ends_the_connection(self):
         gateway = Gateway(self, self.api)

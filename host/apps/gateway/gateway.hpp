@@ -34,9 +34,9 @@ class Gateway {
   void tick();
 
   bool is_full() const;
-  // Whether who shows this may load recorded runs: a ticket of a client that is connected, or anybody where no tokens
-  // are asked for.
-  bool lets_in(std::string_view ticket) const;
+  // Whether who shows this may load the page of a run, or (no `run`) the list of runs and the metrics: by the ticket of a client that
+  // is connected, or what run_ticket() makes of it; anybody may where no tokens are asked for.
+  bool lets_in(std::string_view ticket, std::string_view run) const;
   // The newest state and the number of clients as Prometheus reads them.
   std::string metrics() const;
   // A client has connected; `something_to_send` is told when next() may have something.

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -28,14 +29,19 @@ constexpr std::array<Header, 6> kHeaders{
      {"cache-control:", "no-store"},
      {"connection:", "close"}}};
 
+// Two policies hold together: this one takes the origin from a page, and the connections to this gateway.
+constexpr Header kForeign{"content-security-policy:", "sandbox allow-scripts allow-downloads; connect-src data: blob:"};
+
+bool add_header(lws* connection, const Header& header, unsigned char** at, unsigned char* end) {
+  const auto* name = reinterpret_cast<const unsigned char*>(header.name);
+  const auto* value = reinterpret_cast<const unsigned char*>(header.value);
+  const int length = static_cast<int>(std::string_view(header.value).size());
+  return lws_add_http_header_by_name(connection, name, value, length, at, end) == 0;
+}
+
 bool add_headers(lws* connection, unsigned char** at, unsigned char* end) {
-  for (const Header& header : kHeaders) {
-    const auto* name = reinterpret_cast<const unsigned char*>(header.name);
-    const auto* value = reinterpret_cast<const unsigned char*>(header.value);
-    const int length = static_cast<int>(std::string_view(header.value).size());
-    if (lws_add_http_header_by_name(connection, name, value, length, at, end) != 0) return false;
-  }
-  return true;
+  return std::all_of(kHeaders.begin(), kHeaders.end(),
+                     [&](const Header& header) { return add_header(connection, header, at, end); });
 }
 
 constexpr std::string_view kNoPage =
@@ -59,12 +65,14 @@ int answer_http(lws* connection, unsigned int status, const char* content_type, 
   return kClose;
 }
 
-int answer_page(lws* connection, const std::string& file) {
+int answer_page(lws* connection, const std::string& file, PageSource source) {
   if (access(file.c_str(), R_OK) != 0) return answer_http(connection, HTTP_STATUS_OK, kHtml, kNoPage);
   std::array<unsigned char, LWS_PRE + kHeaderRoom> buffer{};
   unsigned char* at = buffer.data() + LWS_PRE;
   unsigned char* const start = at;
-  if (!add_headers(connection, &at, buffer.data() + buffer.size())) return kClose;
+  unsigned char* const end = buffer.data() + buffer.size();
+  if (!add_headers(connection, &at, end)) return kClose;
+  if (source == PageSource::kForeign && !add_header(connection, kForeign, &at, end)) return kClose;
   const int sent = lws_serve_http_file(connection, file.c_str(), kHtml, reinterpret_cast<const char*>(start),
                                        static_cast<int>(at - start));
   return sent == 0 ? 0 : kClose;  // 0: the rest follows

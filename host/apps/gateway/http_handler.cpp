@@ -91,16 +91,19 @@ int HttpHandler::serve(lws* wsi, const std::string& path) {
   strangers.asked(wsi);
   const char* what = "";
   if (const auto why = problem(wsi, &what)) return refuse(wsi, what, HTTP_STATUS_FORBIDDEN, *why);
-  if (path == "/") return answer_page(wsi, options_.page);
+  if (path == "/") return answer_page(wsi, options_.page, PageSource::kOwn);
   const bool about_runs = !options_.runs.empty() && (path == "/runs" || path.starts_with(kRun));
   const bool is_metrics = path == "/metrics";
-  if ((about_runs || is_metrics) && !gateway_.lets_in(query(wsi, "ticket=")))
-    return refuse(wsi, "no_token", HTTP_STATUS_FORBIDDEN, "'" + path + "': takes ?ticket= of the welcome");
+  const std::string ticket = query(wsi, "ticket="), run = about_runs && path != "/runs" ? path.substr(kRun.size()) : "";
+  if ((about_runs || is_metrics) && !gateway_.lets_in(ticket, run))
+    return refuse(wsi, "no_token", HTTP_STATUS_FORBIDDEN,
+                  "'" + path + "': takes ?ticket= of " + (run.empty() ? "the welcome" : "this run in /runs"));
   if (is_metrics) return answer_http(wsi, HTTP_STATUS_OK, kMetricsType, gateway_.metrics());
-  if (about_runs && path == "/runs") return answer_http(wsi, HTTP_STATUS_OK, kJson, run_list(options_.runs).dump());
+  if (about_runs && path == "/runs")
+    return answer_http(wsi, HTTP_STATUS_OK, kJson, run_list(options_.runs, ticket).dump());
   if (about_runs) strangers.leave(wsi);
-  const auto run = about_runs ? run_page(options_.runs, path.substr(kRun.size())) : std::nullopt;
-  if (run) return answer_page(wsi, *run);
+  const auto page = about_runs ? run_page(options_.runs, run) : std::nullopt;
+  if (page) return answer_page(wsi, *page, PageSource::kForeign);
   return refuse(wsi, "path", HTTP_STATUS_NOT_FOUND, "'" + path + "': nothing is there");
 }
 

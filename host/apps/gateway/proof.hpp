@@ -13,6 +13,10 @@ std::string fresh_nonce();
 // hexadecimal digits in lower case.
 std::string proof_of(std::string_view token, std::string_view nonce);
 
+// What a client with this ticket shows for the page of one run: the page, whoever wrote it, reads it in its own address
+// and can load nothing else by it.
+inline std::string run_ticket(std::string_view ticket, std::string_view run) { return proof_of(ticket, run); }
+
 // Whether two texts are the same, in a time that does not depend on where they differ.
 bool same_in_constant_time(std::string_view a, std::string_view b);
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/apps/gateway/proof.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::gateway {
@@ -24,7 +25,7 @@ bool is_run_name(const std::string& text) {
 
 }  // namespace
 
-Json run_list(const std::string& folder) {
+Json run_list(const std::string& folder, std::string_view ticket) {
   std::vector<std::pair<std::int64_t, std::string>> runs;
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
@@ -35,15 +36,17 @@ Json run_list(const std::string& folder) {
   }
   std::sort(runs.rbegin(), runs.rend());
   Json list = Json::array();
-  for (const auto& [changed_s, name] : runs)
+  for (const auto& [changed_s, name] : runs) {
     list.push_back({{"name", name}, {"changed_s", changed_s}, {"page", run_page(folder, name).has_value()}});
+    if (!ticket.empty()) list.back()["ticket"] = run_ticket(ticket, name);
+  }
   return list;
 }
 
 std::optional<std::string> run_page(const std::string& folder, const std::string& name) {
   const std::string file = folder + "/" + name + "/page.html";
   std::error_code none;
-  if (!is_run_name(name) || !fs::is_regular_file(file, none)) return std::nullopt;
+  if (!is_run_name(name) || !fs::is_regular_file(fs::symlink_status(file, none))) return std::nullopt;
   return file;
 }
 

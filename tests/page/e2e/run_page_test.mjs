@@ -1,13 +1,13 @@
 // The page of a run, opened from the disk: everything is in it.
 import assert from 'node:assert/strict';
-import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { copyFileSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { deflateRawSync, inflateRawSync } from 'node:zlib';
 import { openBrowser, openPage, picture, seriousFindings } from './browser.mjs';
-import { liana, root, start } from './system.mjs';
+import { liana, root, start, startConsole } from './system.mjs';
 
 const MAX_BYTES = 2000000; // most of it are the ticks that it replays
 
@@ -118,6 +118,41 @@ test('a crossing leaves one file that shows it from the disk, without any reques
   }
   assert.deepEqual(page.errors, []);
   await page.close();
+});
+
+test('the console serves the page of a run without an origin: it shows the run, and cannot take motion', async () => {
+  process.env.XDG_STATE_HOME = folder;
+  for (const name of ['own', 'foreign']) mkdirSync(join(folder, 'liana', 'runs', name), { recursive: true });
+  copyFileSync(join(folder, 'crossing', 'page.html'), join(folder, 'liana', 'runs', 'own', 'page.html'));
+  writeFileSync(join(folder, 'liana', 'runs', 'foreign', 'page.html'), `<!DOCTYPE html><pre></pre><script>
+    const tried = {};
+    const attempt = async (name, action) => { try { tried[name] = await action(); } catch (error) { tried[name] = error.name ?? 'refused'; } };
+    const socket = () => new Promise((done, refused) => {
+      const link = new WebSocket('ws://' + location.host + '/ws', 'liana-console-1');
+      link.onmessage = () => done('open');
+      link.onerror = () => refused(new Error());
+    });
+    Promise.all([attempt('socket', socket), attempt('runs', () => fetch('/runs').then(() => 'read')), attempt('storage', () => sessionStorage.length),
+      attempt('cookie', () => document.cookie), attempt('opener', () => String(window.opener)), attempt('popup', () => String(window.open('/')))])
+      .then(() => { document.querySelector('pre').textContent = JSON.stringify(tried); });
+  </script>`);
+  const system = await startConsole();
+  try {
+    const page = await openPage(chromium.browser, `${system.address}run/own`);
+    await page.waitForSelector('.page.run');
+    await page.waitForFunction(() => /step 4 of 6/.test(document.querySelector('.sentence').textContent));
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('button:has-text("CSV")')]);
+    assert.match(download.suggestedFilename(), /slit_crossing.*\.csv/);
+    assert.deepEqual(page.errors, []);
+    await page.close();
+    const foreign = await openPage(chromium.browser, `${system.address}run/foreign`);
+    await foreign.waitForFunction(() => document.querySelector('pre').textContent !== '');
+    const tried = JSON.parse(await text(foreign, 'pre'));
+    assert.deepEqual(tried, { socket: 'Error', runs: 'TypeError', storage: 'SecurityError', cookie: 'SecurityError', opener: 'null', popup: 'null' });
+    await foreign.close();
+  } finally {
+    await system.stop();
+  }
 });
 
 test('the page of a run that failed says what failed, where, why and what to do, and stands at that moment', async () => {
