@@ -193,7 +193,19 @@ local function check_mission_field(where, fields, key)
   end
 end
 
--- A checked mission { name, steps, finish, at, tables }; raises a message on the first fault. `at`: where it stands in the script.
+local checked = {} -- missions by what scripts have in their place
+
+local function copy_of(value)
+  if type(value) ~= "table" then return value end
+  local copy = {}
+  for key, each in pairs(value) do copy[key] = copy_of(each) end
+  return copy
+end
+
+local sealed = { __metatable = false, __newindex = function() error("a mission is read-only: write its fields where it is made", 2) end }
+
+-- Stands for a checked mission { name, steps, finish, at, tables }; raises a message on the first fault. `at`: where it stands in the
+-- script.
 function check.mission(name, fields, at)
   local called = "mission " .. tostring(name)
   local where = at .. called
@@ -201,7 +213,8 @@ function check.mission(name, fields, at)
     refuse(at .. "mission", "name", name, "letters, digits, _ and -", "choose another name")
   end
   if type(fields) ~= "table" then refuse(where, "steps", fields, "a table of steps", "write mission \"name\" { step ... }") end
-  local mission = { is_mission = true, name = name, at = at, steps = {}, finish = fields.finish or function() end }
+  fields = copy_of(fields) -- what a script changes later is not what was checked
+  local mission = { name = name, at = at, steps = {}, finish = fields.finish or function() end }
   for key in pairs(fields) do
     if math.type(key) ~= "integer" then check_mission_field(where, fields, key) end
   end
@@ -212,12 +225,14 @@ function check.mission(name, fields, at)
   end
   if #mission.steps == 0 then refuse(where, "steps", "none", "at least one step", "add a step") end
   settle(mission)
-  return mission
+  local handle = setmetatable({}, sealed)
+  checked[handle] = mission
+  return handle
 end
 
--- Refuses what a file returned when it is no mission.
-function check.require_mission(mission)
-  if type(mission) == "table" and mission.is_mission == true then return end
+-- The mission for which stands what a file returned; refuses anything else.
+function check.opened(mission)
+  if checked[mission] then return checked[mission] end
   refuse("mission", "file", type(mission), "return liana.mission \"name\" { ... }", "return the mission at the end of the file")
 end
 
@@ -276,13 +291,11 @@ end
 
 -- The tables that a mission says it runs with: robot, scene, bus, each where it says one.
 function check.tables(mission)
-  check.require_mission(mission)
   return { format = 1, kind = "mission_tables", robot = mission.tables.robot, scene = mission.tables.scene, bus = mission.tables.bus }
 end
 
 -- Plain data about a mission, for `liana-mission eval mission`.
 function check.describe(mission)
-  check.require_mission(mission)
   local steps = {}
   for i, step in ipairs(mission.steps) do
     local goal = step.goal or { fields = {} } -- as liana.preflight_robot has found it

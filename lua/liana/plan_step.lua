@@ -62,7 +62,6 @@ end
 
 -- The files that steps of a mission name: { { step = number, file = name, where = the step in messages }, ... }.
 function plan_step.files(mission)
-  check.require_mission(mission)
   local files = {}
   for i, step in ipairs(mission.steps) do
     if step.plan then files[#files + 1] = { step = i, file = step.plan, where = check.step_where(mission, i) } end
@@ -78,7 +77,7 @@ function plan_step.mission(plan)
   local _, count = waypoints_of(plan, "plan")
   local name = ("plan, %d waypoints"):format(count)
   local fields = { name = name, device = "none", time_limit_s = kTimeLimit_s, on_fail = "hold", plan = "this file" }
-  local mission = check.mission("plan", { fields }, "")
+  local mission = check.opened(check.mission("plan", { fields }, ""))
   fill(mission.steps[1], plan, "plan")
   mission.steps[1].plan = nil
   return mission

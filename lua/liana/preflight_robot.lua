@@ -122,7 +122,6 @@ end
 -- (pcall with a budget of its own) functions of steps are called once to find what they ask for, in a script that runs
 -- nothing afterwards. `asks` of a step is what is found, `goal` the goal among it.
 return function(mission, robot, refusal_of, attempt)
-  check.require_mission(mission)
   local called = "mission " .. mission.name
   for i, step in ipairs(mission.steps) do
     step_suits(check.step_where(mission, i), step, robot, refusal_of, attempt)

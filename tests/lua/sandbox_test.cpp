@@ -33,6 +33,7 @@ TEST(Sandbox, EveryAttackEndsWithOneClearMessage) {
                                        {"load", {"global 'load'"}},
                                        {"escape_require", {"modules", "folder"}},
                                        {"change_library", {"read-only"}},
+                                       {"change_module", {"change_module.lua:1", "read-only"}},
                                        {"change_text_methods", {"index", "boolean"}},
                                        {"deep_recursion", {"memory"}},
                                        {"self_containing", {"contains itself"}},
@@ -66,6 +67,28 @@ TEST(Sandbox, WhatAScriptPrintsIsBoundedAndCannotSteerATerminal) {
   EXPECT_LT(ended.error.size(), 257u << 10);
   EXPECT_NE(ended.error.find("print: over 256 KiB: the rest is left out\n"), std::string::npos);
   EXPECT_NE(ended.error.find("the end"), std::string::npos);
+}
+
+// A mission changes no check, and not what was checked: neither Liana's modules, nor their tables, nor the mission.
+TEST(Sandbox, NoScriptReplacesACheckOrChangesWhatWasChecked) {
+  const TemporaryFolder folder;
+  const std::string begin = "local liana = require \"liana\"\n", hold = "local hold = { [9] = 0 }\n",
+                    mission =
+                        "liana.mission \"given\" { liana.step \"one\" { device = \"none\", hold = hold, exit = "
+                        "liana.at_rest(), time_limit_s = 5, on_fail = \"hold\" } }\n";
+  const auto eval = [&](const std::string& text) {
+    return run_program("eval mission " + folder.write("given.lua", begin + hold + text));
+  };
+  for (const char* change :
+       {"liana.mission = function() return {} end", "require(\"liana.refuse\")(1)",
+        "require(\"liana.check\").opened = function(m) return m end",
+        "require(\"liana.step_fields\")[1][1] = \"other\"", "require(\"liana.retired_names\").actions.push = nil"})
+    EXPECT_EQ(eval(change + std::string("\nreturn ") + mission).code, 2) << change;
+  EXPECT_EQ(eval("return { is_mission = true, name = \"given\", steps = {} }").code, 2);
+  EXPECT_EQ(eval("local made = " + mission + "made.steps = {}\nreturn made").code, 2);
+  const Ended later = eval("local made = " + mission + "hold[99] = 1\nreturn made");
+  EXPECT_EQ(later.code, 0) << later.error;
+  EXPECT_NE(later.out.find("\"held_theta\":[9]"), std::string::npos) << later.out;
 }
 
 // Keys of a table in the order of pairs, and some random numbers: both must not depend on the process.

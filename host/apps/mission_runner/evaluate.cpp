@@ -65,15 +65,21 @@ std::optional<config::SerialRobotConfig> serial_arm(const Against& tables) {
   return arm;
 }
 
-// Replaces the mission on the stack by what liana.check says of it (`describe`, `tables`); refuses anything that is no
-// mission.
-Json told(Script& script, const char* function, const std::string& display) {
+// Replaces what is on the stack by what a function of liana.check makes of it.
+void replace_by(Script& script, const char* function) {
   script.require("liana.check");
   lua_getfield(script.state(), -1, function);
-  lua_pushvalue(script.state(), -3);
+  lua_replace(script.state(), -2);
+  lua_insert(script.state(), -2);
   script.call(1, 1);
+}
+
+// What liana.check says of the mission on the stack (`describe`, `tables`).
+Json told(Script& script, const char* function, const std::string& display) {
+  lua_pushvalue(script.state(), -1);
+  replace_by(script, function);
   Json description = to_json(script.state(), -1, display);
-  lua_pop(script.state(), 2);
+  lua_pop(script.state(), 1);
   return description;
 }
 
@@ -127,6 +133,7 @@ Loaded push_mission(Script& script, const ScriptFile& file) {
     return loaded;
   }
   script.run(file);
+  replace_by(script, "opened");  // refuses what is no mission
   push_plan_function(script, "files");
   lua_pushvalue(script.state(), -2);
   script.call(1, 1);

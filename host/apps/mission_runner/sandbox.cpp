@@ -3,6 +3,7 @@
 #include <array>
 #include <cstring>
 #include <exception>
+#include <string_view>
 
 #include "host/apps/mission_runner/script.hpp"
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr const char* kGlobals = "liana.globals";  // registry: what every environment falls back to
 constexpr const char* kModules = "liana.modules";  // registry: results of require
+constexpr const char* kViews = "liana.views";      // registry: what scripts get of Liana's own modules
 constexpr const char* kLoading = "liana.loading";  // value of a module that is being run
 
 // Functions scripts get from the base library, as they are.
@@ -53,12 +55,31 @@ int refuse_write(lua_State* state) {
   return luaL_error(state, "this table is read-only: keep your own data in local variables");
 }
 
+void make_read_only(lua_State* state);
+
+// view[key]: tables within are read-only, too. Upvalue 1: the table itself.
+int read_through(lua_State* state) {
+  lua_settop(state, 2);
+  lua_gettable(state, lua_upvalueindex(1));
+  if (lua_istable(state, -1)) make_read_only(state);
+  return 1;
+}
+
+int length_through(lua_State* state) {
+  lua_pushinteger(state, luaL_len(state, lua_upvalueindex(1)));
+  return 1;
+}
+
 // Replaces the table on top by a read-only view of it.
 void make_read_only(lua_State* state) {
   lua_newtable(state);
-  lua_createtable(state, 0, 3);
+  lua_createtable(state, 0, 4);
   lua_pushvalue(state, -3);
+  lua_pushcclosure(state, read_through, 1);
   lua_setfield(state, -2, "__index");
+  lua_pushvalue(state, -3);
+  lua_pushcclosure(state, length_through, 1);
+  lua_setfield(state, -2, "__len");
   lua_pushcfunction(state, refuse_write);
   lua_setfield(state, -2, "__newindex");
   lua_pushboolean(state, 0);
@@ -134,13 +155,19 @@ void open_libraries(lua_State* state) {
   }
 }
 
+// Whose code it is: Liana's modules read and change each other, a script's get read-only views of Liana's.
+enum class Author { kLiana, kScript };
+
 // Pushes the module's chunk; C++ objects are gone when a Lua error may be raised.
-bool push_module_chunk(lua_State* state, const char* name, std::array<char, 400>& problem) {
+bool push_module_chunk(lua_State* state, const char* name, Author& author, std::array<char, 400>& problem) {
   ScriptFile file;
   try {
     Script::Budget& budget = script_budget(state);
     file = find_module(budget.lua_folders, budget.beside, name);
     if (file.is_beside) budget.files.push_back(file);
+    const std::string_view called = name;
+    const bool is_own = !file.is_beside && (called == "liana" || called.starts_with("liana."));
+    author = is_own ? Author::kLiana : Author::kScript;
   } catch (const std::exception& error) {
     put_text(problem, error.what());
     return false;
@@ -152,8 +179,9 @@ bool push_module_chunk(lua_State* state, const char* name, std::array<char, 400>
 }
 
 // Gives the function on top an environment of its own that falls back to the globals.
-void give_environment(lua_State* state) {
+void give_environment(lua_State* state, Author author) {
   lua_newtable(state);
+  if (author == Author::kLiana) add_function(state, "require", require_module);
   lua_createtable(state, 0, 2);
   lua_getfield(state, LUA_REGISTRYINDEX, kGlobals);
   lua_setfield(state, -2, "__index");
@@ -188,10 +216,12 @@ int open_sandbox(lua_State* state) {
   add_function(state, "setmetatable", guarded_setmetatable);
   add_function(state, "tostring", plain_tostring);
   add_function(state, "print", print_to_stderr);
-  add_function(state, "require", require_module);
+  add_function(state, "require", require_for_script);
   lua_setfield(state, LUA_REGISTRYINDEX, kGlobals);
-  lua_newtable(state);
-  lua_setfield(state, LUA_REGISTRYINDEX, kModules);
+  for (const char* table : {kModules, kViews}) {
+    lua_newtable(state);
+    lua_setfield(state, LUA_REGISTRYINDEX, table);
+  }
   return 0;
 }
 
@@ -199,7 +229,7 @@ void load_chunk(lua_State* state, const ScriptFile& file) {
   std::array<char, 200> chunk_name{};
   put_text(chunk_name, "@" + file.display);
   if (luaL_loadbufferx(state, file.text.data(), file.text.size(), chunk_name.data(), "t") != LUA_OK) lua_error(state);
-  give_environment(state);
+  give_environment(state, Author::kScript);
 }
 
 int require_module(lua_State* state) {
@@ -214,11 +244,12 @@ int require_module(lua_State* state) {
   lua_pushlightuserdata(state, const_cast<char*>(kLoading));
   lua_setfield(state, -2, name);
   std::array<char, 400> problem{};
-  if (!push_module_chunk(state, name, problem)) {
+  Author author = Author::kScript;
+  if (!push_module_chunk(state, name, author, problem)) {
     forget_module(state, modules, name);
     return luaL_error(state, "%s", problem.data());
   }
-  give_environment(state);
+  give_environment(state, author);
   if (lua_pcall(state, 0, 1, 0) != LUA_OK) {
     forget_module(state, modules, name);
     return lua_error(state);
@@ -230,6 +261,20 @@ int require_module(lua_State* state) {
   }
   lua_pushvalue(state, -1);
   lua_setfield(state, modules, name);
+  if (author == Author::kScript || !lua_istable(state, -1)) return 1;
+  lua_getfield(state, LUA_REGISTRYINDEX, kViews);
+  lua_pushvalue(state, -2);
+  make_read_only(state);
+  lua_setfield(state, -2, name);
+  lua_pop(state, 1);
+  return 1;
+}
+
+int require_for_script(lua_State* state) {
+  const char* name = luaL_checkstring(state, 1);
+  require_module(state);
+  lua_getfield(state, LUA_REGISTRYINDEX, kViews);
+  if (lua_getfield(state, -1, name) == LUA_TNIL) lua_pop(state, 2);
   return 1;
 }
 

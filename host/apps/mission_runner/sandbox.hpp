@@ -10,8 +10,11 @@ namespace liana::mission_runner {
 // Builds the sandbox in a new state (a lua_CFunction).
 int open_sandbox(lua_State* state);
 
-// `require` of scripts (a lua_CFunction): modules of the Lua folder, each run once.
+// `require` of Liana's own modules (a lua_CFunction): modules of the Lua folder, each run once.
 int require_module(lua_State* state);
+
+// `require` of scripts (a lua_CFunction): of Liana's own modules a read-only view, so that no script replaces a check.
+int require_for_script(lua_State* state);
 
 // Pushes the file as a function with an environment of its own; text only. Raises a Lua error for syntax errors.
 void load_chunk(lua_State* state, const ScriptFile& file);

@@ -1,0 +1,2 @@
+require("liana.check").mission = function() return {} end
+return {}
