@@ -50,6 +50,7 @@ PLANNED_SKIPS = {
     "AnotherUser.": "only root can connect as somebody else",
     "FullDisk.": "a small disk is mounted, which takes root and a kernel that lets it",
     "RingOfARun.OnAFullDisk": "a small disk is mounted, which takes root and a kernel that lets it",
+    "cli.container_page": "one of its tests needs docker's or podman's program",
     "system.runs": "one of its tests is for kernels without CAN, one for those that have real time",
     BARE_ROOT: "makes a root of its own, which takes root and the network",
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -38,6 +39,9 @@ std::string range_text(double low, double high) {
 
 JsonFile::JsonFile(std::string path, const std::string& kind)
     : path_(std::move(path)), document_(std::make_unique<Document>()) {
+  std::error_code unknown;
+  if (std::filesystem::exists(path_, unknown) && !std::filesystem::is_regular_file(path_, unknown))
+    throw std::runtime_error(path_ + ": is no ordinary file; check the path");
   std::ifstream stream(path_);
   if (!stream) throw std::runtime_error(path_ + ": cannot be opened; check the path");
   const std::string content{std::istreambuf_iterator<char>(stream), {}};

@@ -11,6 +11,7 @@ function arm_state.new(commands, welcome)
     state = nil, -- the last state message, docs/reference/api.md
     begin_tick = 0, -- tick at which the current step began
     was_engaged = false, -- the operator has engaged the device in this step
+    goal = nil, -- of the last motion that the current step has asked for: { joints_deg } or { tip }
     must_hold = {}, -- what the current step holds: theta number -> degrees
   }
 

@@ -102,14 +102,40 @@ function conditions.tool_done()
   return condition("tool done", function(arm) return arm.state.tool ~= nil and arm.state.tool.phase == "done" end)
 end
 
+local kTipGoal_m = 0.001 -- of the tip from a goal in the base frame
+local kTipGoal_deg = 0.1 -- of its attitude
+local kTipValues = 7 -- x, y, z and a quaternion
+
+local function is_at_joints(arm, goal_deg)
+  for i, target_deg in ipairs(goal_deg) do
+    if math.abs(arm.state.setpoint_js_deg[i] - target_deg) > kPathEnd_deg then return false end
+  end
+  return true
+end
+
+local function is_at_tip(arm, goal)
+  local tip, along = arm.state.setpoint_cp, 0
+  for i = 4, kTipValues do along = along + tip[i] * goal[i] end
+  local angle_deg = math.deg(2 * math.acos(math.min(1, math.abs(along))))
+  return geometry.distance({ tip[1], tip[2], tip[3] }, { goal[1], goal[2], goal[3] }) <= kTipGoal_m and angle_deg <= kTipGoal_deg
+end
+
 -- The arm is at rest at the end of the curve that `follow_curve` or `follow_back` of this step goes along.
 function conditions.curve_followed()
   return condition("curve followed to its end", function(arm)
     if arm.path_end_deg == nil or arm.state.path ~= nil or not arm.state.at_rest or arm.state.is_busy then return false end
-    for i, target_deg in ipairs(arm.path_end_deg) do
-      if math.abs(arm.state.setpoint_js_deg[i] - target_deg) > kPathEnd_deg then return false end
-    end
-    return true
+    return is_at_joints(arm, arm.path_end_deg)
+  end)
+end
+
+-- The arm is at rest at the goal of the last motion that this step has asked for (move_to, move_jp, move_cp, a path); not met while a
+-- refusal keeps it from there, and without such a motion.
+function conditions.goal_reached()
+  return condition("goal reached", function(arm)
+    local goal = arm.goal
+    if goal == nil or arm.state.path ~= nil or not arm.state.at_rest or arm.state.is_busy then return false end
+    if goal.joints_deg then return is_at_joints(arm, goal.joints_deg) end
+    return is_at_tip(arm, goal.tip)
   end)
 end
 

@@ -25,12 +25,20 @@ local Runner = {}
 Runner.__index = Runner
 for name, method in pairs(operator_control.methods) do Runner[name] = method end
 
--- The bindings, remembering in `pending` what lianad has not answered yet.
-local function tracked(commands, pending)
+-- Where a motion is to end: { joints_deg } or { tip }; nothing for other commands.
+local function goal_of(name, fields)
+  if name == "move_jp" then return { joints_deg = fields.goal_deg } end
+  if name == "move_cp" then return { tip = fields.goal } end
+  if name == "move_path" then return { joints_deg = fields.points_deg[#fields.points_deg] } end
+end
+
+-- The bindings, remembering in `pending` what lianad has not answered yet, and by `note` where a motion is to end.
+local function tracked(commands, pending, note)
   local out = {}
   for name, command in pairs(commands) do
     out[name] = function(fields)
       local id = command(fields or {})
+      note(goal_of(name, fields))
       pending[id] = name
       return id
     end
@@ -39,13 +47,14 @@ local function tracked(commands, pending)
 end
 
 -- A runner for a checked mission. `native` has commands (the bindings), progress(event), report(table), plan_curve(request) and
--- attempt(function, ...), which is pcall with a budget of its own; `name` is ours at lianad.
-function engine.new(mission, welcome, native, name)
+-- attempt(function, ...), which is pcall with a budget of its own; `name` is ours at lianad. In a rehearsal nobody is there.
+function engine.new(mission, welcome, native, name, is_rehearsal)
   local pending = {} -- request id -> command
-  local arm = arm_state.new(tracked(native.commands, pending), welcome)
+  local arm
+  arm = arm_state.new(tracked(native.commands, pending, function(goal) arm.goal = goal or arm.goal end), welcome)
   arm.plan_curve = native.plan_curve
   return setmetatable({
-    mission = mission, native = native, name = name, arm = arm,
+    mission = mission, native = native, name = name, arm = arm, is_rehearsal = is_rehearsal,
     phase = "boot", index = 0, pending = pending, not_before = 0, first_retract_tick = nil, current_hold = {},
     index_to_begin = 1, single_step = false, taken = {}, -- of each way how often
     boot_reason = "state_command got no refusal",
@@ -120,6 +129,7 @@ function Runner:begin_step(index, goes_on)
   self.refused_before = state.refused_motions
   if step.on_fail == "retract" and not self.first_retract_tick then self.first_retract_tick = state.tick end
   self.arm.begin_tick, self.arm.was_engaged, self.arm.must_hold = state.tick, false, step.hold
+  self.arm.goal = nil
   self.has_entered, self.is_confirmed, self.waited_s, self.slowed_s = false, step.confirm == nil, 0, 0
   self:announce_step(nil, self:after())
   self.native.progress { event = "begin", index = index, count = #self.mission.steps, name = step.name, device = step.device, time_s = state.time_s }
@@ -181,7 +191,7 @@ local function enter(runner)
     if not is_met then return end
   end
   runner.has_entered = true
-  if not runner.is_confirmed then return runner:wait_for_people("confirm", "confirm: " .. step.confirm) end
+  if not runner.is_confirmed and not runner.is_rehearsal then return runner:wait_for_people("confirm", "confirm: " .. step.confirm) end
   runner:send_hold(step.hold)
   if step.device ~= "none" then runner:request("use_device", check.use_of(step)) end
   if runner:call("run", step.run) then runner:enter_phase("run") end
@@ -349,6 +359,7 @@ end
 
 -- The arm holds, and others may own motion meanwhile: to clear, to enable, to lead the arm back.
 function Runner:get_stuck()
+  if self.is_rehearsal then return self:over(self.failed_outcome, self.failed_reason .. "; the mission would wait for people here") end
   self:wait_for_people("stuck", "failed: " .. self.failed_reason)
   if self.owned then self:request("release") end
   self.owned, self.current_hold = false, {}

@@ -137,7 +137,7 @@ TEST(Eval, RefusesWhatIsNoShapeFile) {
   };
   const std::vector<Bad> cases = {
       {"stl = 'none.stl'", {"given.lua", "none.stl"}},
-      {"stl = 'text.stl'", {"given.lua", "text.stl", "200000"}},
+      {"stl = 'text.stl'", {"given.lua", "text.stl", "no STL"}},
       {"stl = 'short.stl'", {"given.lua", "short.stl", "numbers"}},
       {"stl = '../wedge.stl'", {"given.lua", "convex[1].stl"}},
       {"stl = 'wedge.stl', unit_m = 0", {"given.lua", "convex[1].unit_m", "0"}},

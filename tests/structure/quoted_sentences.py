@@ -53,7 +53,7 @@ LUA_TOKEN = re.compile(
     r"|(?P<name>[A-Za-z_]\w*)|(?P<mark>\.\.|\S)",
     re.S,
 )
-CODE = re.compile(r"[{}]|\\[nt]|\n|\b(?:local|return|require|function|import|SELECT)\b|\w = '|;$")
+CODE = re.compile(r"[{}]|\\[nt]|\n|\b(?:local|return|require|function|import|SELECT|CREATE|INSERT|INTEGER)\b|\w = '|;$")
 RUN = re.compile(r"[A-Za-z', ]+")  # numbers, formats and other marks end a row of words
 
 

@@ -132,6 +132,30 @@ class DryRuns(Checks):
         self.assertIn(3003, [fault["number"] for fault in told["faults"]])
 
 
+class WithoutPeople(Checks):
+    """A dry run waits for nobody: in virtual time an hour of that is cheap, and no mission's own."""
+
+    def mission(self, step):
+        file = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())) / "asks.lua"
+        file.write_text(
+            'local liana = require "liana"\n'
+            'return liana.mission "asks" { liana.step "one" { device = "none", run = liana.move_to "prepare", '
+            f"exit = {step} }} }}\n"
+        )
+        return file
+
+    def test_a_step_that_people_confirm_is_carried_out_at_once(self):
+        told = self.check(self.mission('liana.at_rest(), confirm = "go?", time_limit_s = 60, on_fail = "hold"'))
+        self.assertEqual(told["outcome"], "success")
+        self.assertLess(told["arm_time_s"], 120)
+
+    def test_a_failure_that_people_would_be_asked_about_ends_it(self):
+        never = 'liana.condition("never", function() return false end), time_limit_s = 2, on_fail = "pause"'
+        told = self.check(self.mission(never), code=1)
+        self.assertEqual(told["outcome"], "failed")
+        self.assertLess(told["arm_time_s"], 120)
+
+
 class BesideAnArm(Checks):
     def test_nobody_who_asks_for_running_systems_finds_it(self):
         arm = start_run(self, MISSIONS / "short.lua", "--time", "paced")

@@ -358,7 +358,9 @@ class WhoIsLetIn(GatewayAloneTest):
             for line in http_get(gateway.address, "/run/foreign")[1].lower().splitlines()
             if line.startswith("content-security-policy:")
         ]
-        sandbox = next(policy.partition("sandbox")[2].partition(";")[0].split() for policy in policies if "sandbox" in policy)
+        sandbox = next(
+            policy.partition("sandbox")[2].partition(";")[0].split() for policy in policies if "sandbox" in policy
+        )
         self.assertEqual(sandbox, ["allow-scripts", "allow-downloads"])  # above all no allow-same-origin
         self.assertTrue(any("connect-src data: blob:" in policy for policy in policies))  # without 'self'
         self.assertNotIn("sandbox", http_get(gateway.address)[1])

@@ -13,6 +13,7 @@
 #include <set>
 #include <stdexcept>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "host/base/net/socket.hpp"
@@ -210,15 +211,35 @@ std::vector<std::string> running_systems() {
   const std::string folder = registry_folder();
   if (!fs::exists(folder)) return {};
   require_own(folder);
-  std::vector<std::string> sockets;
+  struct System {
+    bool has_no_process;
+    std::string socket;
+    fs::path link;
+  };
+  std::vector<System> systems;
+  std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    std::error_code error;
-    const std::string socket = fs::read_symlink(entry.path(), error).string();
+    const std::string socket = fs::read_symlink(entry.path(), error).string(), process = entry.path().filename();
     if (error) continue;
-    if (!is_dead(socket, entry.path().filename())) {
-      sockets.push_back(socket);
-    } else {
+    if (is_dead(socket, process)) {
       fs::remove(entry.path(), error);
+    } else {
+      systems.push_back({words_of_lianad(process).empty(), socket, entry.path()});
+    }
+  }
+  // Those whose process is there first: another link to the same socket is of a lianad that was killed.
+  std::sort(systems.begin(), systems.end(), [](const System& a, const System& b) {
+    return std::tie(a.has_no_process, a.socket) < std::tie(b.has_no_process, b.socket);
+  });
+  std::vector<std::string> sockets;
+  std::set<std::pair<::dev_t, ::ino_t>> files;
+  for (const System& system : systems) {
+    struct stat status {};
+    const bool is_there = ::stat(system.socket.c_str(), &status) == 0;
+    if (!is_there || files.emplace(status.st_dev, status.st_ino).second) {
+      sockets.push_back(system.socket);
+    } else if (system.has_no_process) {
+      fs::remove(system.link, error);
     }
   }
   std::sort(sockets.begin(), sockets.end());

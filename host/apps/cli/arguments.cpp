@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 
 #include "firmware_like/cable/arm/setpoint.hpp"
 #include "firmware_like/math/trig.hpp"
 #include "host/apps/launcher/errors.hpp"
 #include "host/base/options/nearest.hpp"
+#include "host/model/config/config.hpp"
+#include "host/model/config/serial_robot.hpp"
+#include "host/model/config/theta_numbers.hpp"
 
 namespace liana::cli {
 namespace {
@@ -57,18 +61,31 @@ double theta_limit_rad(const cable::RobotParams& robot, std::size_t theta) {
   return robot.segment[theta / 2].theta_limit_rad;
 }
 
+// An angle that was measured at a limit lies a hair beyond it now and then: it is taken as the limit, and that is said.
+// Less than what degrees lose on their way through radians and back is not.
+double within_deg(std::string_view option, std::string_view text, const char* joint, std::size_t index, double low_deg,
+                  double high_deg) {
+  constexpr double kHair_deg = 1e-6 / kDegree;
+  const double angle_deg = parse_number(option, text), taken_deg = std::clamp(angle_deg, low_deg, high_deg);
+  const double beyond_deg = std::fabs(angle_deg - taken_deg);
+  const std::string which = std::string(joint) + " " + std::to_string(index + 1);
+  const auto shown = [](double value_deg) { return short_number(std::round(value_deg * 1e9) / 1e9); };
+  if (beyond_deg > kHair_deg)
+    refuse(option, text, which + " from " + shown(low_deg) + " to " + shown(high_deg) + " deg");
+  if (beyond_deg > 1e-12 * std::max(std::fabs(low_deg), std::fabs(high_deg)))
+    std::fprintf(stderr, "note: %.*s: %s: %.*s deg is taken as the limit, %s deg\n", static_cast<int>(option.size()),
+                 option.data(), which.c_str(), static_cast<int>(text.size()), text.data(), shown(taken_deg).c_str());
+  return taken_deg;
+}
+
 double checked_angle_deg(std::string_view option, std::string_view text, const cable::RobotParams& robot,
                          std::size_t theta) {
-  const double angle_deg = parse_number(option, text);
   const double limit_deg = theta_limit_rad(robot, theta) / kDegree;
-  // The limit itself is allowed; its degrees went through radians and back.
-  if (std::fabs(angle_deg) > limit_deg * (1.0 + 1e-12)) {
-    refuse(
-        option, text,
-        "theta " + std::to_string(theta + 1) + " within +-" + short_number(std::round(limit_deg * 1e9) / 1e9) + " deg");
-  }
-  return angle_deg;
+  return within_deg(option, text, "theta", theta, -limit_deg, limit_deg);
 }
+
+// A name, rather than angles that lack something.
+bool is_word(std::string_view text) { return text.find(',') == text.npos && !finite_number(text); }
 
 }  // namespace
 
@@ -128,20 +145,35 @@ cable::ThetaVector parse_theta_deg(std::string_view option, std::string_view tex
 }
 
 serial::JointVector parse_joint_deg(std::string_view option, std::string_view text, const serial::RobotParams& robot) {
-  const std::vector<double> angles_deg = parse_numbers(option, text, robot.joints());
+  const auto parts = split(text, ',');
+  parse_numbers(option, text, robot.joints());
   serial::JointVector joint_rad{};
   for (std::size_t i = 0; i < robot.joints(); ++i) {
     const serial::JointParams& joint = robot.joint[i];
-    const double low_deg = std::round(joint.low_rad / kDegree * 1e9) / 1e9;
-    const double high_deg = std::round(joint.high_rad / kDegree * 1e9) / 1e9;
-    if (angles_deg[i] < low_deg || angles_deg[i] > high_deg) {
-      refuse(option, text,
-             "joint " + std::to_string(i + 1) + " from " + short_number(low_deg) + " to " + short_number(high_deg) +
-                 " deg");
-    }
-    // The ends are allowed; their degrees went through radians and back.
-    joint_rad[i] = std::clamp(angles_deg[i] * kDegree, joint.low_rad, joint.high_rad);
+    const double angle_deg =
+        within_deg(option, parts[i], "joint", i, joint.low_rad / kDegree, joint.high_rad / kDegree);
+    joint_rad[i] = std::clamp(angle_deg * kDegree, joint.low_rad, joint.high_rad);  // degrees went through radians
   }
+  return joint_rad;
+}
+
+cable::ThetaVector parse_pose_deg(std::string_view option, const std::string& text, const config::RobotConfig& robot) {
+  if (const auto named = robot.named_poses_deg.find(text); named != robot.named_poses_deg.end())
+    return config::theta_rad(named->second);
+  if (is_word(text))
+    refuse_pose(option, text, static_cast<std::size_t>(robot.table.theta_count()), robot.name, robot.named_poses_deg);
+  return parse_theta_deg(option, text, robot.table);
+}
+
+serial::JointVector parse_pose_deg(std::string_view option, const std::string& text,
+                                   const config::SerialRobotConfig& robot) {
+  const auto named = robot.named_poses_deg.find(text);
+  if (named == robot.named_poses_deg.end()) {
+    if (is_word(text)) refuse_pose(option, text, robot.table.joints(), robot.name, robot.named_poses_deg);
+    return parse_joint_deg(option, text, robot.table);
+  }
+  serial::JointVector joint_rad{};
+  for (std::size_t i = 0; i < named->second.size(); ++i) joint_rad[i] = named->second[i] * kDegree;
   return joint_rad;
 }
 

@@ -12,6 +12,11 @@
 #include "firmware_like/math/pose.hpp"
 #include "firmware_like/serial/robot_params.hpp"
 
+namespace liana::config {
+struct RobotConfig;
+struct SerialRobotConfig;
+}  // namespace liana::config
+
 namespace liana::cli {
 
 // One held variable: theta counted from 1, and its value where one was given [deg].
@@ -48,11 +53,17 @@ std::uint64_t parse_seed(std::string_view option, std::string_view text);
 // Comma-separated finite numbers, exactly `count` of them.
 std::vector<double> parse_numbers(std::string_view option, std::string_view text, std::size_t count);
 
-// Joint angles in degrees within the robot's limits, as radians; entries beyond the robot's are 0.
+// Joint angles in degrees within the robot's limits, as radians; entries beyond the robot's are 0. An angle up to 1e-6 rad
+// beyond its limit is taken as the limit, and a note on standard error says so; the same below.
 cable::ThetaVector parse_theta_deg(std::string_view option, std::string_view text, const cable::RobotParams& robot);
 
 // The angles of a serial arm's joints in degrees, from the base to the tip, within their ranges.
 serial::JointVector parse_joint_deg(std::string_view option, std::string_view text, const serial::RobotParams& robot);
+
+// The same, or the name of a pose of the robot.
+cable::ThetaVector parse_pose_deg(std::string_view option, const std::string& text, const config::RobotConfig& robot);
+serial::JointVector parse_pose_deg(std::string_view option, const std::string& text,
+                                   const config::SerialRobotConfig& robot);
 
 // Refuses a word that is no pose of the robot: `count` angles, or the name of one of `poses`, are allowed.
 [[noreturn]] void refuse_pose(std::string_view option, std::string_view text, std::size_t count,

@@ -8,6 +8,7 @@
 #include "host/apps/cli/run_choice.hpp"
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/report/command_json.hpp"
+#include "host/base/file/in_file.hpp"
 #include "host/base/json/json.hpp"
 #include "host/control/verification/refusal_table.hpp"
 
@@ -88,6 +89,7 @@ void print_margins(const std::vector<CommandRecord>& lives, bool json) {
 
 int command_log(const CommandsOptions& options) {
   const fs::path path = file_of(options.run);
+  file::require_ordinary(path.string());
   std::ifstream in(path);
   std::size_t unread = 0;
   std::vector<CommandRecord> lives = report::command_lives(in, unread);

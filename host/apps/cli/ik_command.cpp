@@ -67,9 +67,10 @@ void print_goal(const Json& answer) {
 int ik_command(const IkOptions& options) {
   if (const auto serial = launcher::serial_robot_for_kinematics(options.robot))
     return serial_ik_command(*serial, options);
-  const cable::RobotParams robot = launcher::robot_for_kinematics(options.robot).table;
+  const config::RobotConfig arm = launcher::robot_for_kinematics(options.robot);
+  const cable::RobotParams& robot = arm.table;
   inverse_kinematics::GoalIkProblem problem;
-  problem.from_rad = parse_theta_deg("--from-deg", options.from_deg, robot);
+  problem.from_rad = parse_pose_deg("--from-deg", options.from_deg, arm);
   problem.tip_in_base = parse_pose("--tip", options.tip);
   hold(options.hold, robot, problem);
   aim_nodes(options.control_points, robot, problem);

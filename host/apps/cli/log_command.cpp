@@ -14,6 +14,7 @@
 #include "host/apps/launcher/output.hpp"
 #include "host/apps/launcher/runs.hpp"
 #include "host/base/event/event_json.hpp"
+#include "host/base/file/in_file.hpp"
 #include "host/base/json/json.hpp"
 #include "host/storage/archive/check.hpp"
 #include "host/storage/archive/export.hpp"
@@ -28,6 +29,7 @@ namespace fs = std::filesystem;
 archive::Reader reader_of(const std::string& run) { return archive::Reader(archive_folder("log", run)); }
 
 std::string report_text(const std::string& folder, const char* member, const char* fallback) {
+  file::require_ordinary(folder + "/report.json");
   std::ifstream file(folder + "/report.json");
   const Json report = Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}});
   const Json& found = report.member_or_null(member);

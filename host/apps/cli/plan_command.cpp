@@ -48,13 +48,6 @@ std::vector<Vec3> read_curve(const std::string& path) {
   return launcher::checked([&] { return parse_curve(config::read_text_file(path), name); });
 }
 
-// Joint angles, or a word that names a pose.
-cable::ThetaVector angles_of(const char* option, const std::string& text, const config::RobotConfig& robot) {
-  const auto named = robot.named_poses_deg.find(text);
-  const bool is_named = named != robot.named_poses_deg.end();
-  return is_named ? config::theta_rad(named->second) : parse_theta_deg(option, text, robot.table);
-}
-
 void read_hold(const PlanOptions& options, planner::PlanRequest& request) {
   if (options.hold.empty()) return;
   for (const HoldArgument& held : parse_hold(options.hold, request.robot.table)) {
@@ -66,11 +59,10 @@ void read_hold(const PlanOptions& options, planner::PlanRequest& request) {
 
 // SEGMENT@SHARE,... : the segment's pitch is 0 from that share of the way on.
 void read_planar(const PlanOptions& options, planner::PlanRequest& request) {
-  std::string_view rest = options.planar;
-  while (!rest.empty()) {
-    const std::size_t comma = std::min(rest.find(','), rest.size());
-    const std::string_view part = rest.substr(0, comma);
-    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  const std::string& all = options.planar;
+  for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end + 1) {
+    end = std::min(all.find(',', begin), all.size());
+    const std::string_view part = std::string_view(all).substr(begin, end - begin);
     const std::size_t at = std::min(part.find('@'), part.size());
     const double segment = parse_number("--planar", part.substr(0, at));
     const double share = at < part.size() ? parse_number("--planar", part.substr(at + 1)) : 0.0;
@@ -127,7 +119,7 @@ void read_goal(const PlanOptions& options, planner::PlanRequest& request) {
   if (request.follow && !request.follow->points_m.empty()) return;
   if (options.to_deg.empty() == options.tip.empty())
     throw launcher::BadInput("--to-deg, --tip: allowed: exactly one of them");
-  if (!options.to_deg.empty()) request.to_rad = angles_of("--to-deg", options.to_deg, request.robot);
+  if (!options.to_deg.empty()) request.to_rad = parse_pose_deg("--to-deg", options.to_deg, request.robot);
   if (!options.tip.empty()) request.tip_in_base = parse_pose("--tip", options.tip);
   if (request.tip_in_base) request.tip_in_base->quaternion = normalize(request.tip_in_base->quaternion);
 }
@@ -162,7 +154,7 @@ planner::PlanRequest request_of(const PlanOptions& options) {
   planner::PlanRequest request;
   request.robot = launcher::robot_for_kinematics(options.robot);
   request.scene = launcher::scene_of(options.scene);
-  request.from_rad = angles_of("--from-deg", options.from_deg, request.robot);
+  request.from_rad = parse_pose_deg("--from-deg", options.from_deg, request.robot);
   read_goal(options, request);
   read_hold(options, request);
   read_planar(options, request);
@@ -247,7 +239,11 @@ void print_plan(const Json& answer) {
               answer["iterations"].get<int>(), answer["time_s"].get<double>());
   if (answer.contains("reason")) std::printf(": %s", answer["reason"].get<std::string>().c_str());
   std::printf("\n");
-  for (const Json& row : answer["waypoints_deg"]) {
+  const Json& rows = answer["waypoints_deg"];
+  for (std::size_t i = 0; !rows.empty() && i < rows[0].size(); ++i)
+    std::printf(" %9s", ("theta " + std::to_string(i + 1)).c_str());
+  std::printf("%s", rows.empty() ? "" : "  [deg]\n");
+  for (const Json& row : rows) {
     for (const Json& angle : row) std::printf(" %9.4f", angle.get<double>());
     std::printf("\n");
   }

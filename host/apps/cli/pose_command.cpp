@@ -62,7 +62,7 @@ int pose_command(const PoseOptions& options) {
   if (const auto serial = launcher::serial_robot_for_kinematics(options.robot))
     return serial_pose_command(*serial, options);
   const config::RobotConfig robot = launcher::robot_for_kinematics(options.robot);
-  const cable::ThetaVector theta_rad = parse_theta_deg("--theta-deg", options.theta_deg, robot.table);
+  const cable::ThetaVector theta_rad = parse_pose_deg("--theta-deg", options.theta_deg, robot);
   Json pose = pose_of(robot.table, theta_rad);
   if (!options.scene.empty()) {
     const config::SceneConfig scene = launcher::scene_of(options.scene);

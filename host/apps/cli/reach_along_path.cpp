@@ -105,8 +105,8 @@ void require_free(std::uint32_t held_mask, std::int32_t theta_count, const std::
 int reach_along_path(const ReachOptions& options, const config::RobotConfig& robot) {
   std::vector<cable::ThetaVector> waypoints_rad;
   if (options.path.empty()) {
-    waypoints_rad = {parse_theta_deg("--from-deg", options.from_deg, robot.table),
-                     parse_theta_deg("--to-deg", options.to_deg, robot.table)};
+    waypoints_rad = {parse_pose_deg("--from-deg", options.from_deg, robot),
+                     parse_pose_deg("--to-deg", options.to_deg, robot)};
   } else {
     waypoints_rad = read_waypoints(options.path, robot.table);
   }

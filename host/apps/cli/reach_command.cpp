@@ -57,7 +57,7 @@ workspace::RegionRequest request_without_node(const ReachOptions& options) {
 RegionQuestion question_of(const ReachOptions& options, const config::RobotConfig& robot) {
   RegionQuestion asked{workspace::arm_of(robot.table), {robot.name, robot.module_radius_m, {}}, {}};
   workspace::AngleVector& pose_rad = asked.drawn.angle_rad;
-  if (!options.from_deg.empty()) pose_rad = parse_theta_deg("--from-deg", options.from_deg, robot.table);
+  if (!options.from_deg.empty()) pose_rad = parse_pose_deg("--from-deg", options.from_deg, robot);
   const std::int32_t tip = robot.table.segment_count;
   const std::int32_t node = options.node.empty() ? tip : parse_node("--node", options.node, robot.table);
   asked.request = request_without_node(options);
@@ -87,7 +87,7 @@ RegionQuestion question_of(const ReachOptions& options, const config::SerialRobo
       workspace::arm_of(robot.table), {robot.name, robot.link_radius_m, {}}, request_without_node(options)};
   asked.drawn.angle_rad = options.from_deg.empty()
                               ? nearest_to_zero(asked.arm)
-                              : workspace::angles_of(parse_joint_deg("--from-deg", options.from_deg, robot.table));
+                              : workspace::angles_of(parse_pose_deg("--from-deg", options.from_deg, robot));
   asked.request.point.node = robot.table.joint_count;
   if (!options.node.empty())
     asked.request.point.node = static_cast<std::int32_t>(

@@ -55,7 +55,7 @@ void refuse_cable_option(const char* option, const std::string& value, const con
 
 int serial_pose_command(const config::SerialRobotConfig& robot, const PoseOptions& options) {
   refuse_cable_option("--scene", options.scene, robot);
-  const Json pose = pose_of(robot.table, parse_joint_deg("--theta-deg", options.theta_deg, robot.table));
+  const Json pose = pose_of(robot.table, parse_pose_deg("--theta-deg", options.theta_deg, robot));
   if (options.json) {
     std::puts(pose.dump().c_str());
   } else {
@@ -68,7 +68,7 @@ int serial_ik_command(const config::SerialRobotConfig& robot, const IkOptions& o
   refuse_cable_option("--hold", options.hold, robot);
   for (const std::string& point : options.control_points) refuse_cable_option("--control-point", point, robot);
   const inverse_kinematics::SerialGoal goal{parse_pose("--tip", options.tip),
-                                            parse_joint_deg("--from-deg", options.from_deg, robot.table)};
+                                            parse_pose_deg("--from-deg", options.from_deg, robot)};
   const inverse_kinematics::SerialGoalResult result = solve_goal(robot.table, goal);
   const Json answer = to_json(result, robot.table.joints());
   if (options.json) {

@@ -30,17 +30,9 @@ config::SerialRobotConfig sweepable(const std::string& name) {
 }
 
 serial::JointVector start_of(const config::SerialRobotConfig& robot, const std::string& given) {
-  if (!given.empty() && !robot.named_poses_deg.contains(given)) {
-    if (given.find(',') == given.npos)
-      refuse_pose("--from-deg", given, robot.table.joints(), robot.name, robot.named_poses_deg);
-    return parse_joint_deg("--from-deg", given, robot.table);
-  }
   std::string name = !given.empty() ? given : robot.start_pose;
   if (name.empty()) name = robot.named_poses_deg.contains("prepare") ? "prepare" : robot.named_poses_deg.begin()->first;
-  serial::JointVector start{};
-  const std::vector<double>& pose_deg = robot.named_poses_deg.at(name);
-  for (std::size_t i = 0; i < pose_deg.size(); ++i) start[i] = pose_deg[i] * kDegree;
-  return start;
+  return parse_pose_deg("--from-deg", name, robot);
 }
 
 Json configuration_json(const self_motion::Configuration& at) {

@@ -1,4 +1,5 @@
 #include "host/apps/gateway/access.hpp"
+#include "host/base/file/in_file.hpp"
 
 #include <sys/stat.h>
 
@@ -75,6 +76,7 @@ bool may_ask(Access access, std::string_view op) {
 
 Tokens read_tokens(const std::string& file) {
   require_private(file);
+  file::require_ordinary(file);
   std::ifstream in(file);
   if (!in) throw std::runtime_error("--token-file " + file + ": cannot be read; give a file that you may read");
   Tokens tokens;

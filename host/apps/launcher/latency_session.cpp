@@ -28,8 +28,7 @@ double now_s() { return std::chrono::duration<double>(Clock::now().time_since_ep
 
 void show_progress(double passed_s, double seconds) {
   if (isatty(STDERR_FILENO) == 0) return;
-  std::fprintf(stderr, passed_s < seconds ? "\r\x1b[Kmeasuring: %.0f of %.0f s" : "\r\x1b[K", passed_s, seconds);
-  std::fflush(stderr);
+  dprintf(STDERR_FILENO, passed_s < seconds ? "\r\x1b[Kmeasuring: %.0f of %.0f s" : "\r\x1b[K", passed_s, seconds);
 }
 
 }  // namespace

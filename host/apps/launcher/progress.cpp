@@ -42,14 +42,13 @@ void Progress::show_live(const Json& state) {
   next_live_s_ = state.value("time_s", 0.0) + kLivePeriod_s;
   const auto tip = state.find("measured_cp");
   if (tip == nullptr || tip->size() != 7) return;
-  std::fprintf(stderr, "\r\x1b[K%7.1f s  step %d, tip at %.3f %.3f %.3f m", state.value("time_s", 0.0), step_index_,
-               (*tip)[0].get<double>(), (*tip)[1].get<double>(), (*tip)[2].get<double>());
-  std::fflush(stderr);
+  dprintf(STDERR_FILENO, "\r\x1b[K%7.1f s  step %d, tip at %.3f %.3f %.3f m", state.value("time_s", 0.0), step_index_,
+          (*tip)[0].get<double>(), (*tip)[1].get<double>(), (*tip)[2].get<double>());
   live_ = true;
 }
 
 void Progress::clear_live() {
-  if (live_) std::fprintf(stderr, "\r\x1b[K");
+  if (live_) dprintf(STDERR_FILENO, "\r\x1b[K");
   live_ = false;
 }
 

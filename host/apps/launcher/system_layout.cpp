@@ -195,9 +195,11 @@ ProgramCall operator_call(const SystemLayout& plan, const RunOptions& options) {
 }
 
 ProgramCall mission_call(const SystemLayout& plan, const RunOptions& options) {
-  return {"liana-mission",
-          {sibling_program("liana-mission"), "run", "--api", plan.api_socket(), "--mission", options.mission,
-           "--report", plan.file("mission.json"), "--lockstep", "--progress"}};
+  ProgramCall call{"liana-mission",
+                   {sibling_program("liana-mission"), "run", "--api", plan.api_socket(), "--mission", options.mission,
+                    "--report", plan.file("mission.json"), "--lockstep", "--progress"}};
+  if (plan.is_dry_run) append(call.argv, {"--rehearsal"});
+  return call;
 }
 
 bool is_plan(const RunOptions& options) { return options.mission.ends_with(".json"); }

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "host/apps/mission_runner/printable.hpp"
 #include "host/apps/mission_runner/script.hpp"
 #include "host/base/json/json.hpp"
+#include "host/base/text/printable.hpp"
 
 namespace liana::mission_runner {
 namespace {
@@ -46,8 +46,8 @@ class Reader {
 
   [[noreturn]] void refuse(const std::string& path, const std::string& value, const std::string& allowed,
                            const std::string& advice) const {
-    throw std::runtime_error(file_ + ": " + (path.empty() ? "result" : printable(path)) + ": " + value + ": allowed " +
-                             allowed + ": " + advice);
+    throw std::runtime_error(file_ + ": " + (path.empty() ? "result" : text::printable(path, text::Lines::kOne)) +
+                             ": " + value + ": allowed " + allowed + ": " + advice);
   }
 
   Json number(int index, const std::string& path) const {

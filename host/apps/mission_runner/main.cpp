@@ -11,6 +11,7 @@
 #include "host/base/install_paths/places.hpp"
 #include "host/base/json/json.hpp"
 #include "host/base/options/command_line.hpp"
+#include "host/base/text/text_output.hpp"
 #include "host/model/config/field.hpp"
 
 using namespace liana::mission_runner;
@@ -128,6 +129,7 @@ int bindings_command() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  liana::text::print_only_text();
   liana::options::CommandLine line("Evaluates Liana's Lua tables and runs missions");
   MissionOptions options;
   std::string lua_dir;
@@ -148,6 +150,8 @@ int main(int argc, char** argv) {
   run.option("--lua-dir", lua_dir, kLuaDirAbout);
   run.option("--report", options.report_file, "file for the report (JSON)");
   run.flag("--lockstep", options.lockstep, "let virtual time wait for this mission");
+  run.flag("--rehearsal", options.rehearsal,
+           "nobody is there: steps are confirmed at once, and a mission that would wait for people ends");
   run.flag("--progress", options.progress, "print a line when a step begins and ends");
   run.flag("--json", options.json, "print progress and report as JSON lines");
   liana::options::Command list = line.command("bindings", "print the commands a mission can give, as JSON");

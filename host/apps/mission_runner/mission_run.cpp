@@ -19,8 +19,8 @@ int push_native_protected(lua_State* state) {
   return 1;
 }
 
-// Leaves engine.new(mission, welcome, native, name) on the stack; the mission is on top before.
-void start_engine(Script& script, MissionSession& session) {
+// Leaves engine.new(mission, welcome, native, name, is_rehearsal) on the stack; the mission is on top before.
+void start_engine(Script& script, MissionSession& session, bool is_rehearsal) {
   lua_State* state = script.state();
   script.require("liana.engine");
   lua_getfield(state, -1, "new");
@@ -30,7 +30,8 @@ void start_engine(Script& script, MissionSession& session) {
   lua_pushlightuserdata(state, static_cast<RequestSink*>(&session));
   script.call(1, 1);
   lua_pushstring(state, kClientName);
-  script.call(4, 1);
+  lua_pushboolean(state, is_rehearsal ? 1 : 0);
+  script.call(5, 1);
 }
 
 // runner:method(message); true when it returns true. The runner is on top.
@@ -82,7 +83,7 @@ int run_connected(const MissionOptions& options, Activity& activity, Script& scr
   const Json& welcome = session.welcome();
   check_against_robot(script, {welcome.at("robot"), welcome.member_or_null("buses")}, Looks::kAtValues);
   try {
-    start_engine(script, session);
+    start_engine(script, session, options.rehearsal);
     converse(script, session);
     if (options.lockstep) await_next_state(session);
   } catch (const std::exception& error) {

@@ -14,8 +14,9 @@ struct MissionOptions {
   LuaFolders lua_folders;
   std::string report_file;  // empty = none
   bool lockstep = false;
-  bool progress = false;  // one line per step begin and end
-  bool json = false;      // progress and the report as JSON lines on standard output
+  bool rehearsal = false;  // nobody is there: a step is confirmed at once, and what would wait for people ends
+  bool progress = false;   // one line per step begin and end
+  bool json = false;       // progress and the report as JSON lines on standard output
 };
 
 // Exit codes of the mission runner.

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "host/base/file/in_file.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::mission_runner {
@@ -14,6 +15,7 @@ namespace fs = std::filesystem;
 constexpr const char* kVrHeader = "liana-hand 1 vr";
 
 bool is_of_vr_handles(const std::string& file) {
+  file::require_ordinary(file);
   std::ifstream stream(file);
   std::string first;
   return std::getline(stream, first) && first.starts_with(kVrHeader);

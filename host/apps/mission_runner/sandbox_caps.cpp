@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <cstring>
 
-#include "host/apps/mission_runner/printable.hpp"
 #include "host/apps/mission_runner/sandbox.hpp"
 #include "host/apps/mission_runner/script.hpp"
+#include "host/base/text/printable.hpp"
 
 namespace liana::mission_runner {
 namespace {
@@ -158,7 +158,7 @@ int print_to_stderr(lua_State* state) {
   std::size_t bytes = 0;
   const char* text = lua_tolstring(state, -1, &bytes);
   if (text != nullptr && may_print(script_budget(state), bytes + 1))
-    std::fprintf(stderr, "%s\n", printable({text, bytes}).c_str());
+    std::fprintf(stderr, "%s\n", text::printable({text, bytes}, text::Lines::kMany).c_str());
   return 0;
 }
 

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "host/apps/mission_runner/printable.hpp"
 #include "host/apps/mission_runner/sandbox.hpp"
+#include "host/base/text/printable.hpp"
 
 namespace liana::mission_runner {
 namespace {
@@ -127,7 +127,7 @@ void Script::call(int arguments, int results) {
   budget_.instructions_used = 0;
   const int status = lua_pcall(state_, arguments, results, 0);
   if (status == LUA_OK) return;
-  const std::string text = printable(error_text(state_, status, budget_.limits));
+  const std::string text = text::printable(error_text(state_, status, budget_.limits), text::Lines::kMany);
   lua_pop(state_, 1);
   throw std::runtime_error(text);
 }

@@ -1,7 +1,9 @@
 #include "host/apps/report/doctor.hpp"
 
 #include <net/if.h>
-#include <sys/resource.h>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/utsname.h>
 #include <time.h>
@@ -18,8 +20,8 @@
 namespace liana::report {
 namespace {
 
-constexpr rlim_t kWantedPriority = 80;
-constexpr rlim_t kWantedLocked_bytes = 256ul << 20;
+constexpr int kWantedPriority = 80;
+constexpr std::size_t kWantedLocked_bytes = 256ul << 20;
 
 Finding finding(std::string name, bool good, std::string found, std::string meaning, const std::string& action) {
   return {std::move(name), good, std::move(found), std::move(meaning), good ? "" : action};
@@ -32,27 +34,46 @@ std::string first_line(const std::string& path) {
   return line;
 }
 
-std::string limit_text(rlim_t limit) { return limit == RLIM_INFINITY ? "unlimited" : std::to_string(limit); }
+// Of a thread that ends at once; 0: it is given, otherwise errno.
+int try_priority(int priority) {
+  int error = 0;
+  std::thread([&] {
+    sched_param parameters{};
+    parameters.sched_priority = priority;
+    error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
+  }).join();
+  return error;
+}
+
+// Of memory that is mapped for it and that nobody touches; 0: it is locked, otherwise errno.
+int try_lock(std::size_t bytes) {
+  void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (memory == MAP_FAILED) return errno;
+  const int error = mlock2(memory, bytes, MLOCK_ONFAULT) == 0 ? 0 : errno;
+  munmap(memory, bytes);
+  return error;
+}
 
 Finding realtime_priority() {
-  rlimit limit{};
-  getrlimit(RLIMIT_RTPRIO, &limit);
-  const bool good = geteuid() == 0 || limit.rlim_cur >= kWantedPriority;
-  return finding("real-time priority", good,
-                 geteuid() == 0 ? "root, any priority" : "RLIMIT_RTPRIO " + limit_text(limit.rlim_cur),
-                 "--time real runs the control thread with SCHED_FIFO 80; fast and paced need nothing",
-                 "add '@realtime - rtprio 95' to /etc/security/limits.d/liana.conf, join that group, log in again");
+  const int error = try_priority(kWantedPriority);
+  return finding(
+      "real-time priority", error == 0,
+      "SCHED_FIFO " + std::to_string(kWantedPriority) + (error == 0 ? " was given" : ": ") +
+          (error == 0 ? "" : std::strerror(error)),
+      "--time real runs the control thread with SCHED_FIFO 80; fast and paced need nothing",
+      "add '@realtime - rtprio 95' to /etc/security/limits.d/liana.conf, join that group, log in again; in a "
+      "container see docs/how-to/run-in-a-container.md");
 }
 
 Finding memory_lock() {
-  rlimit limit{};
-  getrlimit(RLIMIT_MEMLOCK, &limit);
-  const bool good = geteuid() == 0 || limit.rlim_cur >= kWantedLocked_bytes;
+  const int error = try_lock(kWantedLocked_bytes);
   return finding(
-      "memory locking", good,
-      geteuid() == 0 ? "root, unlimited" : "RLIMIT_MEMLOCK " + limit_text(limit.rlim_cur) + " bytes",
+      "memory locking", error == 0,
+      std::to_string(kWantedLocked_bytes >> 20) + " MiB" + (error == 0 ? " were locked" : ": ") +
+          (error == 0 ? "" : std::strerror(error)),
       "--time real locks lianad's memory, so that a page fault never delays a tick",
-      "add '@realtime - memlock unlimited' to /etc/security/limits.d/liana.conf, join that group, log in again");
+      "add '@realtime - memlock unlimited' to /etc/security/limits.d/liana.conf, join that group, log in again; in a "
+      "container see docs/how-to/run-in-a-container.md");
 }
 
 Finding kernel() {

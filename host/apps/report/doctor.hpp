@@ -1,4 +1,4 @@
-// What a host must offer to Liana, looked up one by one.
+// What a host must offer to Liana, tried one by one.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct Finding {
   std::string action;  // what to do; empty when good
 };
 
-// What --time real asks of the machine: privileges, kernel, clock, processors. Changes nothing.
+// What --time real asks of the machine: privileges, kernel, clock, processors. Privileges are tried, and given back.
 std::vector<Finding> examine_realtime();
 
 // Looks at real-time privileges, kernel, memory locking, clock, processors, CAN and the test tools. Changes nothing.

@@ -12,12 +12,14 @@
 #include "host/apps/report/truth.hpp"
 #include "host/apps/report/truth_figures.hpp"
 #include "host/base/event/fault_groups.hpp"
+#include "host/base/file/in_file.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::report {
 namespace {
 
 Json read_json(const std::string& path) {
+  file::require_ordinary(path);
   std::ifstream file(path);
   if (!file) return Json::object();
   Json parsed = Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}});

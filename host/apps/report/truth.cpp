@@ -9,6 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "host/base/file/in_file.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::report {
@@ -16,6 +17,7 @@ namespace liana::report {
 static_assert(std::endian::native == std::endian::little, "truth.bin is little-endian and read as it is");
 
 TruthLog TruthLog::load(const std::string& path) {
+  file::require_ordinary(path);
   std::ifstream file(path, std::ios::binary);
   std::string header;
   if (!std::getline(file, header))

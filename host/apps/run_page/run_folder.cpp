@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "host/base/event/event_json.hpp"
+#include "host/base/file/in_file.hpp"
 #include "host/base/file/out_file.hpp"
 #include "host/base/install_paths/places.hpp"
 #include "host/storage/archive/reader.hpp"
@@ -16,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string text_of(const std::string& file) {
+  file::require_ordinary(file);
   std::ifstream in(file, std::ios::binary);
   if (!in) throw std::runtime_error("'" + file + "': cannot be read");
   return {std::istreambuf_iterator<char>(in), {}};
@@ -52,6 +54,7 @@ RunData run_in(const std::string& folder) {
   const std::string report = folder + "/report.json", truth = folder + "/truth.bin";
   if (fs::exists(report)) run.report = Json::parse_or_null(text_of(report));
   run.title = title_of(run.report, reader.life());
+  file::require_ordinary(folder + "/commands.txt");
   std::ifstream commands(folder + "/commands.txt");
   std::size_t unread = 0;
   run.commands = report::command_lives(commands, unread);

@@ -1,4 +1,5 @@
 #include "host/base/event/dispatch.hpp"
+#include "host/base/text/printable.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -6,8 +7,6 @@
 #include <cstdio>
 #include <limits>
 #include <vector>
-
-#include "host/base/event/one_line.hpp"
 
 namespace liana::event {
 namespace {
@@ -73,8 +72,8 @@ std::string dispatch_line(const Dispatch& d) {
   const std::string command = d.command == 0 ? "" : std::to_string(d.command);
   const std::string number = d.number == 0 ? "" : std::to_string(d.number);
   return std::to_string(d.tick) + "\t" + stage_name(d.stage) + "\t" + command + "\t" + number + "\t" +
-         on_one_line(d.subject) + "\t" + (d.share == 0.0 ? "" : figure(d.share)) + "\t" +
-         (d.margins ? margins_text(*d.margins) : "") + "\t" + on_one_line(d.text);
+         text::printable(d.subject, text::Lines::kOne, ' ') + "\t" + (d.share == 0.0 ? "" : figure(d.share)) + "\t" +
+         (d.margins ? margins_text(*d.margins) : "") + "\t" + text::printable(d.text, text::Lines::kOne, ' ');
 }
 
 std::optional<Dispatch> dispatch_from_line(std::string_view line) {

@@ -1,11 +1,10 @@
 #include "host/base/event/event.hpp"
+#include "host/base/text/printable.hpp"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdio>
-
-#include "host/base/event/one_line.hpp"
 
 namespace liana::event {
 namespace {
@@ -54,7 +53,8 @@ std::string event_line(const Event& event, double period_s) {
                 static_cast<unsigned long long>(event.sequence), static_cast<double>(event.tick) * period_s,
                 static_cast<unsigned long long>(event.tick), event_kind_name(event.kind),
                 static_cast<long long>(event.number));
-  return head.data() + on_one_line(event.subject) + "\t" + on_one_line(event.text) + "\t" + values_text(event.values);
+  return head.data() + text::printable(event.subject, text::Lines::kOne, ' ') + "\t" +
+         text::printable(event.text, text::Lines::kOne, ' ') + "\t" + values_text(event.values);
 }
 
 }  // namespace liana::event

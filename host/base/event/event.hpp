@@ -55,9 +55,9 @@ enum class HostTroubleEvent : std::uint8_t {
   kTicksLost = 6,      // `count` control deadlines were lost
   kEventFile = 7,      // the file of events takes no more
   kEventFileGood = 8,  // it takes events again; `count` are missing in it
-  kWayFile = 9,        // the file that keeps the way back takes no more
-  kEnablingWaits = 11,  // a drive or a cable keeps the arm from being enabled
+  kWayFile = 9,        // the file that keeps the way back takes no more, or what it holds is not used
   kArchive = 10,       // the flight recorder loses something; `count` of it, 0: it makes room on a full disk
+  kEnablingWaits = 11,  // a drive or a cable keeps the arm from being enabled
 };
 enum class DeviceEvent : std::uint8_t {
   kFastAgain = 0,  // as many samples a second again as there have to be

@@ -1,12 +1,15 @@
 // The one file of the host that includes nlohmann/json.hpp: its parser, its way of writing a double and its escapes.
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "host/base/json/json.hpp"
 #include "host/base/json/number_error.hpp"
 #include "host/base/json/plain_reader.hpp"
+#include "host/base/text/printable.hpp"
 
 namespace liana {
 namespace {
@@ -186,10 +189,25 @@ class Writer {
   void write_escaped(const std::string& text) {
     const bool replace = bad_ == Json::BadUtf8::kReplace;
     try {
-      out_ += Library(text).dump(-1, ' ', false,
-                                 replace ? Library::error_handler_t::replace : Library::error_handler_t::strict);
+      add_visible(Library(text).dump(-1, ' ', false,
+                                     replace ? Library::error_handler_t::replace : Library::error_handler_t::strict));
     } catch (const Library::exception& error) {
       throw JsonError(plain(error.what()));
+    }
+  }
+
+  // Controls beyond those of ASCII as \u: whoever shows the text on a terminal shows nothing that it acts on.
+  void add_visible(std::string_view dumped) {
+    while (!dumped.empty()) {
+      const std::string_view character = dumped.substr(0, std::max<std::size_t>(1, text::character_bytes(dumped)));
+      dumped.remove_prefix(character.size());
+      if (text::is_control(character)) {
+        std::array<char, 12> code{};
+        std::snprintf(code.data(), code.size(), "\\u%04x", static_cast<unsigned>(text::code_of(character)));
+        out_ += code.data();
+      } else {
+        out_ += character;
+      }
     }
   }
 

@@ -13,6 +13,7 @@
 #include "host/api/server/registry.hpp"
 #include "host/base/net/peer.hpp"
 #include "host/base/options/command_line.hpp"
+#include "host/base/text/text_output.hpp"
 #include "host/control/realtime/last_stop.hpp"
 #include "host/control/realtime/realtime.hpp"
 #include "host/control/realtime/rt_cycle.hpp"
@@ -21,6 +22,7 @@
 #include "host/control/server/turns.hpp"
 #include "host/drives/calibration/calibration.hpp"
 #include "host/drives/canopen/expected_drive.hpp"
+#include "host/model/config/field.hpp"
 #include "host/model/config/serial_robot.hpp"
 
 namespace {
@@ -30,16 +32,32 @@ using namespace liana;
 constexpr double kExpectTimeout_s = 60.0;
 constexpr double kStopLimit_s = 10.0;  // of arm time, until the drives are off after a failure
 
+constexpr unsigned int kStandstill_s = 5;  // of virtual time after a signal
+
 volatile std::sig_atomic_t g_signal = 0;
 void on_signal(int number) { g_signal = number; }
 
+// In virtual time lianad waits for the bus, which may never answer again.
+void on_signal_in_virtual_time(int number) {
+  g_signal = number;
+  ::alarm(kStandstill_s);
+}
+
+void on_standstill(int) {
+  constexpr char kText[] = "lianad: ended by a signal while virtual time stood still; look at bus and bench\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kText, sizeof kText - 1);
+  ::_exit(EXIT_FAILURE);
+}
+
 // The first signal stops the arm and ends lianad, the second one kills.
-void handle_signals() {
+void handle_signals(bool is_real) {
   struct sigaction action {};
-  action.sa_handler = on_signal;
+  action.sa_handler = is_real ? on_signal : on_signal_in_virtual_time;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   ::sigaction(SIGTERM, &action, nullptr);
   ::sigaction(SIGINT, &action, nullptr);
+  action.sa_handler = on_standstill;
+  ::sigaction(SIGALRM, &action, nullptr);
 }
 
 struct Options {
@@ -106,6 +124,7 @@ liana::server::ServiceConfig service_config(const Setup& setup, const std::strin
   config.events_file = setup.options.events;
   config.commands_file = setup.options.commands;
   config.way_file = setup.options.retract_path;
+  if (!setup.options.calibration.empty()) config.calibration = liana::config::read_text_file(setup.options.calibration);
   config.verify_times_file = setup.options.verify_times;
   if (setup.scene.camera) config.camera_latency_s = setup.scene.camera->latency_s;
   const auto mission = std::find(setup.expected.begin(), setup.expected.end(), liana::api::Role::kMission);
@@ -130,15 +149,18 @@ int serve(const Setup& setup, const Robot& robot, liana::realtime::ArmMailbox<Ar
       liana::bus::open_drive_bus(setup.buses, setup.mode, setup.options.bus_socket);
   cycle = std::make_unique<liana::realtime::RtCycle<Arm>>(robot.table, canopen::drive_expectations(robot, setup.buses),
                                                           setup.buses, *bus, link);
-  handle_signals();
+  const bool is_real = setup.mode == liana::timing::TimeMode::kReal;
+  handle_signals(is_real);
   const auto stop_limit = static_cast<std::uint64_t>(kStopLimit_s / robot.table.tick_s);
   const liana::server::Signalled signalled = [] { return g_signal != 0; };
   const liana::server::Ticks ticks{
-      [&] { return cycle->run_tick(); },
+      [&] {
+        if (!is_real && g_signal != 0) ::alarm(kStandstill_s);  // time goes on
+        return cycle->run_tick();
+      },
       [&](const std::function<bool()>& next) { liana::realtime::stop_without_service(link, stop_limit, next); }};
   return failing([&] {
-    const bool is_real = setup.mode == liana::timing::TimeMode::kReal;
-    if (!is_real) service.wait_for(setup.expected, kExpectTimeout_s);
+    if (!is_real && !service.wait_for(setup.expected, kExpectTimeout_s, signalled)) return;
     const bool finished = is_real ? liana::server::run_real(service, ticks, signalled)
                                   : liana::server::run_lockstep(service, ticks, signalled);
     service.flush_and_close();
@@ -198,6 +220,7 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  liana::text::print_only_text();
   Options options;
   liana::options::CommandLine line("lianad: control core, buses, verification and API of an arm");
   line.option("--robot", options.robot, "robot JSON (docs/reference/formats.md)").required();

@@ -8,34 +8,62 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
 
 #include "host/control/arbiter/path_history.hpp"
+#include "host/model/config/sha256.hpp"
 #include "host/storage/recording/crc32.hpp"
 
 namespace liana::server {
 namespace {
 
 constexpr std::string_view kMagic = "LIANAWAY";
+constexpr std::uint32_t kFormat = 2;  // 1 had the robot's name alone
+constexpr std::array<const char*, 3> kBasis{"robot table", "calibration", "scene"};
 constexpr std::size_t kHeaderBytes = 64;
 constexpr std::size_t kPointsPerSync = 50;  // a second of motion is what a computer without power may lose
 
 struct Header {
   std::array<char, 8> magic{};
-  std::uint32_t robot_crc = 0;
-  std::uint32_t joints = 0;
-  std::uint64_t first = 0, end = 0;  // numbers of the oldest point and after the newest
-  std::uint32_t crc = 0;             // of all before it
-  std::uint32_t unused = 0;
+  std::uint16_t format = kFormat, joints = 0;
+  std::uint32_t crc = 0;                    // of all but this
+  std::uint64_t first = 0, end = 0;         // numbers of the oldest point and after the newest
+  std::array<std::uint64_t, 3> basis{};     // as kBasis
+  std::array<std::uint64_t, 1> reserved{};  // 0
 };
-static_assert(sizeof(Header) == 40 && sizeof(Header) <= kHeaderBytes);
+static_assert(sizeof(Header) == kHeaderBytes);
 
 std::uint32_t crc_of(const void* bytes, std::size_t count) {
   recording::Crc32 crc;
   crc.add({static_cast<const char*>(bytes), count});
   return crc.value();
+}
+
+std::uint32_t crc_of(Header header) {
+  header.crc = 0;
+  return crc_of(&header, sizeof header);
+}
+
+std::uint64_t hash_of(const std::string& text) {
+  return std::stoull(config::sha256_hex(text).substr(0, 16), nullptr, 16);
+}
+
+// Why a path with this header is of no use here; empty: it is.
+std::string why_unused(const Header& header, std::size_t joints, const std::array<std::uint64_t, 3>& basis) {
+  if (header.format != kFormat) return "its format is not " + std::to_string(kFormat);
+  if (header.crc != crc_of(header) || header.first > header.end ||
+      header.end - header.first > arbiter::kMaxRetractPoints)
+    return "its header is damaged";
+  std::string other;
+  for (std::size_t i = 0; i < basis.size(); ++i) {
+    if (header.basis[i] != basis[i]) other += (other.empty() ? "" : ", ") + std::string(kBasis[i]);
+  }
+  if (other.empty() && header.joints != joints) other = "number of joints";
+  return other.empty() ? "" : "it was verified with another " + other;
 }
 
 bool write_at(int fd, const void* bytes, std::size_t count, std::uint64_t offset) {
@@ -50,11 +78,14 @@ bool read_at(int fd, void* bytes, std::size_t count, std::uint64_t offset) {
 
 }  // namespace
 
-RetractPathFile::RetractPathFile(const std::string& path, const std::string& robot, std::size_t joints)
-    : path_(path), joints_(joints), robot_crc_(crc_of(robot.data(), robot.size())) {
+RetractPathFile::RetractPathFile(const std::string& path, const PathBasis& basis, std::size_t joints)
+    : path_(path),
+      joints_(joints),
+      robot_(basis.name),
+      basis_{hash_of(basis.robot), hash_of(basis.calibration), hash_of(basis.scene)} {
   open();
   try {
-    read(robot);
+    read();
     thread_ = std::thread([this] { work(); });
   } catch (...) {
     ::close(fd_);
@@ -87,21 +118,33 @@ void RetractPathFile::open() {
                            "': another lianad keeps its way back there; give a file of its own");
 }
 
+// Its points may be the only way out for whoever starts again with what they were verified with.
+void RetractPathFile::put_aside(const std::string& why) {
+  const std::string aside = path_ + ".unused";
+  unused_ = "the retract path in " + path_ + " is not used: " + why + "; it is kept in " + aside +
+            ": start with what it was made with and --retract-path " + aside + ", or move the arm out yourself";
+  if (::rename(path_.c_str(), aside.c_str()) != 0)
+    throw std::runtime_error("--retract-path: '" + path_ + "': cannot be renamed to " + aside + ": " +
+                             std::strerror(errno));
+  ::close(fd_);
+  open();
+}
+
 // An empty file is a new one.
-void RetractPathFile::read(const std::string& robot) {
+void RetractPathFile::read() {
   struct stat status {};
   const bool is_file = ::fstat(fd_, &status) == 0 && S_ISREG(status.st_mode);
   Header header;
   const bool has_header = is_file && read_at(fd_, &header, sizeof header, 0) &&
                           std::equal(kMagic.begin(), kMagic.end(), header.magic.begin());
   if (!is_file || (status.st_size > 0 && !has_header)) {
-    throw std::runtime_error("--retract-path: '" + path_ + "': holds no way back of " + robot +
+    throw std::runtime_error("--retract-path: '" + path_ + "': holds no way back of " + robot_ +
                              "; give another file, or one that does not exist yet");
   }
-  const bool is_ours = has_header && header.robot_crc == robot_crc_ && header.joints == joints_ &&
-                       header.crc == crc_of(&header, offsetof(Header, crc)) && header.first <= header.end &&
-                       header.end - header.first <= arbiter::kMaxRetractPoints;
-  if (!is_ours) header.first = header.end = 0;
+  if (const std::string why = has_header ? why_unused(header, joints_, basis_) : ""; !why.empty()) {
+    put_aside(why);
+    header.first = header.end = 0;
+  }
   end_ = header.end;
   kept_.first = header.first;
   for (std::uint64_t number = header.first; number < header.end; ++number) {
@@ -122,6 +165,8 @@ std::optional<arbiter::WayPoint> RetractPathFile::read_point(std::uint64_t numbe
   if (record[0] != number || record.back() != crc_of(record.data(), record_bytes() - 8)) return std::nullopt;
   arbiter::WayPoint point{record[1] != 0, std::vector<double>(joints_)};
   std::memcpy(point.joint_rad.data(), &record[2], 8 * joints_);
+  const auto is_finite = [](double angle_rad) { return std::isfinite(angle_rad); };
+  if (!std::all_of(point.joint_rad.begin(), point.joint_rad.end(), is_finite)) return std::nullopt;
   return point;
 }
 
@@ -138,11 +183,11 @@ bool RetractPathFile::write_point(std::uint64_t number, const arbiter::WayPoint&
 bool RetractPathFile::write_header(std::uint64_t first, std::uint64_t end) {
   Header header;
   std::copy(kMagic.begin(), kMagic.end(), header.magic.begin());
-  header.robot_crc = robot_crc_;
-  header.joints = static_cast<std::uint32_t>(joints_);
+  header.joints = static_cast<std::uint16_t>(joints_);
   header.first = first;
   header.end = end;
-  header.crc = crc_of(&header, offsetof(Header, crc));
+  header.basis = basis_;
+  header.crc = crc_of(header);
   return write_at(fd_, &header, sizeof header, 0);
 }
 
@@ -163,12 +208,15 @@ void RetractPathFile::follow(const arbiter::WayChange& change) {
 
 std::optional<event::Event> RetractPathFile::trouble() {
   const std::lock_guard lock(mutex_);
+  event::Event event{.kind = event::EventKind::kHostWarning,
+                     .number = event::number_of(event::HostTroubleEvent::kWayFile),
+                     .subject = path_,
+                     .text = std::exchange(unused_, "")};
+  if (!event.text.empty()) return event;
   if (problem_.empty() || std::exchange(told_, true)) return std::nullopt;
-  return event::Event{.kind = event::EventKind::kHostWarning,
-                      .number = event::number_of(event::HostTroubleEvent::kWayFile),
-                      .subject = path_,
-                      .text = "the way back is not kept in " + path_ + " any more: " + problem_ +
-                              "; free space there and start lianad again"};
+  event.text =
+      "the way back is not kept in " + path_ + " any more: " + problem_ + "; free space there and start lianad again";
+  return event;
 }
 
 void RetractPathFile::work() {

@@ -2,6 +2,7 @@
 // date. Who notes a point never waits for a disk. What a torn write leaves is not read.
 #pragma once
 
+#include <array>
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
@@ -14,26 +15,36 @@
 
 namespace liana::server {
 
+// What a path was verified with: the texts of its tables, hashed in the file. Each has to be the same where the path is
+// taken over.
+struct PathBasis {
+  std::string name;                       // of the robot, for messages
+  std::string robot, calibration, scene;  // the robot's table without named poses; calibration: empty without one
+};
+
 class RetractPathFile {
  public:
-  // Of the robot `robot` with so many joints. Makes the file, or reads it. Throws std::runtime_error when it cannot be
-  // opened, another lianad has it, or it is no such file. The way of another robot is not taken over.
-  RetractPathFile(const std::string& path, const std::string& robot, std::size_t joints);
+  // Of an arm with so many joints. Makes the file, or reads it. Throws std::runtime_error when it cannot be opened,
+  // another lianad has it, or it is no such file. The path of another basis is not taken over: it stays in
+  // PATH.unused, and trouble() says so.
+  RetractPathFile(const std::string& path, const PathBasis& basis, std::size_t joints);
   // Writes what waits.
   ~RetractPathFile();
   RetractPathFile(const RetractPathFile&) = delete;
   RetractPathFile& operator=(const RetractPathFile&) = delete;
 
-  // What the last lianad left; points whose checksum is wrong are missing, with all before them.
+  // What the last lianad left; points whose checksum is wrong, or that are no finite angles, are missing, with all
+  // before them.
   const arbiter::KeptWay& kept() const { return kept_; }
   // Hands the change to the thread.
   void follow(const arbiter::WayChange& change);
-  // The disk has refused a write, said once: nothing is kept any more.
+  // What the file held is not used, or the disk has refused a write and nothing is kept any more; each said once.
   std::optional<event::Event> trouble();
 
  private:
   void open();
-  void read(const std::string& robot);
+  void read();
+  void put_aside(const std::string& why);
   void work();
   bool write(const arbiter::WayChange& change);
   bool write_header(std::uint64_t first, std::uint64_t end);
@@ -43,7 +54,9 @@ class RetractPathFile {
 
   std::string path_;
   std::size_t joints_;
-  std::uint32_t robot_crc_;
+  std::string robot_;
+  std::array<std::uint64_t, 3> basis_;  // hashes of robot, calibration, scene
+  std::string unused_;                  // why the path in the file is not used; empty: it is, or it was told
   int fd_ = -1;
   arbiter::KeptWay kept_;
   std::uint64_t end_ = 0;     // in the file; of the thread alone, as is the next

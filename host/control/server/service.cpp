@@ -43,7 +43,11 @@ Service::Service(const ServiceConfig& config, ArmServer& desk)
   if (!config.verify_times_file.empty())
     verify_times_.emplace(config.verify_times_file, "--verify-times", "# us from setpoint to release, of each command");
   if (config.way_file.empty()) return;
-  way_file_.emplace(config.way_file, Json::parse(config.robot_json).at("name").text(), desk.joint_count());
+  Json robot = Json::parse(config.robot_json);
+  for (const char* poses : {"named_poses_deg", "jig_poses"}) robot.erase(poses);  // they move nothing of the arm
+  way_file_.emplace(config.way_file,
+                    PathBasis{robot.at("name").text(), robot.dump(), config.calibration, config.scene_json},
+                    desk.joint_count());
   desk.restore_way(way_file_->kept());
 }
 
@@ -62,18 +66,20 @@ std::uint64_t Service::ticks_in(double time_s) const {
   return static_cast<std::uint64_t>(std::lround(time_s / config_.buses.tick_s()));
 }
 
-void Service::wait_for(const std::vector<api::Role>& roles, double timeout_s) {
+bool Service::wait_for(const std::vector<api::Role>& roles, double timeout_s, const std::function<bool()>& stop) {
   using Clock = std::chrono::steady_clock;
   const auto deadline = Clock::now() + std::chrono::duration<double>(timeout_s);
   for (const api::Role role : roles) {
     while (!server_.has_role(role)) {
       server_.pump(0.05);
+      if (stop()) return false;
       if (Clock::now() > deadline) {
         throw std::runtime_error("--expect: a client with role '" + std::string(api::role_name(role)) +
                                  "' did not come within the time");
       }
     }
   }
+  return true;
 }
 
 void Service::cycle() {

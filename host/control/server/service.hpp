@@ -41,6 +41,7 @@ struct ServiceConfig {
   double camera_latency_s = 0.0;
   std::string events_file;                                            // path; empty: events are not written
   std::string commands_file;                                          // path; empty: commands are not logged
+  std::string calibration;                                            // text of its file; empty: none
   std::string way_file;                                               // path; empty: the way back is kept nowhere
   std::string verify_times_file;                                      // path; empty: nobody asks how long commands take
   bool ends_with_mission = false;                                     // stop the arm once the mission has come and gone
@@ -55,9 +56,10 @@ class Service : private api::ApiHandler {
   // outlive this.
   Service(const ServiceConfig& config, ArmServer& desk);
 
-  // Waits until a client of every named role has said hello; throws std::runtime_error naming those missing after
-  // `timeout_s`.
-  void wait_for(const std::vector<api::Role>& roles, double timeout_s);
+  // Waits until a client of every named role has said hello, or `stop` returns true: then it returns false. Throws
+  // std::runtime_error naming those missing after `timeout_s`.
+  bool wait_for(
+      const std::vector<api::Role>& roles, double timeout_s, const std::function<bool()>& stop = [] { return false; });
   // One command interval. Lockstep time: returns after every lockstep client has answered.
   void cycle();
   // A new command interval has begun since the last cycle().

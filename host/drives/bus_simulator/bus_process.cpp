@@ -4,6 +4,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "host/base/file/in_file.hpp"
 #include "host/drives/bus/bus_protocol.hpp"
 #include "host/drives/bus_simulator/json_file.hpp"
 
@@ -39,6 +40,7 @@ WireConfig read_wire(const std::string& path, const std::string& where, const Js
 }  // namespace
 
 void load_wires(const std::string& path, BusHubOptions& options) {
+  file::require_ordinary(path);
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read; give the bus table with --buses");
   const Json table = parse_file(std::string{std::istreambuf_iterator<char>(file), {}}, path);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "host/base/file/in_file.hpp"
 #include "host/drives/bus_simulator/json_file.hpp"
 
 namespace liana::bus_simulator {
@@ -166,6 +167,7 @@ std::uint64_t FaultScript::awake_from(std::uint64_t slot) const {
 }
 
 FaultScript load_fault_script(const std::string& path, int bus_count) {
+  file::require_ordinary(path);
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read; give the fault script of --script");
   return parse_fault_script(std::string{std::istreambuf_iterator<char>(file), {}}, path, bus_count);

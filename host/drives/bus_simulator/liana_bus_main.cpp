@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "host/base/options/command_line.hpp"
+#include "host/base/text/text_output.hpp"
 #include "host/drives/bus_simulator/bus_hub.hpp"
 #include "host/drives/bus_simulator/bus_listener.hpp"
 #include "host/drives/bus_simulator/bus_process.hpp"
@@ -62,6 +63,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  liana::text::print_only_text();
   liana::options::CommandLine line(
       "The embedded CAN bus: exact bit timing, arbitration and bounded queues between lianad and the bench, and "
       "virtual time.",

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "host/base/file/in_file.hpp"
 #include "host/base/json/number_error.hpp"
 #include "host/base/options/nearest.hpp"
 #include "host/base/options/retired.hpp"
@@ -129,6 +130,7 @@ Json parse_json(const std::string& text, const std::string& file, const std::str
 }
 
 std::string read_text_file(const std::string& path) {
+  file::require_ordinary(path);
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
   if (!in || !(text << in.rdbuf()))

@@ -200,7 +200,10 @@ ScenePose read_pose(const Field& field) {
 }
 
 SceneConfig parse_scene(const std::string& text, const std::string& file) {
-  const Json json = parse_json(text, file);
+  Json json = parse_json(text, file);
+  for (const char* bodies : {"boxes", "spheres"}) {  // a scene names what it has; who reads it finds lists
+    if (json.is_object() && !json.contains(bodies)) json[bodies] = Json::array();
+  }
   const Field table(json, file, "");
   check_kind(table, "scene");
   table.only({"format", "kind", "name", "boxes", "spheres", "convex", "slit", "rod", "camera", "contact", "margins",

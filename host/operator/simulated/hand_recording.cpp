@@ -1,4 +1,5 @@
 #include "host/operator/simulated/hand_recording.hpp"
+#include "host/base/file/in_file.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -139,6 +140,7 @@ std::vector<Sample> read_samples(std::istream& stream, const std::string& path, 
 }  // namespace
 
 std::variant<VrRecording, HandRecording> read_hand_recording(const std::string& path) {
+  file::require_ordinary(path);
   std::ifstream stream(path);
   if (!stream) throw std::runtime_error(path + ": cannot be read; give an existing .hand file");
   return parse_hand_recording(stream, path);

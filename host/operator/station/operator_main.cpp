@@ -9,6 +9,7 @@
 #include "host/api/server/client.hpp"
 #include "host/base/json/json.hpp"
 #include "host/base/options/command_line.hpp"
+#include "host/base/text/text_output.hpp"
 #include "host/model/config/config.hpp"
 #include "host/operator/simulated/own_devices.hpp"
 #include "host/operator/station/run_statistics.hpp"
@@ -160,6 +161,7 @@ int operate(const OperatorOptions& options) {
 }  // namespace liana::station
 
 int main(int argc, char** argv) {
+  liana::text::print_only_text();
   liana::station::OperatorOptions options;
   liana::options::CommandLine line(
       "The operator as data and as a model that looks: recorded VR handles, simulated handles and hand controller");

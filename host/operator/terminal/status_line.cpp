@@ -8,6 +8,7 @@
 #include "firmware_like/math/trig.hpp"
 #include "host/base/event/fault_groups.hpp"
 #include "host/base/json/json.hpp"
+#include "host/base/text/printable.hpp"
 
 namespace liana::terminal {
 namespace {
@@ -120,13 +121,6 @@ std::string cut(const std::string& line, std::size_t columns) {
   return line;
 }
 
-// Texts that came over the wire move no cursor.
-void make_printable(std::string& line) {
-  for (char& letter : line) {
-    if (static_cast<unsigned char>(letter) < 0x20U || letter == 0x7F) letter = ' ';
-  }
-}
-
 }  // namespace
 
 std::vector<std::string> status_lines(const Json& state, const Shown& shown, std::size_t columns) {
@@ -147,10 +141,7 @@ std::vector<std::string> status_lines(const Json& state, const Shown& shown, std
                 "w s  a d  e q   tip along x, y, z (arrows too)   j l  i k  u o   turn it   f   axes of base or tip",
                 "h hold   r retract   + - speed   t take motion   n enable   b disable   c clear   x end",
                 "SPACE or ESCAPE: emergency stop"});
-  for (std::string& line : lines) {
-    make_printable(line);
-    line = cut(line, columns);
-  }
+  for (std::string& line : lines) line = cut(text::printable(line, text::Lines::kOne, ' '), columns);
   return lines;
 }
 

@@ -11,6 +11,7 @@
 #include "host/api/server/client.hpp"
 #include "host/base/json/json.hpp"
 #include "host/base/options/command_line.hpp"
+#include "host/base/text/text_output.hpp"
 #include "host/storage/archive/alarms.hpp"
 #include "host/storage/archive/inbox.hpp"
 #include "host/storage/archive/recorder.hpp"
@@ -162,6 +163,7 @@ int run(const std::string& api, const std::string& folder, const std::string& re
 }  // namespace
 
 int main(int argc, char** argv) {
+  liana::text::print_only_text();
   std::string api, folder, record;
   liana::options::CommandLine line("The flight recorder: events, commands, telemetry and every tick of a run");
   line.option("--api", api, "API socket of lianad").required();

@@ -1,4 +1,5 @@
 #include "host/storage/archive/database.hpp"
+#include "host/base/file/in_file.hpp"
 
 #include <sqlite3.h>
 
@@ -21,6 +22,7 @@ int flags_of(Database::Open how) {
 void Database::Close::operator()(void* database) const { sqlite3_close(connection(database)); }
 
 Database::Database(const std::string& path, Open how) : path_(path) {
+  file::require_ordinary(path);
   sqlite3* opened = nullptr;
   const int code = sqlite3_open_v2(path.c_str(), &opened, flags_of(how), nullptr);
   handle_.reset(opened);
@@ -28,10 +30,28 @@ Database::Database(const std::string& path, Open how) : path_(path) {
   check(code);
   sqlite3_extended_result_codes(opened, 1);
   sqlite3_busy_timeout(opened, kPatience_ms);
-  if (how == Open::kRead) return;
+  if (how == Open::kRead) {
+    require_own_tables();
+    return;
+  }
   if (how == Open::kQuick) run("PRAGMA page_size=1024");  // a second takes 8 kB: less is left empty behind it
   run("PRAGMA journal_mode=WAL");
   run(how == Open::kDurable ? "PRAGMA synchronous=FULL" : "PRAGMA synchronous=NORMAL");
+}
+
+// A file from elsewhere has data, and no SQL that runs when it is read: a view may have rows without end, a trigger or
+// a generated column computes.
+void Database::require_own_tables() const {
+  for (const int option : {SQLITE_DBCONFIG_DEFENSIVE, SQLITE_DBCONFIG_TRUSTED_SCHEMA})
+    sqlite3_db_config(connection(handle_.get()), option, option == SQLITE_DBCONFIG_DEFENSIVE ? 1 : 0, nullptr);
+  Statement other(*this,
+                  "SELECT type, name FROM sqlite_schema WHERE type NOT IN ('table', 'index') OR rootpage < 1 "
+                  "UNION SELECT 'generated column', t.name || '.' || c.name FROM sqlite_schema t, "
+                  "pragma_table_xinfo(t.name) c WHERE t.type = 'table' AND c.hidden <> 0 LIMIT 1");
+  if (other.step())
+    throw DatabaseError(path_ + ": holds the " + other.text(0) + " '" + other.text(1) +
+                            "'; an archive holds plain tables only: take the file that Liana wrote",
+                        false);
 }
 
 void Database::refuse() const {

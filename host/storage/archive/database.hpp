@@ -25,7 +25,8 @@ struct Blob {
 class Database {
  public:
   enum class Open {
-    kRead,     // what is there, also while another process writes; what a killed writer left half done is undone
+    kRead,  // what is there, also while another process writes; what a killed writer left half done is undone. Throws
+            // DatabaseError where the file has more than tables and indexes.
     kDurable,  // made when missing; what was committed outlives the loss of power
     kQuick,    // made when missing; what was committed outlives the process, and all but the last moments loss of power
   };
@@ -45,6 +46,7 @@ class Database {
   friend class Statement;
   [[noreturn]] void refuse() const;
   void check(int code) const;
+  void require_own_tables() const;
 
   struct Close {
     void operator()(void* database) const;

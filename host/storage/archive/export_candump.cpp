@@ -3,6 +3,7 @@
 #include <fstream>
 #include <memory>
 
+#include "host/base/file/in_file.hpp"
 #include "host/base/file/out_file.hpp"
 #include "host/base/json/json.hpp"
 #include "host/storage/archive/export.hpp"
@@ -13,7 +14,11 @@ namespace {
 // A bus log, line by line: "(12.345678) can0 181#..."
 class BusLog {
  public:
-  explicit BusLog(const std::string& path) : file_(path) { next(); }
+  explicit BusLog(const std::string& path) {
+    file::require_ordinary(path);
+    file_.open(path);
+    next();
+  }
   void next() { has_line_ = static_cast<bool>(std::getline(file_, line_)); }
   bool has_line() const { return has_line_; }
   const std::string& line() const { return line_; }

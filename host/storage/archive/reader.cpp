@@ -47,6 +47,10 @@ event::Event event_of(const Statement& row) {
 }
 
 void add_records(const Statement& row, Span span, std::size_t bytes, std::vector<std::string>& out) {
+  constexpr std::uint64_t kMaxRecords = 1 << 16;  // of a second
+  if (row.count(0) > kMaxRecords)
+    throw std::runtime_error("a second of telemetry has " + std::to_string(row.count(0)) + " records; allowed are " +
+                             std::to_string(kMaxRecords) + ": take a good copy of the file");
   const std::string records = unpacked(row.text(1), row.count(0), bytes);
   for (std::size_t at = 0; at < records.size(); at += bytes) {
     std::string record = records.substr(at, bytes);

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "host/base/file/in_file.hpp"
 #include "host/storage/recording/codec.hpp"
 #include "host/storage/recording/compression.hpp"
 #include "host/storage/recording/mcap.hpp"
@@ -98,7 +99,9 @@ void visit_chunk(std::string_view records, const McapVisitor& visitor, std::map<
 // A file record by record, with the checksum of what lies before each.
 class RecordFile {
  public:
-  explicit RecordFile(const std::string& path) : file_(std::fopen(path.c_str(), "rb"), &std::fclose), path_(path) {
+  explicit RecordFile(const std::string& path) : file_(nullptr, &std::fclose), path_(path) {
+    file::require_ordinary(path);
+    file_.reset(std::fopen(path.c_str(), "rb"));
     if (!file_) throw std::runtime_error("recording " + path + ": " + std::strerror(errno));
     std::fseek(file_.get(), 0, SEEK_END);
     size_ = static_cast<std::uint64_t>(std::max(0L, std::ftell(file_.get())));

@@ -8,7 +8,7 @@ namespace {
 void add_pose(CLI::App& app, Action& action) {
   auto [sub, pose] = add<PoseOptions>(app, action, "pose", pose_command);
   add_robot(sub, pose.robot);
-  sub.add_option("--theta-deg", pose.theta_deg, "joint angles t1,t2,... (pitch, yaw per segment)")->required();
+  sub.add_option("--theta-deg", pose.theta_deg, "joint angles t1,t2,... (pitch, yaw per segment), or a named pose")->required();
   sub.add_option("--scene", pose.scene,
                  "scene: which segments its slit wants planar, where they begin, what their yaws may be");
   add_json(sub, pose.json);
@@ -17,7 +17,7 @@ void add_pose(CLI::App& app, Action& action) {
 void add_ik(CLI::App& app, Action& action) {
   auto [sub, ik] = add<IkOptions>(app, action, "ik", ik_command);
   add_robot(sub, ik.robot);
-  sub.add_option("--from-deg", ik.from_deg, "joint angles to start from")->required();
+  sub.add_option("--from-deg", ik.from_deg, "joint angles, or a named pose, to start from")->required();
   sub.add_option("--tip", ik.tip, "goal x,y,z,qw,qx,qy,qz")->required();
   sub.add_option("--hold", ik.hold,
                  "joint angles held still, e.g. 7,9 or 7=0.5,9 (deg; at --from-deg where no value is given)");
@@ -31,8 +31,8 @@ void add_reach(CLI::App& app, Action& action) {
   sub.add_option("--scene", reach.scene, "scene table drawn to scale; takes nothing away from the region");
   sub.add_option("--hold", reach.hold,
                  "cable arms: joint angles held still, e.g. 7,9 or 7=0.5,9 (deg; at --from-deg or 0 without a value)");
-  sub.add_option("--from-deg", reach.from_deg, "joint angles that are drawn, or where the path begins");
-  sub.add_option("--to-deg", reach.to_deg, "cable arms: joint angles where the path ends");
+  sub.add_option("--from-deg", reach.from_deg, "joint angles, or a named pose, that are drawn, or where the path begins");
+  sub.add_option("--to-deg", reach.to_deg, "cable arms: joint angles, or a named pose, where the path ends");
   sub.add_option("--path", reach.path, "cable arms: JSON file with waypoints_deg, as plan --json prints it");
   sub.add_option("--node", reach.node,
                  "the end of that segment, or of that joint's link, whose region is wanted; the tip where not given");

@@ -11,6 +11,7 @@
 #include "host/apps/launcher/interrupt.hpp"
 #include "host/apps/launcher/output.hpp"
 #include "host/base/json/json.hpp"
+#include "host/base/text/text_output.hpp"
 #include "host/drives/commissioning/desk.hpp"
 
 using namespace liana::cli;
@@ -82,5 +83,6 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   liana::launcher::end_on_interrupt();
+  liana::text::print_only_text();
   return liana::launcher::after_standard_output(run(argc, argv));
 }

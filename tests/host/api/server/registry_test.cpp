@@ -83,6 +83,17 @@ TEST_F(Places, ALongPathIsFoundAndReachedAndADeadOneHindersNobody) {
   EXPECT_FALSE(fs::is_symlink(links() + "/1"));
 }
 
+// kill -9 of a lianad, and another one at the same socket.
+TEST_F(Places, TheLinkOfADeadSystemBesideALiveOneIsNoSecondSystem) {
+  const UniqueFd socket = listen(folder_ + "/a"), other = listen(folder_ + "/b");
+  fs::create_directory_symlink(folder_, folder_ + "/same");
+  for (const char* number : {"1", "2"}) link(folder_ + "/a", number);
+  link(folder_ + "/same/a", "3");
+  link(folder_ + "/b", "4");
+  EXPECT_EQ(running_systems().size(), 2u);
+  EXPECT_EQ(std::distance(fs::directory_iterator(links()), fs::directory_iterator()), 2) << "it is removed";
+}
+
 TEST_F(Places, NonsenseAmongTheLinksHindersNobody) {
   const UniqueFd socket = listen(folder_ + "/a");
   link(folder_ + "/a", "1");

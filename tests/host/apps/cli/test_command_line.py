@@ -4,9 +4,11 @@ import math
 import os
 import pathlib
 import random
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 from programs import BIN, ROOT, json_of_refusal, liana, liana_json, liana_to_full_disk
@@ -719,6 +721,40 @@ class Help(Messages, unittest.TestCase):
             code, _, error = liana("estop", "--api", socket)
             self.assertEqual(code, 2)
             self.assertIn("NOTHING WAS STOPPED", error)
+
+
+class SignalsInVirtualTime(unittest.TestCase):
+    """A bus without a bench: virtual time stands still, and nothing but a signal ends lianad."""
+
+    def lianad(self, number, *words):
+        """(exit code, standard error) of a lianad that gets the signal while it waits."""
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        for kind, name in (("robot", "zhu2022"), ("scene", "none"), ("buses", "embedded")):
+            with open(folder / f"{kind}.json", "wb") as file:
+                subprocess.run([BIN / "liana-mission", "eval", kind, name], stdout=file, check=True)
+        bus = subprocess.Popen([BIN / "liana-bus", "--socket", folder / "bus", "--buses", folder / "buses.json"])
+        self.addCleanup(bus.wait)
+        self.addCleanup(bus.kill)
+        tables = [word for kind in ("robot", "scene", "buses") for word in (f"--{kind}", folder / f"{kind}.json")]
+        sockets = ["--api", folder / "api", "--bus-socket", folder / "bus"]
+        lianad = subprocess.Popen([BIN / "lianad", *tables, *sockets, *words], stderr=subprocess.PIPE, text=True)
+        self.addCleanup(lianad.kill)
+        while not (folder / "api").exists():
+            self.assertIsNone(lianad.poll())
+            time.sleep(0.02)
+        time.sleep(0.5)  # the signal is handled from a moment after that on; before, it ends lianad anyway
+        lianad.send_signal(number)
+        _, error = lianad.communicate(timeout=60)
+        return lianad.returncode, error
+
+    def test_a_signal_ends_a_lianad_whose_bus_answers_no_more(self):
+        code, error = self.lianad(signal.SIGTERM)
+        self.assertEqual(code, 1)
+        self.assertRegex(error, "signal.*time stood still")
+
+    def test_a_signal_ends_a_lianad_that_waits_for_its_clients(self):
+        code, error = self.lianad(signal.SIGINT, "--expect", "mission")
+        self.assertEqual((code, error), (0, ""))
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -27,12 +28,14 @@ class FileOfTheWay : public testing::Test {
 
   static WayPoint point(double x, bool begins = false) { return {begins, {x, -x, 0.5 * x}}; }
   void write(const std::vector<WayChange>& changes) {
-    RetractPathFile file(path_, "an arm", 3);
+    RetractPathFile file(path_, kArm, 3);
     for (const WayChange& change : changes) file.follow(change);
   }
-  std::vector<double> kept(const std::string& robot = "an arm") {
+  std::vector<double> kept(const PathBasis& basis = kArm) {
     std::vector<double> out;
-    const RetractPathFile file(path_, robot, 3);
+    RetractPathFile file(path_, basis, 3);
+    const auto event = file.trouble();
+    unused_ = event ? event->text : "";
     for (const WayPoint& each : file.kept().points) out.push_back(each.joint_rad[0]);
     return out;
   }
@@ -46,20 +49,22 @@ class FileOfTheWay : public testing::Test {
   }
   std::string why_not(const std::string& path) const {
     try {
-      RetractPathFile(path, "an arm", 3);
+      RetractPathFile(path, kArm, 3);
     } catch (const std::runtime_error& error) {
       return error.what();
     }
     return "";
   }
 
+  inline static const PathBasis kArm{"an arm", "its table", "its calibration", "its scene"};
   static constexpr std::streamoff kHeader = 64, kRecord = 48;
+  std::string unused_;  // what kept() was told of the file
   std::string path_;
 };
 
 TEST_F(FileOfTheWay, KeepsEveryPointToTheLastBit) {
   write({{0, 0, {point(0.1), point(1.0 / 3.0), point(0.7, true)}}});
-  const RetractPathFile file(path_, "an arm", 3);
+  const RetractPathFile file(path_, kArm, 3);
   EXPECT_EQ(file.kept().first, 0u);
   EXPECT_EQ(file.kept().points, (std::vector<WayPoint>{point(0.1), point(1.0 / 3.0), point(0.7, true)}));
 }
@@ -76,7 +81,7 @@ TEST_F(FileOfTheWay, FollowsWhatIsTakenOffAndAddedAgainInOneLifeAndInTwo) {
 TEST_F(FileOfTheWay, IsARingWhoseOldestPointsGoFirst) {
   const std::uint64_t most = arbiter::kMaxRetractPoints;
   write({{0, 0, std::vector<WayPoint>(most, point(1))}, {2, most, {point(2), point(3)}}});
-  const RetractPathFile file(path_, "an arm", 3);
+  const RetractPathFile file(path_, kArm, 3);
   EXPECT_EQ(file.kept().first, 2u);
   ASSERT_EQ(file.kept().points.size(), most);
   EXPECT_EQ(file.kept().points.back(), point(3));
@@ -91,12 +96,34 @@ TEST_F(FileOfTheWay, OfADamagedPointWhatFollowsItIsLeft) {
   EXPECT_EQ(kept(), (std::vector<double>{2, 3, 4}));
 }
 
-TEST_F(FileOfTheWay, WithADamagedHeadingOrOfAnotherRobotKeepsNothing) {
-  write({{0, 0, {point(0), point(1)}}});
-  EXPECT_TRUE(kept("another").empty());
-  write({{0, 0, {point(0), point(1)}}});
-  damage(24);
-  EXPECT_TRUE(kept().empty());
+TEST_F(FileOfTheWay, VerifiedWithAnotherTableCalibrationOrSceneIsPutAsideAndSaysSo) {
+  const std::string aside = path_ + ".unused";
+  const struct {
+    std::string PathBasis::*member;
+    const char* word;
+  } others[] = {
+      {&PathBasis::robot, "robot table"}, {&PathBasis::calibration, "calibration"}, {&PathBasis::scene, "scene"}};
+  for (const auto& [member, word] : others) {
+    write({{0, 0, {point(0), point(1)}}});
+    PathBasis other = kArm;
+    other.*member = "another one";
+    EXPECT_TRUE(kept(other).empty()) << word;
+    EXPECT_TRUE(names(unused_, {path_, word, aside}));
+    std::filesystem::rename(aside, path_);
+    EXPECT_EQ(kept(), (std::vector<double>{0, 1})) << "it is there for whoever has the first " << word;
+    EXPECT_EQ(unused_, "");
+  }
+}
+
+TEST_F(FileOfTheWay, WithADamagedHeadingOrAnglesThatAreNoNumbersKeepsNothing) {
+  for (const std::streamoff at : {8, 10, 12, 16, 24, 32, 40, 48, 63}) {
+    write({{0, 0, {point(0), point(1)}}});
+    damage(at);
+    EXPECT_TRUE(kept().empty()) << at;
+  }
+  write({{0, 0, {point(0), point(std::nan("")), point(2)}}});
+  EXPECT_EQ(kept(), (std::vector<double>{2}));
+  std::filesystem::remove(path_ + ".unused");
 }
 
 TEST_F(FileOfTheWay, ThatIsNoneOrCannotBeMadeOrIsInUseIsRefusedAndLeftAlone) {
@@ -105,14 +132,14 @@ TEST_F(FileOfTheWay, ThatIsNoneOrCannotBeMadeOrIsInUseIsRefusedAndLeftAlone) {
   EXPECT_GT(std::filesystem::file_size(path_), 60u);
   std::filesystem::remove(path_);
   EXPECT_TRUE(names(why_not("/nonexistent/way"), {"--retract-path", "/nonexistent/way"}));
-  const RetractPathFile file(path_, "an arm", 3);
+  const RetractPathFile file(path_, kArm, 3);
   EXPECT_NE(why_not(path_).find("another lianad"), std::string::npos);
 }
 
 // A full disk: half a way would lead into nothing.
 TEST_F(FileOfTheWay, ThatCannotBeWrittenIsRemovedAndSaysSoOnce) {
   std::signal(SIGXFSZ, SIG_IGN);
-  RetractPathFile file(path_, "an arm", 3);
+  RetractPathFile file(path_, kArm, 3);
   rlimit before{};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
   const rlimit small{static_cast<rlim_t>(kHeader + 2 * kRecord), before.rlim_max};

@@ -709,6 +709,12 @@ TEST_F(ServiceInRealTime, TimingTellsWhatTheRealTimeThreadRecordedSinceTheLastRe
   EXPECT_EQ(full_answer(watcher, {{"op", "timing"}, {"reset", "yes"}})["code"], "bad_request");
 }
 
+TEST_F(ServiceOverSocket, WaitingForClientsEndsWhenItIsToldTo) {
+  int looks = 0;
+  EXPECT_FALSE(service_.wait_for({api::Role::kOperator}, 600.0, [&] { return ++looks == 2; }));
+  EXPECT_EQ(looks, 2);
+}
+
 TEST_F(ServiceOverSocket, MissingClientsAreNamed) {
   try {
     service_.wait_for({api::Role::kOperator}, 0.05);

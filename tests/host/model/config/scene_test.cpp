@@ -139,6 +139,16 @@ constexpr const char* kConvex = R"({"format":1,"kind":"scene","name":"own","boxe
   {"name":"tank","cylinder":{"from_m":[1,0,0],"to_m":[1,0,2],"radius_m":0.25}},
   {"name":"hose","chain":{"points_m":[[0,0,0],[1,0,0],[1,1,0]],"radius_m":0.02}}]})";
 
+// req:A48
+TEST(Scene, NamesWhatItHasAndNothingElse) {
+  const SceneConfig bare = parse_scene(R"({"format":1,"kind":"scene","name":"bare"})", "s");
+  EXPECT_TRUE(bare.boxes.empty() && bare.spheres.empty() && bare.convex.empty());
+  EXPECT_EQ(bare.canonical_json,
+            parse_scene(R"({"format":1,"kind":"scene","name":"bare","boxes":[],"spheres":[]})", "s").canonical_json)
+      << "who reads it finds the same";
+  EXPECT_THROW(parse_scene("[]", "s"), std::runtime_error);
+}
+
 TEST(Scene, HasConvexBodiesOfPointsCylindersAndChains) {
   const SceneConfig scene = parse_scene(kConvex, "s");
   ASSERT_EQ(scene.convex.size(), 4u) << "a chain of two pieces is two bodies";

@@ -1,0 +1,12 @@
+// A file from elsewhere that is read: an ordinary one. A pipe would be waited for, and a device never ends.
+#pragma once
+
+#include <string>
+
+namespace liana::file {
+
+// Throws std::runtime_error "PATH: is a pipe ..." for what is there and is no ordinary file, or a link to one; says
+// nothing of what is not there or may not be read.
+void require_ordinary(const std::string& path);
+
+}  // namespace liana::file
