@@ -47,16 +47,16 @@ enum class BootEvent : std::uint8_t {
 enum class HomingEvent : std::uint8_t { kContradicted = 0, kHomed = 1 };
 enum class OwnerEvent : std::uint8_t { kAcquired = 1, kReleased = 2, kGone = 3, kStandsStill = 4, kTaken = 5 };
 enum class HostTroubleEvent : std::uint8_t {
-  kBusState = 1,       // an interface changed its state; `state`: 0 active, 1 error passive, 2 bus off, 3 down
-  kErrorFrames = 2,    // an interface reported `count` error frames
-  kFramesLost = 3,     // `count` received frames were not fetched in time
-  kFramesRefused = 4,  // a transmit queue is full
-  kFramesTaken = 5,    // it takes frames again; `count` were refused
-  kTicksLost = 6,      // `count` control deadlines were lost
-  kEventFile = 7,      // the file of events takes no more
-  kEventFileGood = 8,  // it takes events again; `count` are missing in it
-  kWayFile = 9,        // the file that keeps the way back takes no more, or what it holds is not used
-  kArchive = 10,       // the flight recorder loses something; `count` of it, 0: it makes room on a full disk
+  kBusState = 1,        // an interface changed its state; `state`: 0 active, 1 error passive, 2 bus off, 3 down
+  kErrorFrames = 2,     // an interface reported `count` error frames
+  kFramesLost = 3,      // `count` received frames were not fetched in time
+  kFramesRefused = 4,   // a transmit queue is full
+  kFramesTaken = 5,     // it takes frames again; `count` were refused
+  kTicksLost = 6,       // `count` control deadlines were lost
+  kEventFile = 7,       // the file of events takes no more
+  kEventFileGood = 8,   // it takes events again; `count` are missing in it
+  kWayFile = 9,         // the file that keeps the way back takes no more, or what it holds is not used
+  kArchive = 10,        // the flight recorder loses something; `count` of it, 0: it makes room on a full disk
   kEnablingWaits = 11,  // a drive or a cable keeps the arm from being enabled
 };
 enum class DeviceEvent : std::uint8_t {
