@@ -69,7 +69,7 @@ TEST_F(WatchdogsOfAnArm, ADriveUnderWhoseIdentifiersSomebodyElseSpeaksIsNamed) {
 
 // 6061 counts only with power: before, a drive may be in any mode.
 TEST_F(WatchdogsOfAnArm, ADriveWithPowerThatShowsAnotherModeIsNamedTheFirstAndTheLast) {
-  for (const std::size_t drive : {std::size_t{0}, std::size_t{14}}) {
+  for (const std::size_t drive : {std::size_t{0}, std::size_t{safety_bench::kDrives} - 1}) {
     faults_ = {};
     inputs_ = healthy(kStatusEnabled);
     inputs_.drive[drive].operational = kInOtherMode;
