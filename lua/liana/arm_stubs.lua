@@ -67,8 +67,10 @@ function arm.acquire(fields) end
 function arm.release() end
 
 ---@class arm.state_command
----what the arm should do
----@field command "enable"|"disable"|"clear"|"home"
+---what the arm should do; recover: clear, and go on without the cable of fault 5006: only retract moves then
+---@field command "enable"|"disable"|"clear"|"home"|"recover"
+---with clear: this cable of fault 5006 was looked at, and is whole
+---@field whole? integer
 
 ---CRTK operating state.
 ---@param fields arm.state_command

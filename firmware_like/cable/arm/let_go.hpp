@@ -84,10 +84,9 @@ inline bool is_released(const SegmentReleaseState& state, const CableLayout& lay
   return is_let_go(state) &&
          (layout.segment[cable] == state.segment || static_cast<std::int32_t>(cable) == state.cable);
 }
-// The same by a tick's planned tensions: nothing else is planned with exactly 0 N while the arm is enabled.
-inline bool is_planned_released(const RobotParams& table, const CableVector& plan_N, std::size_t cable) noexcept {
-  return plan_N[cable] == 0.0 && static_cast<std::int32_t>(cable) >= table.feed_count();
-}
+// The same by a tick's planned tensions: this cable is planned with exactly 0 N while others are pulled, which nothing
+// else makes.
+bool is_planned_released(const RobotParams& table, const CableVector& plan_N, std::size_t cable) noexcept;
 // Nobody expects tension of this cable: its segment is let go, and whether it is broken itself is judged.
 inline bool may_be_slack(const SegmentReleaseState& state, const CableLayout& layout, std::int32_t cable) noexcept {
   if (!is_released(state, layout, static_cast<std::size_t>(cable))) return false;

@@ -98,11 +98,12 @@ class MomentJudge {
   }
 
   void simulated(const simulation::JointSequence& sequence, const simulation::Motion& motion) {
+    const cable::CableVector plan_N = sequence.tensions_N.empty() ? cable::CableVector{} : sequence.tensions_N.front();
     for (const Moment& moment : motion.moments) {
       const Moment& anyway = stop_.from(moment.time_s);
       joints(sequence, motion, moment, anyway);
       nodes(moment, anyway);
-      cables(sequence.tensions_N.front(), moment, anyway, motion.min_passed_share);
+      cables(plan_N, moment, anyway, motion.min_passed_share);
     }
   }
 

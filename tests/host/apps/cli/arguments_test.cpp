@@ -41,7 +41,7 @@ TEST(Arguments, AnglesAreConvertedToRadiansAndMayStandOnTheLimit) {
 
 TEST(Arguments, AnglesOverTheLimitOrOfTheWrongNumberAreRefusedByName) {
   const cable::RobotParams robot = two_segments();
-  EXPECT_NE(refusal([&] { parse_theta_deg("--theta-deg", "0,0,20.001,0", robot); }).find("theta 3 within +-20 deg"),
+  EXPECT_NE(refusal([&] { parse_theta_deg("--theta-deg", "0,0,20.001,0", robot); }).find("theta 3 from -20 to 20 deg"),
             std::string::npos);
   EXPECT_NE(refusal([&] { parse_theta_deg("--theta-deg", "0,0,0", robot); }).find("4 numbers"), std::string::npos);
   EXPECT_NE(refusal([&] { parse_theta_deg("--theta-deg", "0,0,nan,0", robot); }).find("finite"), std::string::npos);

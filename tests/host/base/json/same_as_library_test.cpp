@@ -99,9 +99,19 @@ Json rebuilt(const Library& value) {
   return out;
 }
 
+// What a terminal would act on is told as \u, which the library does of ASCII's controls alone.
+std::string escaped(std::string text) {
+  for (const auto& [character, code] : {std::pair{"\x7f", "\\u007f"}, std::pair{"\u2028", "\\u2028"}}) {
+    const std::size_t size = std::string_view(character).size();
+    for (std::size_t at = text.find(character); at != text.npos; at = text.find(character, at))
+      text.replace(at, size, code);
+  }
+  return text;
+}
+
 void expect_same(const Json& ours, const Library& theirs) {
-  ASSERT_EQ(ours.dump(), theirs.dump());
-  EXPECT_EQ(ours.dump(2), theirs.dump(2));
+  ASSERT_EQ(ours.dump(), escaped(theirs.dump()));
+  EXPECT_EQ(ours.dump(2), escaped(theirs.dump(2)));
   EXPECT_EQ(ours.size(), theirs.size());
   EXPECT_EQ(ours.empty(), theirs.empty());
   EXPECT_EQ(ours.is_null(), theirs.is_null());
@@ -164,7 +174,7 @@ TEST(SameAsLibrary, SpoiledTextsAreAcceptedAndRefusedAlike) {
     try {
       const Json ours = Json::parse(text);
       ASSERT_FALSE(theirs.is_discarded()) << text;
-      EXPECT_EQ(ours.dump(), theirs.dump());
+      EXPECT_EQ(Library::parse(ours.dump()), theirs);
     } catch (const JsonParseError&) {
       ASSERT_TRUE(theirs.is_discarded()) << text;
     }

@@ -105,7 +105,7 @@ TEST(Image, WhatWouldLeadTheCoreOutOfItsArraysIsRefusedAndNamed) {
   expect_refused("arm.cable_watch.cable", std::int32_t{31}, {});
   expect_refused("arm.cable_watch.suspect", std::int32_t{15}, {"-1..14"});
   expect_refused("arm.let_go.stage", std::uint8_t{4}, {"meaning"});
-  expect_refused("arm.let_go.segment", std::int32_t{5}, {"0..4"});
+  expect_refused("arm.let_go.segment", std::int32_t{5}, {"-1..4"});
   expect_refused("arm.let_go.cable", std::int32_t{15}, {"0..14"});
   expect_refused("arm.motion.braking", std::uint8_t{2}, {"0..1"});
   expect_refused("arm.motion.interval_tick", std::int32_t{-2}, {"0.."});
