@@ -14,6 +14,9 @@ TRAVEL_DEG = 1.0  # of any angle from the fault to the end, where a scenario say
 JOINT = arms.ARMS[arms.CABLE_ARM].joint
 
 
+START_POSE = "prepare"  # of every arm here
+
+
 class EmbeddedStand(Stand):
     faults_are_scheduled = True
 
@@ -23,6 +26,7 @@ class EmbeddedStand(Stand):
     def start(self, scenario):
         faults, script = scenario.faults, scenario.bus_script
         words = {**scenario.words(), **arms.tables(self.robot)}
+        words["bench"] = ["--start-pose", START_POSE, *words.get("bench", [])]
         return System(expect="client,archive", faults=faults, bus_script=script, **words)
 
     def client(self, system):

@@ -140,6 +140,7 @@ class SlitRun(LimitedRun):
         with System(
             expect="client,mission,operator,archive",
             robot=str(ROBOT),
+            scene="panel_slit",
             faults=one.bench_faults(),
             bus_script=one.bus_script(),
             seed=one.seed,

@@ -74,6 +74,7 @@ class KillRun(LimitedRun):
         with System(
             expect="client,mission,operator,archive",
             robot=str(ROBOT),
+            scene="panel_slit",
             bus_script=self.script(),
             seed=one.seed,
             bench=["--start-pose", MOMENTS[one.moment].pose, "--jig", "--rest-within", 10],

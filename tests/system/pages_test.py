@@ -78,7 +78,7 @@ class Pages(Messages, unittest.TestCase):
         self.assert_names(out, "not", "disabled")
         self.assert_names(out, "--by", "3 turns", "0.001", "0.25 turns")
         self.assertEqual(re.findall("exit code (.)", out), ["1", "1", "2"], out)
-        self.assertEqual(out.count("as type cia402_csp"), 1 + 3 + 9, out)
+        self.assertEqual(out.count("as type cia402_csp"), 2 + 3 + 9, out)
         self.assertEqual(out.count("disabled: switch_on_disabled"), 2 + 6, out)
         self.assertEqual(out.count("outcome success, arm time"), 4, "two dry runs and two runs\n" + out)
         self.assertEqual(len(re.findall(r"\d+ ticks, 0 differ", out)), 2, out)

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "host/storage/recording/recording.hpp"
 #include "host/storage/recording/replay_core.hpp"
 
 namespace liana::recording {
