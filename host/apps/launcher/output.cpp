@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <iostream>
 
 #include "host/apps/launcher/errors.hpp"
 #include "host/base/file/out_file.hpp"
@@ -44,7 +45,8 @@ void write_output(const std::string& path, const std::string& text) {
 
 int after_standard_output(int code) {
   errno = 0;
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  std::cout.flush();  // of what prints by it: its stream may be another one than stdout is by now
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return code;
   const char* reason =
       errno != 0 ? std::strerror(errno) : "is the disk full?";  // of an earlier failure nobody has kept the reason
   std::fprintf(stderr, "liana: standard output cannot be written: %s\n", reason);

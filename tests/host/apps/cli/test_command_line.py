@@ -387,8 +387,8 @@ class Help(Messages, unittest.TestCase):
     def test_help_ends_with_an_example_and_each_works_that_needs_neither_a_system_nor_a_drive(self):
         examples = self.examples()
         self.assertGreater(len(examples), 40)
-        runs_long = {"", "check", "run", "console", "teleop", "calibrate", "latency", "force", "link"}
-        needs_system = {"mission", "status", "device", "estop", "clear"}
+        runs_long = {"", "campaign", "check", "run", "console", "teleop", "calibrate", "latency", "force", "link"}
+        needs_system = {"mission", "status", "device", "estop", "clear", "recover"}
         with tempfile.TemporaryDirectory() as folder:
             environment = os.environ | {"PATH": f"{BIN}:{os.environ['PATH']}", "XDG_STATE_HOME": folder}
             for command, example in examples.items():
@@ -581,7 +581,7 @@ class Help(Messages, unittest.TestCase):
             ("lianad", [*tables, "--api", "a"], ("/no/such/buses",)),
             ("lianad", [*tables, "--api", "a", "--time", "never"], ("--time", "never", "fast", "paced", "real")),
             ("liana-bus", ["--nosuch"], ("--nosuch",)),
-            ("liana-bus", ["--socket", "s", "--buses", "/dev/null"], ("/dev/null", "JSON")),
+            ("liana-bus", ["--socket", "s", "--buses", "/dev/null"], ("/dev/null", "device")),
             ("liana-bus", ["--socket", "s", "--buses", huge], (huge, "rate_hz", "1e400")),
             ("liana-bus", ["--socket", "s", "--buses", "b", "--log", "/no/such"], ("/no/such",)),
             ("liana-bench", ["--nosuch"], ("--nosuch", "not expected")),

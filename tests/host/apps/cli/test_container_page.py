@@ -17,8 +17,7 @@ ENGINES = ("docker", "podman")
 
 def commands():
     """Each command of the page that starts docker, as words."""
-    lines = [line for block in re.findall(r"```\n(.*?)```", PAGE.read_text(), re.S) for line in block.splitlines()]
-    return [shlex.split(line) for line in lines if line.startswith("docker ")]
+    return [shlex.split(line) for line in PAGE.read_text().splitlines() if line.startswith("docker ")]
 
 
 def split(words):
@@ -48,7 +47,7 @@ class ContainerPage(unittest.TestCase):
 
     def doctor(self, *prefix):
         words = [*prefix, f"{BIN}/liana", "doctor", "--json"]
-        done = subprocess.run(words, capture_output=True, text=True, check=True)
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
         return {each["name"]: each for each in json.loads(done.stdout)["findings"]}
 
     def test_the_doctor_finds_a_root_without_capabilities_out(self):
@@ -59,11 +58,11 @@ class ContainerPage(unittest.TestCase):
             self.assertFalse(found[name]["good"], found[name])
             self.assertTrue(found[name]["action"])
 
-    def test_the_doctor_finds_what_is_granted(self):
-        if os.geteuid() == 0:
-            self.assertTrue(self.doctor("prlimit", "--memlock=unlimited")["memory locking"]["good"])
-        small = self.doctor("prlimit", "--memlock=65536")["memory locking"]
-        self.assertEqual(small["good"], os.geteuid() == 0, "a limit binds those without CAP_IPC_LOCK")
+    def test_the_doctor_says_of_locking_what_the_kernel_does(self):
+        small = ["prlimit", "--memlock=65536"]
+        mlockall = "import ctypes, sys; sys.exit(ctypes.CDLL(None).mlockall(1) != 0)"
+        is_granted = subprocess.run([*small, sys.executable, "-c", mlockall], check=False).returncode == 0
+        self.assertEqual(self.doctor(*small)["memory locking"]["good"], is_granted)
 
 
 if __name__ == "__main__":
