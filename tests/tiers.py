@@ -41,7 +41,20 @@ UNSANITIZED = ["alloc_guard_tests", "socketcan_tests", "closed_loop_tests", "wor
 TIDIED = ["firmware_like", "host/base/net", "host/api/server", "host/control/realtime"]
 # What has threads of its own.
 THREADED = ["host/base/event", "host/storage/archive", "host/control/realtime", "host/control/server"]
-ALL_PACKAGES = ["build", "configure", "format", "clang", "deep", "install", "chromium", "tshark", "vm", "bits", "wasm", "npm"]
+ALL_PACKAGES = [
+    "build",
+    "configure",
+    "format",
+    "clang",
+    "deep",
+    "install",
+    "chromium",
+    "tshark",
+    "vm",
+    "bits",
+    "wasm",
+    "npm",
+]
 FUZZ_SECONDS = 3  # each target
 PAGE_SUITES = ["unit", "console", "tls", "run_page", "vr", "frames"]
 BARE_ROOT = "README's first command on a bare Debian 12"

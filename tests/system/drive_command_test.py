@@ -166,7 +166,9 @@ class DriveCommand(SystemTest):
                 checked = self.drive("check", "--node", "2", "--type", name, "--json", **where)
                 self.assertEqual(checked.returncode, code, checked.stdout + checked.stderr)
                 self.assertEqual(json.loads(checked.stdout)["would_boot"], code == 0)
-                jogged = self.drive("jog", "--node", "2", "--type", name, "--by", "0.01", "--speed", "0.015", "--yes", **where)
+                jogged = self.drive(
+                    "jog", "--node", "2", "--type", name, "--by", "0.01", "--speed", "0.015", "--yes", **where
+                )
                 self.assertEqual(jogged.returncode, code, jogged.stdout + jogged.stderr)
                 if code:
                     self.assert_names(checked.stdout, "6077", "1A00:3", "0x06020000")

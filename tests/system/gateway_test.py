@@ -224,7 +224,7 @@ class WhenSomethingEnds(GatewayTest):
             self.gateway = Gateway(self, self.system.api, listen=f"127.0.0.1:{port}")
             return self.gateway.address  # none while somebody else's connection goes out by this port
 
-        wait_until(starts_again, "another gateway at the same port")
+        wait_until(starts_again, "its successor at this port")
         again = self.console("owner").until(lambda me: me.state.get("tick", 0) > tick)
         self.assertEqual(again.facts["state"], "ENABLED")
         again.call("acquire")
@@ -600,7 +600,7 @@ class TheCommandConsole(SystemTest):
                 return False
             return True
 
-        wait_until(comes_back, "another gateway at the same address")
+        wait_until(comes_back, "its successor at this address")
         code, error = self.interrupt(process)
         self.assertEqual(code, 0, error)
         self.assertIn("started again", error)

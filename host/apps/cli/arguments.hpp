@@ -53,8 +53,8 @@ std::uint64_t parse_seed(std::string_view option, std::string_view text);
 // Comma-separated finite numbers, exactly `count` of them.
 std::vector<double> parse_numbers(std::string_view option, std::string_view text, std::size_t count);
 
-// Joint angles in degrees within the robot's limits, as radians; entries beyond the robot's are 0. An angle up to 1e-6 rad
-// beyond its limit is taken as the limit, and a note on standard error says so; the same below.
+// Joint angles in degrees within the robot's limits, as radians; entries beyond the robot's are 0. An angle up to 1e-6
+// rad beyond its limit is taken as the limit, and a note on standard error says so; the same below.
 cable::ThetaVector parse_theta_deg(std::string_view option, std::string_view text, const cable::RobotParams& robot);
 
 // The angles of a serial arm's joints in degrees, from the base to the tip, within their ranges.

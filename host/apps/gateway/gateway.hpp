@@ -34,8 +34,8 @@ class Gateway {
   void tick();
 
   bool is_full() const;
-  // Whether who shows this may load the page of a run, or (no `run`) the list of runs and the metrics: by the ticket of a client that
-  // is connected, or what run_ticket() makes of it; anybody may where no tokens are asked for.
+  // Whether who shows this may load the page of a run, or (no `run`) the list of runs and the metrics: by the ticket of
+  // a client that is connected, or what run_ticket() makes of it; anybody may where no tokens are asked for.
   bool lets_in(std::string_view ticket, std::string_view run) const;
   // The newest state and the number of clients as Prometheus reads them.
   std::string metrics() const;

@@ -31,7 +31,7 @@ struct Notes {
   EmergencyStop stop;
   TipTool tool;
   bool stopping = false;
-  std::string enabling_waits;  // for which cables or drives; empty: not for long yet
+  std::string enabling_waits;            // for which cables or drives; empty: not for long yet
   std::vector<std::uint32_t> serials;    // of the drives, once they are booted
   std::optional<std::uint32_t> tick_us;  // longest tick of the last command interval; nothing in virtual time
 };

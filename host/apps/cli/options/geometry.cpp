@@ -8,7 +8,8 @@ namespace {
 void add_pose(CLI::App& app, Action& action) {
   auto [sub, pose] = add<PoseOptions>(app, action, "pose", pose_command);
   add_robot(sub, pose.robot);
-  sub.add_option("--theta-deg", pose.theta_deg, "joint angles t1,t2,... (pitch, yaw per segment), or a named pose")->required();
+  sub.add_option("--theta-deg", pose.theta_deg, "joint angles t1,t2,... (pitch, yaw per segment), or a named pose")
+      ->required();
   sub.add_option("--scene", pose.scene,
                  "scene: which segments its slit wants planar, where they begin, what their yaws may be");
   add_json(sub, pose.json);
@@ -31,7 +32,8 @@ void add_reach(CLI::App& app, Action& action) {
   sub.add_option("--scene", reach.scene, "scene table drawn to scale; takes nothing away from the region");
   sub.add_option("--hold", reach.hold,
                  "cable arms: joint angles held still, e.g. 7,9 or 7=0.5,9 (deg; at --from-deg or 0 without a value)");
-  sub.add_option("--from-deg", reach.from_deg, "joint angles, or a named pose, that are drawn, or where the path begins");
+  sub.add_option("--from-deg", reach.from_deg,
+                 "joint angles, or a named pose, that are drawn, or where the path begins");
   sub.add_option("--to-deg", reach.to_deg, "cable arms: joint angles, or a named pose, where the path ends");
   sub.add_option("--path", reach.path, "cable arms: JSON file with waypoints_deg, as plan --json prints it");
   sub.add_option("--node", reach.node,

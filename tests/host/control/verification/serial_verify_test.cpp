@@ -127,7 +127,7 @@ const Row kRows[] = {
      [](serial::Outputs& o) { o.ik_position_error_m = 0.0049; },
      Refusal::kUnreachable,
      {"distance"}},
-    {"206: or of another attitude",
+    {"206: an attitude that is off",
      [](serial::Outputs& o) { o.ik_attitude_error_rad = 0.0101; },
      [](serial::Outputs& o) { o.ik_attitude_error_rad = 0.0099; },
      Refusal::kUnreachable,
