@@ -74,9 +74,9 @@ void CableArm::read(const DriveFeedbacks& drives, const LoadCells& cells) noexce
     const DriveFeedback& drive = drives[c];
     if (drive.feedback_age_ticks > feedback_age_ticks_) feedback_age_ticks_ = drive.feedback_age_ticks;
     payout_measured_m_[c] = payout_at_counts(table_.drive[c], zero_payout_m_[c], drive.position_counts);
-    tension_measured_N_[c] =
-        reports_torque(table_, c) ? table_.drive[c].newtons_per_permille * drive.torque_permille : pull_N_[c];
+    tension_measured_N_[c] = table_.drive[c].newtons_per_permille * drive.torque_permille;
   }
+  if (table_.no_torque != 0) take_planned_tensions();
   if (first_cable_ != 0) tension_measured_N_[0] = tension_measured_N_[1] = 0.0;
   if (cables_with_cells_ != 0) read_cells(cells);
   if (feedback_age_ticks_ == 0xFFFF) return;  // a drive was never heard
@@ -89,6 +89,12 @@ void CableArm::read_cells(const LoadCells& cells) noexcept {
     if (has_load_cell(table_, c))
       tension_measured_N_[c] = believed_tension_N(table_, cells, c, tension_measured_N_[c], load_cells_);
   }
+}
+
+// Of drives that report no torque.
+void CableArm::take_planned_tensions() noexcept {
+  for (Index c = first_cable(); c < cables(); ++c)
+    if (!reports_torque(table_, c)) tension_measured_N_[c] = pull_N_[c];
 }
 
 void CableArm::count_homing() noexcept {

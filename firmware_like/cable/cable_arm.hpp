@@ -176,6 +176,7 @@ class CableArm {
   void aim_tensions(const TensionPlan& plan) noexcept;
   ThetaVector inertia_load_Nm() noexcept;
   void follow_payload() noexcept;
+  void take_planned_tensions() noexcept;
   void govern() noexcept;
   void look_at_static_load() noexcept;
   std::uint32_t plan_tensions(bool plans_now, bool tensions_valid) noexcept;

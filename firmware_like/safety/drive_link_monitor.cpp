@@ -30,7 +30,7 @@ void watch_state(WatchScope scope, const DriveFeedback& drive, std::int32_t i, D
     if (scope.powered && now != DriveState::kOperationEnabled) {
       out.wrong(FaultNumber::kDriveLeftOperation, i, drive.statusword);
     }
-    if (scope.powered && now == DriveState::kOperationEnabled && drive.operational == kInOtherMode)
+    if (drive.operational == kInOtherMode && scope.powered && now == DriveState::kOperationEnabled)
       out.wrong(FaultNumber::kDriveOtherMode, i, 0);
     if (drive.emergency_code == 0) code = 0;
   }
