@@ -28,7 +28,7 @@ test('of a failed run it says what failed, where, why, and the remedy of the fau
   assert.equal(outcome.what, 'slit_crossing failed in "into the slit"');
   assert.equal(outcome.where, 'at 1.0 s, in step 2: into the slit');
   assert.match(outcome.why, /^drive 8 \(node 8, segment 3\): It is gone. \[5006 cable_break\]/);
-  assert.match(outcome.todo[0], /look at the cable and its clamp/);
+  assert.match(outcome.todo[0], /its clamp on the drum/);
   assert.equal(outcome.tick, 250);
 });
 

@@ -1,7 +1,6 @@
 // A recorded run: what `liana view` wrote into its page.
 import { chainOf, type ArmChain } from '../model/arm_chain';
 import type { Robot, Scene } from '../model/robot';
-import type { ReplayHead } from '../run/replay';
 import type { Facts, LianaEvent, Sample } from './sample';
 import { inflated, telemetryOf, type Telemetry, type TelemetryHead } from './telemetry';
 import { withDerivedEvents } from './derived_events';
@@ -33,6 +32,13 @@ export interface Report {
   faults?: { number: number; name: string; text?: string; remedy?: string }[];
   criteria?: { name: string; value: number; limit: number; met: boolean }[];
   [name: string]: unknown;
+}
+
+export interface ReplayHead {
+  is_serial: boolean;
+  recorded: number; // ticks of the run
+  ticks: number; // of these the page holds the first
+  start_bytes: number;
 }
 
 export interface RunHead {

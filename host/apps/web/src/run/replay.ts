@@ -1,13 +1,7 @@
 // The recorded ticks of a run once more, in this browser: the controller's own code, as WebAssembly, gets the recorded
 // inputs, and what it answers is compared with what was recorded, by checksum.
+import type { ReplayHead } from '../data/run';
 import { inflated } from '../data/telemetry';
-
-export interface ReplayHead {
-  is_serial: boolean;
-  recorded: number; // ticks of the run
-  ticks: number; // of these the page holds the first
-  start_bytes: number;
-}
 
 export interface ReplayState {
   done: number; // ticks so far
@@ -17,7 +11,6 @@ export interface ReplayState {
 
 interface Core {
   memory: WebAssembly.Memory;
-  _initialize(): void;
   room(bytes: number): number;
   start(isSerial: number): void;
   tick(): number;
@@ -42,9 +35,8 @@ async function coreOf(program: Uint8Array): Promise<Core> {
   const module = await WebAssembly.compile(program as BufferSource);
   const nothing = Object.fromEntries(WebAssembly.Module.imports(module).map(({ name }) => [name, () => 0]));
   const { exports } = await WebAssembly.instantiate(module, { wasi_snapshot_preview1: nothing });
-  const core = exports as unknown as Core;
-  core._initialize();
-  return core;
+  (exports['_initialize'] as () => void)();
+  return exports as unknown as Core;
 }
 
 export class Replay {

@@ -1,7 +1,7 @@
 // Says how many of a run's ticks came out the same when this browser ran the controller on them again.
-import type { RunHead } from '../data/run';
+import type { ReplayHead, RunHead } from '../data/run';
 import { h, setText } from '../ui/dom';
-import { replayIn, type Replay, type ReplayHead } from './replay';
+import { replayIn, type Replay } from './replay';
 
 const SLICE_TICKS = 100; // some milliseconds
 const MIN_IDLE_MS = 4;
