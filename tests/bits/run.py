@@ -125,7 +125,10 @@ class Target:
         """Plays a tape and compares; what the Cortex-M7 counted comes along."""
         with tempfile.TemporaryDirectory(dir=folder) as place:
             answers = pathlib.Path(place)
-            os.symlink(tape.tape, answers / "tape.bits")
+            if self.compiler == WASM:  # it sees nothing outside its folder, so no link leads out
+                shutil.copyfile(tape.tape, answers / "tape.bits")
+            else:
+                os.symlink(tape.tape, answers / "tape.bits")
             begin = time.monotonic()
             run([*self.emulator, folder / program], f"playing on {self.name}", cwd=answers)
             result = {
