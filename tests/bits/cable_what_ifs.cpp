@@ -48,6 +48,7 @@ constexpr CableWhatIf kEnabled[] = {
     {kBrief, Of::in_fault},
     {kBrief, Of::off},
     {kBrief, Of::not_operational},
+    {kBrief, Of::other_mode},
     {kBrief, Of::jumped},
     {kBrief, slack},
     {kSlow, loosening},

@@ -30,6 +30,9 @@ struct Planted {
   }
   static void off(In& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].statusword = kSwitchOnDisabled; }
   static void not_operational(In& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].operational = 0; }
+  static void other_mode(In& inputs, std::uint32_t, std::size_t drive) {
+    inputs.drive[drive].operational = kInOtherMode;
+  }
   static void jumped(In& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].position_counts += 200000; }
   static void bus_lost(In& inputs, std::uint32_t, std::size_t) { inputs.lost_bus_mask = 2; }
   static void twice(In& inputs, std::uint32_t, std::size_t drive) { inputs.twice_mask = 1u << drive; }

@@ -36,11 +36,27 @@ void captured_early(serial::Inputs& inputs, std::uint32_t age, std::size_t) {
 }
 
 constexpr SerialWhatIf kEnabled[] = {
-    {kBrief, Of::silent},          {kBrief, Of::missing},     {kBrief, Of::in_fault}, {kBrief, Of::off},
-    {kBrief, Of::not_operational}, {kBrief, Of::jumped},      {kBrief, lagging},      {kBrief, Of::bus_lost},
-    {kBrief, Of::twice},           {kBrief, Of::late},        {kBrief, Of::nonsense}, {kBrief, Of::no_telecommands},
-    {kLong, out_of_reach},         {kLong, Of::straightened}, {kLong, Of::stop},      {kLong, Of::silent_then_cleared},
-    {kBrief, wrist_silent},        {kBrief, wrist_failed},    {kBrief, a_blow},       {kBrief, captured_early},
+    {kBrief, Of::silent},
+    {kBrief, Of::missing},
+    {kBrief, Of::in_fault},
+    {kBrief, Of::off},
+    {kBrief, Of::not_operational},
+    {kBrief, Of::other_mode},
+    {kBrief, Of::jumped},
+    {kBrief, lagging},
+    {kBrief, Of::bus_lost},
+    {kBrief, Of::twice},
+    {kBrief, Of::late},
+    {kBrief, Of::nonsense},
+    {kBrief, Of::no_telecommands},
+    {kLong, out_of_reach},
+    {kLong, Of::straightened},
+    {kLong, Of::stop},
+    {kLong, Of::silent_then_cleared},
+    {kBrief, wrist_silent},
+    {kBrief, wrist_failed},
+    {kBrief, a_blow},
+    {kBrief, captured_early},
 };
 constexpr SerialWhatIf kEnabling[] = {
     {kLong, Of::off},
