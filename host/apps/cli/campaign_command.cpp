@@ -181,19 +181,24 @@ int say_end(const CampaignOptions& options, std::uint64_t rows, bool is_repeatab
   return is_whole ? launcher::kExitOk : launcher::kExitFailure;
 }
 
-std::unique_ptr<campaign::Engine> engine_of(const CampaignOptions& options, LoadedCampaign& loaded,
-                                            const launcher::InterruptGuard& interrupts, campaign::Say say) {
+// Of the local engine; refuses what does not go with the engine that was asked for.
+std::size_t jobs_of(const CampaignOptions& options) {
   if (options.engine == "slurm") {
     if (!options.rows.empty()) throw BadInput("--rows: goes with --engine local; leave one of the two out");
     if (!options.jobs.empty()) throw BadInput("--jobs: goes with --engine local; Slurm decides; leave it out");
+  }
+  if (options.jobs.empty()) return campaign::processors();
+  return static_cast<std::size_t>(parse_whole("--jobs", options.jobs, 1, kMaxJobs));
+}
+
+std::unique_ptr<campaign::Engine> engine_of(const CampaignOptions& options, std::size_t jobs, LoadedCampaign& loaded,
+                                            const launcher::InterruptGuard& interrupts, campaign::Say say) {
+  if (options.engine == "slurm") {
     Json table = loaded.table;
     table["folder"] = loaded.folder;
     return std::make_unique<campaign::SlurmEngine>(fs::absolute(options.out).string() + kSlurmFolder, table,
                                                    loaded.rows, interrupts, std::move(say));
   }
-  const std::size_t jobs = options.jobs.empty()
-                               ? campaign::processors()
-                               : static_cast<std::size_t>(parse_whole("--jobs", options.jobs, 1, kMaxJobs));
   return std::make_unique<campaign::LocalEngine>(loaded.rows, jobs, interrupts, std::move(say));
 }
 
@@ -216,9 +221,10 @@ int campaign_command(const CampaignOptions& given) {
   if (options.out.empty()) options.out = rows.config().name + ".db";
   const campaign::Say say = [&](const std::string& text) { progress->say(text); };
   check_rows(options, rows, numbers, {});
+  const std::size_t jobs = jobs_of(options);
   if (is_asked_for) {
     progress = std::make_unique<campaign::Progress>(numbers.size());
-    return run_rows(options, *engine_of(options, loaded, interrupts, say), *progress, interrupts, numbers);
+    return run_rows(options, *engine_of(options, jobs, loaded, interrupts, say), *progress, interrupts, numbers);
   }
   bool is_repeatable = true;
   {
@@ -226,7 +232,7 @@ int campaign_command(const CampaignOptions& given) {
     const std::map<std::uint64_t, std::string> done = store.done();
     if (!done.empty()) check_rows(options, rows, numbers, done);
     if (done.empty()) fs::remove_all(options.out + kSlurmFolder);  // of a database that was removed
-    const auto engine = engine_of(options, loaded, interrupts, say);
+    const auto engine = engine_of(options, jobs, loaded, interrupts, say);
     std::erase_if(numbers, [&](std::uint64_t number) { return done.count(number) != 0; });
     progress = std::make_unique<campaign::Progress>(numbers.size());
     progress->say("campaign " + rows.config().name + ": " + std::to_string(rows.count()) + " rows, " +

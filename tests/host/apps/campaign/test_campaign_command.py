@@ -176,7 +176,9 @@ class BadInput(Campaign):
         self.refused(self.table, "--full", self.folder / "full", says=["--rows"])
         self.refused(self.table, "--rows", "2", "--full", self.folder / "full", says=["--rows", "0 to 1"])
         self.refused(self.table, "--rows", "1-0", "--full", self.folder / "full", says=["1-0"])
-        self.refused(self.table, "--jobs", "0", says=["--jobs"])
+        database = self.folder / "refused.db"
+        self.refused(self.table, "--jobs", "0", "--out", database, says=["--jobs"])
+        self.assertFalse(database.exists())
         self.refused("show", self.folder / "none.db", says=["none.db"])
         self.refused("show", self.table, says=["no database"])
         self.refused("plot", says=["database"])
