@@ -55,17 +55,15 @@ struct Slot {
   std::unique_ptr<launcher::ChildProcess> run;
 };
 
-struct Waiting {
-  std::uint64_t number;
-  int tries = 0;
-};
-
 class Workers {
  public:
   Workers(Rows& rows, const Order& order, const TakeResult& take, const Say& say)
-      : rows_(rows), order_(order), take_(take), say_(say), scratch_(launcher::temporary_directory()) {
-    for (const std::uint64_t number : order.rows) waiting_.push_back({number});
-  }
+      : rows_(rows),
+        order_(order),
+        take_(take),
+        say_(say),
+        scratch_(launcher::temporary_directory()),
+        waiting_(order.rows.begin(), order.rows.end()) {}
   ~Workers() {
     for (const auto& [number, slot] : busy_) slot.run->ask_to_end();
     for (const auto& [number, slot] : busy_) slot.run->end(kEndGrace_s);
@@ -80,10 +78,10 @@ class Workers {
 
   void fill(std::size_t jobs) {
     while (busy_.size() < jobs && !waiting_.empty()) {
-      const Waiting next = waiting_.front();
+      const std::uint64_t number = waiting_.front();
       waiting_.pop_front();
-      tries_[next.number] = next.tries + 1;
-      busy_.emplace(next.number, start(next.number));
+      ++tries_[number];
+      busy_.emplace(number, start(number));
     }
   }
 
@@ -137,7 +135,7 @@ class Workers {
     if (is_refused || (has_begun && end.signal == 0 && end.code != launcher::kExitInterrupted)) {
       take_(result_of(slot, end, report, words));
     } else if (tries_[number] < kMaxTries) {
-      waiting_.push_back({number, tries_[number]});
+      waiting_.push_back(number);
     } else {
       say_("row " + std::to_string(number) + " has no result after " + std::to_string(kMaxTries) + " tries: its run " +
            launcher::how(end) + words);
@@ -170,7 +168,7 @@ class Workers {
   const TakeResult& take_;
   const Say& say_;
   std::string scratch_;
-  std::deque<Waiting> waiting_;
+  std::deque<std::uint64_t> waiting_;
   std::map<std::uint64_t, Slot> busy_;
   std::map<std::uint64_t, int> tries_;
 };
