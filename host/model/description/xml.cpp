@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include "host/base/svg/svg.hpp"
+
 namespace liana::description {
 
 std::string number(double value) {
@@ -16,23 +18,7 @@ std::string numbers(std::span<const double> values) {
 }
 
 std::string attribute(std::string_view name, std::string_view value) {
-  std::string text = " " + std::string(name) + "=\"";
-  for (const char c : value) {
-    switch (c) {
-      case '&':
-        text += "&amp;";
-        break;
-      case '<':
-        text += "&lt;";
-        break;
-      case '"':
-        text += "&quot;";
-        break;
-      default:
-        text += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-    }
-  }
-  return text + '"';
+  return " " + std::string(name) + "=\"" + svg::escaped(value) + '"';
 }
 
 }  // namespace liana::description
