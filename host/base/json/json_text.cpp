@@ -198,6 +198,11 @@ class Writer {
 
   // Controls beyond those of ASCII as \u: whoever shows the text on a terminal shows nothing that it acts on.
   void add_visible(std::string_view dumped) {
+    const auto is_plain = [](unsigned char c) { return c >= 0x20 && c < 0x7F; };
+    if (std::all_of(dumped.begin(), dumped.end(), is_plain)) {  // nearly every text
+      out_ += dumped;
+      return;
+    }
     while (!dumped.empty()) {
       const std::string_view character = dumped.substr(0, std::max<std::size_t>(1, text::character_bytes(dumped)));
       dumped.remove_prefix(character.size());
