@@ -96,20 +96,21 @@ def table(kind: str, name: str) -> str:
     return str(done.stdout)
 
 
-def bus_of(robot: str) -> str:
+def bus_of(robot: str, content: Optional[Message] = None) -> str:
     """The bus table that a simulated system of this robot takes, as `liana run` chooses it: its own, else `embedded`
-    where that has its drives, else one that is made for them."""
+    where that has its drives, else one that is made for them. `content`: of the robot's table, where it is there."""
     try:
         table("buses", f"embedded_{robot}")
         return f"embedded_{robot}"
     except ProgramRefused:
-        drives = len(json.loads(table("robot", robot))["drives"]["zero_counts"])
+        content = content or json.loads(table("robot", robot))
+        drives = len(content["drives"]["zero_counts"])
         return "embedded" if drives == DRIVES_OF_EMBEDDED else f"bench_{drives}"
 
 
-def start_pose_of(robot: str) -> str:
+def start_pose_of(robot: str, content: Optional[Message] = None) -> str:
     """The named pose in which a simulated arm of this robot stands at first, as `liana run` chooses it."""
-    content = json.loads(table("robot", robot))
+    content = content or json.loads(table("robot", robot))
     poses = content["named_poses_deg"]
     return str(content.get("start_pose") or next((name for name in ("prepare", "zero") if name in poses), min(poses)))
 
@@ -152,6 +153,7 @@ class System:
         self.clients: list[Client] = []
         self.expect, self.faults, self.script, self.seed = expect, faults, bus_script, seed
         self.robot, self.bus = robot, bus
+        self.robot_table: Message = {}  # its content, once it is written
         self.scene = scene or ("panel_slit" if robot == DEFAULT_ROBOT else "none")
         self.lianad_words, self.bench_words = list(lianad), list(bench)
 
@@ -168,8 +170,11 @@ class System:
 
     def write_tables(self) -> None:
         """What the programs are given, as files."""
-        self.bus = self.bus or bus_of(self.robot)
-        for kind, name in (("robot", self.robot), ("scene", self.scene), ("buses", self.bus)):
+        robot = table("robot", self.robot)
+        self.robot_table = json.loads(robot)
+        self.bus = self.bus or bus_of(self.robot, self.robot_table)
+        (self.directory / "robot.json").write_text(robot)
+        for kind, name in (("scene", self.scene), ("buses", self.bus)):
             (self.directory / f"{kind}.json").write_text(table(kind, name))
         for name, content in (("faults", self.faults), ("script", self.script)):
             if content is not None:
@@ -212,7 +217,7 @@ class System:
     def start_bench(self) -> None:
         words = ["--bus-socket", self.bus_socket, "--api", self.api, "--seed", self.seed, *self.reports_of_bench()]
         if "--start-pose" not in self.bench_words:
-            words += ["--start-pose", start_pose_of(self.robot)]
+            words += ["--start-pose", start_pose_of(self.robot, self.robot_table)]
         self.start("liana-bench", *self.tables(), *words, *self.optional("--faults", "faults"), *self.bench_words)
 
     def reports_of_bench(self) -> list[Any]:
