@@ -50,9 +50,9 @@ CableArm::CableArm(const RobotParams& table) noexcept
       cables_with_cells_(cables_with_cells(table)),
       tension_watch_limits_(make_tension_watch_limits(table)) {
   for (Index c = 0; c < cables(); ++c) zero_payout_m_[c] = layout_.zero_length_m[c] + table.lead_m;
-  for (Index c = 0; c < cables(); ++c)
-    if (!reports_torque(table, c))
-      pull_N_[c] = table.tension.plan_N;  // what brakes are taken to hold, until it is planned
+  for (Index c = 0; c < cables(); ++c) {
+    if (!reports_torque(table, c)) pull_N_[c] = table.tension.plan_N;  // what brakes hold, until it is planned
+  }
   cable_watch_limits_ = make_cable_watch_limits(table, zero_payout_m_);
   torque_limits_ = make_torque_limits(table);
   reset_friction_watch(declared_mu_, friction_);

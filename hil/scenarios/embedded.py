@@ -12,9 +12,7 @@ MOVE_DEG = 6.0
 PATH_STOP = 500  # ticks; twice what rest from full speed takes
 TRAVEL_DEG = 1.0  # of any angle from the fault to the end, where a scenario says nothing else
 JOINT = arms.ARMS[arms.CABLE_ARM].joint
-
-
-START_POSE = "prepare"  # of every arm here
+START_POSE = "prepare"  # of every arm whose scenario names none
 
 
 class EmbeddedStand(Stand):
@@ -26,7 +24,8 @@ class EmbeddedStand(Stand):
     def start(self, scenario):
         faults, script = scenario.faults, scenario.bus_script
         words = {**scenario.words(), **arms.tables(self.robot)}
-        words["bench"] = ["--start-pose", START_POSE, *words.get("bench", [])]
+        if "--start-pose" not in words["bench"]:
+            words["bench"] = ["--start-pose", START_POSE, *words["bench"]]
         return System(expect="client,archive", faults=faults, bus_script=script, **words)
 
     def client(self, system):

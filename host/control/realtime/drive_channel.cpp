@@ -61,10 +61,13 @@ DriveChannel::DriveChannel(const std::vector<canopen::ExpectedDrive>& drives, co
     drive_of_node_[static_cast<std::size_t>(drives_[i].bus)][drives_[i].node] = static_cast<int>(i);
     has_drives_[static_cast<std::size_t>(drives_[i].bus)] = true;
   }
-  for (const config::BusConfig& each : buses.buses)
-    for (const config::LoadCellNode& node : each.load_cells)
-      for (const std::size_t cable : node.cables)
+  for (const config::BusConfig& each : buses.buses) {
+    for (const config::LoadCellNode& node : each.load_cells) {
+      for (const std::size_t cable : node.cables) {
         if (cable < has_cell_.size()) has_cell_[cable] = true;
+      }
+    }
+  }
 }
 
 // Everything that came in since the last tick; what did not come grows older.
@@ -225,17 +228,19 @@ std::vector<std::string> DriveChannel::unwatched() const {
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     const std::string name = canopen::name_of(drives_[i]);
-    if (!drives_[i].type.has_torque)
+    if (!drives_[i].type.has_torque) {
       lines.push_back(name + (has_cell_[i] ? ": reports no torque: the tension of its cable is by its load cell alone"
                                            : ": reports no torque and has no load cell: the tension of its cable is "
                                              "taken as planned, and slack, overload, slip, break and contact (5001 to "
                                              "5003, 5005 to 5009) are not watched"));
+    }
     const bool has_mode = master_.boot().has(i, {canopen::kModeDisplay, 0});
     if (!has_mode) lines.push_back(name + ": has no 6061: whether it stays in its mode is not watched");
-    if (has_mode && master_.modes().bus_is_full(i))
+    if (has_mode && master_.modes().bus_is_full(i)) {
       lines.push_back(name +
                       ": its bus has no room to ask for 6061 (max_load): whether it stays in its mode is not "
                       "watched");
+    }
   }
   return lines;
 }
