@@ -20,7 +20,7 @@ double number_or(const JsonFile& file, const std::string& field, double low, dou
 // What a segment's modules weigh and how their joints spring: its own fields, else those of all.
 void read_module(const JsonFile& file, const std::string& at_segment, SegmentConfig& segment) {
   segment.module_mass_kg =
-      number_or(file, at_segment + "/module_mass_kg", 0.0001, 100.0, file.number("/module/mass_kg", 0.0001, 100.0));
+      number_or(file, at_segment + "/module_mass_kg", 1e-6, 100.0, file.number("/module/mass_kg", 1e-6, 100.0));
   segment.module_center =
       number_or(file, at_segment + "/module_center", 0.0, 1.0, number_or(file, "/module/center", 0.0, 1.0, 0.5));
   segment.joint_stiffness_Nm_rad = number_or(file, at_segment + "/joint_stiffness_Nm_per_rad", 0.0, 1e4,
@@ -70,7 +70,7 @@ void read_segments(const JsonFile& file, RobotConfig& robot) {
   for (std::size_t m = 0; m < count; ++m) {
     SegmentConfig segment;
     segment.modules = file.integer(at("/segments", m) + "/modules", 1, 16);
-    segment.module_length_m = file.number(at("/segments", m) + "/module_length_m", 0.01, 1.0);
+    segment.module_length_m = file.number(at("/segments", m) + "/module_length_m", 0.001, 1.0);
     segment.theta_limit_rad = kRadPerDeg * file.number(at("/segments", m) + "/theta_limit_deg", 0.1, 45.0);
     read_module(file, at("/segments", m), segment);
     const std::string phases = at("/cables/phase_deg", m);
@@ -78,7 +78,7 @@ void read_segments(const JsonFile& file, RobotConfig& robot) {
     if (cables < 3 || cables > 5) file.fail(phases, "has " + std::to_string(cables) + " cables, allowed is 3 to 5");
     for (const double phase : file.numbers(phases, cables, -360.0, 360.0))
       segment.cable_phase_rad.push_back(kRadPerDeg * phase);
-    segment.hole_radius_m = number_of_segment(file, "/cables/hole_radius_m", m, 0.001, 0.5);
+    segment.hole_radius_m = number_of_segment(file, "/cables/hole_radius_m", m, 0.0002, 0.5);
     segment.face_offset_m = number_of_segment(file, "/cables/face_offset_m", m, 0.0, 0.5);
     robot.segments.push_back(segment);
   }
@@ -88,7 +88,7 @@ void read_segments(const JsonFile& file, RobotConfig& robot) {
 
 void read_mechanics(const JsonFile& file, RobotConfig& robot) {
   read_weight(file, robot);
-  robot.module_radius_m = file.number("/module/radius_m", 0.001, 0.5);
+  robot.module_radius_m = file.number("/module/radius_m", 0.0005, 0.5);
   robot.viscous_Nms_per_rad = file.number("/joint/viscous_Nms_per_rad", 0.0, 100.0);
   robot.cable_EA_N = file.number("/cables/EA_N", 1e2, 1e8);
   robot.plan_tension_N = file.number("/tension/plan_N", 1e-3, 1e6);

@@ -22,7 +22,7 @@
 namespace liana::cli {
 namespace {
 
-constexpr double kMinHoleDistance_m = 0.001;
+constexpr double kMinHoleDistance_m = 0.001, kMinHoleDistanceShare = 0.1;  // less in short modules: of their length
 constexpr double kUnknown_m = 0.01e-3;   // of a length, after homing: arms of the bench stay above their floor by it
 constexpr std::int32_t kSamples = 5000;  // of the workspace, whose boundary is then climbed to
 constexpr std::int32_t kCarrySamples = 2000;
@@ -55,21 +55,39 @@ Json poses_of(const config::RobotConfig& robot, Json& problems) {
   return poses;
 }
 
+// The first segment that bends.
+const cable::SegmentParams& first_bending(const cable::RobotParams& table) {
+  return table.segment[static_cast<std::size_t>(table.first_bending())];
+}
+
+// The pair that is nearest speaks for all.
 void look_at_holes(const cable::RobotParams& table, Json& problems) {
   const cable::CableLayout layout = cable_layout(table);
   const auto cables = static_cast<std::size_t>(layout.cable_count);
-  const config::DriveNames names(table);
+  double shortest_m = first_bending(table).module_length_m;
+  for (auto j = static_cast<std::size_t>(table.first_bending()); j < static_cast<std::size_t>(table.segment_count); ++j)
+    shortest_m = std::min(shortest_m, table.segment[j].module_length_m);
+  const double allowed_m = std::min(kMinHoleDistance_m, kMinHoleDistanceShare * shortest_m);
+  double nearest_m = allowed_m;
+  std::size_t first = 0, second = 0, pairs = 0;
   for (auto a = static_cast<std::size_t>(table.feed_count()); a < cables; ++a) {
     for (std::size_t b = a + 1; b < cables; ++b) {
       const double distance_m =
           std::hypot(layout.hole_y_m[a] - layout.hole_y_m[b], layout.hole_z_m[a] - layout.hole_z_m[b]);
-      if (distance_m < kMinHoleDistance_m)
-        problems.push_back(
-            names.cable(a) + " and " + names.cable(b) +
-            text(": their holes are %.1f mm apart in the discs that both pass: turn a segment's cables.phase_deg",
-                 1e3 * distance_m));
+      if (distance_m >= allowed_m) continue;
+      ++pairs;
+      if (distance_m >= nearest_m) continue;
+      nearest_m = distance_m;
+      first = a;
+      second = b;
     }
   }
+  if (pairs == 0) return;
+  const config::DriveNames names(table);
+  problems.push_back(names.cable(first) + " and " + names.cable(second) +
+                     text(": their holes are %.2g mm apart in the discs that both pass, %zu pairs less than %.2g mm: "
+                          "turn a segment's cables.phase_deg, or widen hole_radius_m",
+                          1e3 * nearest_m, pairs, 1e3 * allowed_m));
 }
 
 void look_at_fixtures(const config::RobotConfig& robot, Json& problems) {
@@ -93,11 +111,6 @@ void look_at_zero(const config::RobotConfig& robot, Json& problems) {
              k + 1, zero_deg[k]));
     return;
   }
-}
-
-// The first segment that bends.
-const cable::SegmentParams& first_bending(const cable::RobotParams& table) {
-  return table.segment[static_cast<std::size_t>(table.first_bending())];
 }
 
 // What the straight arm, turned about its base at the tip's acceleration, asks of one cable there: an arm that needs

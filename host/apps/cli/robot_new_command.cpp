@@ -17,11 +17,14 @@ namespace liana::cli {
 namespace {
 
 constexpr double kHoleShare = 0.8;                         // of the radius, where the cables' holes are
-constexpr double kHoleApart_m = 0.0015;                    // between neighbours among them
+constexpr double kHoleApart_m = 0.0015;                    // between neighbours among them; less in short modules:
+constexpr double kHoleApartShare = 0.15;                   // of a module's length
 constexpr double kUsualPlan_N = 30.0, kUsualJump_N = 7.0;  // of discs of 25 mm radius
 constexpr double kMinPlan_N = 3.0;        // less is lost in a drive's friction and the steps of its torque
 constexpr double kShortestLead_m = 0.1;   // drives are not smaller with the arm
 constexpr double kThetaRate_deg_s = 2.0;  // no faster than the tip needs it
+constexpr double kMinTipSpeed = 0.01;     // in arm lengths a second: a named pose is reached within its step's time
+constexpr double kPoseBend_deg = 200.0;   // of the whole arm in `bent`, three quarters of it in `back`
 constexpr double kShareOfAccel = 0.7;     // for the tip on its line; what is left catches up where the way gets harder
 constexpr double kPlanStretch_m = 0.15e-3;  // of the shortest cable at plan_N, as of the usual arm
 
@@ -58,7 +61,8 @@ class Asking {
 
 // Discs as wide as their links are long, in the proportion of the usual arm; wide enough for the holes of all cables.
 double usual_radius_m(const Answers& answers) {
-  const double holes_m = kHoleApart_m * answers.segments * answers.cables / (2.0 * std::numbers::pi * kHoleShare);
+  const double apart_m = std::min(kHoleApart_m, kHoleApartShare * answers.length_m);
+  const double holes_m = apart_m * answers.segments * answers.cables / (2.0 * std::numbers::pi * kHoleShare);
   const double proportionate_m = kAskRadius.usual * answers.length_m / kAskLength.usual;
   return std::clamp(std::round(1e4 * std::max(holes_m, proportionate_m)) / 1e4, kAskRadius.least, kAskRadius.most);
 }
@@ -99,6 +103,8 @@ std::string holes(const Answers& a) {
 }
 
 std::string head(const std::string& name, const Answers& a) {
+  const double bent_deg =
+      std::min(0.4 * a.theta_limit_deg, kPoseBend_deg / (std::numbers::sqrt2 * a.segments * a.modules));
   return "-- " + name +
          ": written by `liana robot new`. What it asked for is marked; everything else is assumed from it, and yours "
          "to\n" +
@@ -125,8 +131,8 @@ std::string head(const std::string& name, const Answers& a) {
          "-- (docs/how-to/bring-your-own-arm.md).\n"
          "for k = 1, 2 * kSegments do\n"
          "  local m = (k + 1) // 2\n" +
-         filled("  zero[k], bent[k], back[k] = 0, %g * (k %% 2 == 0 and -1 or 1), %g * (k %% 3 == 0 and -1 or 1)\n",
-                0.4 * a.theta_limit_deg, 0.3 * a.theta_limit_deg) +
+         filled("  zero[k], bent[k], back[k] = 0, %.3g * (k %% 2 == 0 and -1 or 1), %.3g * (k %% 3 == 0 and -1 or 1)\n",
+                bent_deg, 0.75 * bent_deg) +
          filled("  wave[k] = %.3g * (m %% 4 < 2 and 1 or -1)\n",
                 start_bend_deg({a.segments, a.modules, a.theta_limit_deg})) +
          "end\n\n";
@@ -137,10 +143,12 @@ std::string body(const std::string& name, const Answers& a) {
   const double arm_m = a.segments * a.modules * a.length_m, size = a.radius_m / 0.025;
   const double plan_N = std::max(kMinPlan_N, kUsualPlan_N * size * size), drum_m = 0.012 * std::sqrt(size),
                hard_N = 15.0 * plan_N;
-  const double mass_kg = std::max(0.001, 0.2 * size * size * (a.length_m / 0.08)), reach = std::min(1.0, arm_m / 1.44);
+  const double mass_kg = std::max(0.00001, 0.2 * size * size * (a.length_m / 0.08)),
+               reach = std::min(1.0, arm_m / 1.44);
   const double tip_m_deg = tip_way_m_deg({a.segments, a.modules, a.theta_limit_deg}, arm_m);
   const double theta_rate_deg_s = std::min(kThetaRate_deg_s, 0.1 * reach / tip_m_deg);
-  const double theta_accel_deg_s2 = 2.0 * theta_rate_deg_s, speed_m_s = tip_m_deg * theta_rate_deg_s;
+  const double theta_accel_deg_s2 = 2.0 * theta_rate_deg_s,
+               speed_m_s = std::max(tip_m_deg * theta_rate_deg_s, kMinTipSpeed * arm_m);
   const double lead_m = std::clamp(0.2 * arm_m, kShortestLead_m, 10.0), shortest_m = a.modules * a.length_m + lead_m;
   const double EA_N =
       std::clamp(150000.0 * size * size, 1500.0, std::max(1500.0, plan_N * shortest_m / kPlanStretch_m));
@@ -177,7 +185,8 @@ std::string body(const std::string& name, const Answers& a) {
              "    tip_speed_m_s = %.3g, -- and acceleration: what these angles can give in every direction from "
              "`wave`\n"
              "    tip_speed_slit_m_s = %.3g,\n    tip_accel_m_s2 = %.3g,\n",
-             speed_m_s, 0.3 * speed_m_s, std::min(0.15 * reach, kShareOfAccel * tip_m_deg * theta_accel_deg_s2)) +
+             speed_m_s, 0.3 * speed_m_s,
+             std::min(0.15 * reach, std::max(speed_m_s, kShareOfAccel * tip_m_deg * theta_accel_deg_s2))) +
          "    tip_jerk_m_s3 = 1,\n    tip_rate_deg_s = 20,\n    tip_angular_accel_deg_s2 = 40,\n"
          "    tip_angular_jerk_deg_s3 = 400,\n    cable_speed_m_s = 0.010,\n  },\n"
          "  named_poses_deg = { zero = zero, bent = bent, back = back, wave = wave },\n"

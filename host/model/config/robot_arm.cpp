@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kLongestTipLag_s = 5.0;
 
-constexpr Range kModuleMass{0.0001, 100};
+constexpr Range kModuleMass{0.000001, 100};
 constexpr double kHeaviest_m_s2 = 30.0;
 constexpr double kRollMost_deg = 170.0;  // half a turn is the same either way
 
@@ -54,7 +54,7 @@ void read_segment(const Field& field, cable::SegmentParams& segment) {
       number_or(field, "joint_stiffness_Nm_per_rad", {0, 1e4}, segment.joint_stiffness_Nm_rad);
   read_rest(field, "joint_rest_deg", segment);
   segment.modules = static_cast<std::int32_t>(field.at("modules").integer(1, cable::kMaxModules));
-  segment.module_length_m = field.at("module_length_m").number({0.01, 1});
+  segment.module_length_m = field.at("module_length_m").number({0.001, 1});
   segment.theta_limit_rad = field.at("theta_limit_deg").number({0.1, 45}) * kDegree;
 }
 
@@ -106,7 +106,7 @@ void read_phases(const Field& field, cable::SegmentParams& segment) {
 void read_arm(const Field& table, RobotConfig& out) {
   cable::RobotParams& robot = out.table;
   const Field module = table.at("module");
-  out.module_radius_m = module.at("radius_m").number({0.001, 0.5});
+  out.module_radius_m = module.at("radius_m").number({0.0005, 0.5});
   const cable::SegmentParams each = read_module(module, table.at("joint"));
   read_weight(table, robot);
   out.joint_viscous_Nms_per_rad = table.at("joint").at("viscous_Nms_per_rad").number({0, 100});
@@ -134,8 +134,8 @@ void read_arm(const Field& table, RobotConfig& out) {
   const Field radius = table.at("cables").at("hole_radius_m"), offset = table.at("cables").at("face_offset_m");
   for (std::size_t m = 0; m < count; ++m) {
     cable::SegmentParams& segment = robot.segment[base + m];
-    segment.hole_radius_m = number_of_segment(radius, m, count, {0.001, out.module_radius_m});
-    segment.face_offset_m = number_of_segment(offset, m, count, {0.0001, 0.49 * shortest_m});
+    segment.hole_radius_m = number_of_segment(radius, m, count, {0.0002, out.module_radius_m});
+    segment.face_offset_m = number_of_segment(offset, m, count, {0.00001, 0.49 * shortest_m});
   }
 }
 
@@ -159,9 +159,9 @@ void read_limits(const Field& field, cable::MotionLimits& limits) {
               "cable_speed_m_s", "tip_lag_s"});
   limits.theta_rate_rad_s = field.at("theta_rate_deg_s").number({0.001, 90}) * kDegree;
   limits.theta_accel_rad_s2 = field.at("theta_accel_deg_s2").number({0.001, 1000}) * kDegree;
-  limits.tip_speed_m_s = field.at("tip_speed_m_s").number({0.0001, 2});
-  limits.tip_speed_slit_m_s = field.at("tip_speed_slit_m_s").number({0.0001, limits.tip_speed_m_s});
-  limits.tip_accel_m_s2 = field.at("tip_accel_m_s2").number({0.0001, 50});
+  limits.tip_speed_m_s = field.at("tip_speed_m_s").number({0.000001, 2});
+  limits.tip_speed_slit_m_s = field.at("tip_speed_slit_m_s").number({0.000001, limits.tip_speed_m_s});
+  limits.tip_accel_m_s2 = field.at("tip_accel_m_s2").number({0.000001, 50});
   limits.tip_jerk_m_s3 = field.at("tip_jerk_m_s3").number({0.001, 1000});
   limits.tip_rate_rad_s = field.at("tip_rate_deg_s").number({0.001, 360}) * kDegree;
   limits.tip_angular_accel_rad_s2 = field.at("tip_angular_accel_deg_s2").number({0.001, 10000}) * kDegree;
