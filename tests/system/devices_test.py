@@ -183,10 +183,11 @@ class Drivers(DevicesTest):
         self.client.call("use_device", device="none")
         driver.terminate()
 
-    def test_a_second_lianad_would_not_take_the_socket_and_this_one_takes_it_away(self):
-        self.assertTrue(pathlib.Path(self.path).is_socket())
+    def test_a_second_lianad_would_not_take_the_sockets_and_this_one_takes_them_away(self):
+        sockets = [pathlib.Path(self.path), self.system.api]
+        self.assertTrue(all(socket.is_socket() for socket in sockets))
         self.system.shut_down(self.client)
-        self.assertFalse(pathlib.Path(self.path).exists())
+        self.assertFalse(any(socket.exists() for socket in sockets))
 
 
 class Spacemice(DevicesTest):

@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -51,10 +52,10 @@ std::string op_of(const Json& request) {
 }  // namespace
 
 ApiServer::ApiServer(const std::string& path, ApiHandler& handler, std::optional<gid_t> group)
-    : group_(group), listener_(listen_at("--api", path, group)), handler_(handler) {
+    : path_(path), group_(group), listener_(listen_at("--api", path, group)), handler_(handler) {
   drop_unidentified();
 }
-ApiServer::~ApiServer() = default;
+ApiServer::~ApiServer() { ::unlink(path_.c_str()); }
 
 void ApiServer::pump(double timeout_s, int others) {
   std::vector<pollfd> polled{{listener_.get(), POLLIN, 0}};

@@ -42,7 +42,7 @@ class ApiHandler {
 class ApiServer {
  public:
   // Listens at `path` for programs of this user and of root, and of members of `group` where one is given; throws
-  // std::runtime_error.
+  // std::runtime_error. Its end removes the socket.
   ApiServer(const std::string& path, ApiHandler& handler, std::optional<gid_t> group = std::nullopt);
   ~ApiServer();
 
@@ -107,6 +107,7 @@ class ApiServer {
   void close(Client& client, const std::string& why);
   void bury();
 
+  std::string path_;
   std::optional<gid_t> group_;
   UniqueFd listener_;
   UniqueFd spare_;  // given up where a newcomer finds no other descriptor: it may want to stop the arm
