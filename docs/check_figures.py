@@ -13,9 +13,11 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 CORE, ARM = ["firmware_like"], ["firmware_like", "host/control", "host/model", "hil", "lua"]
+SIMULATOR = [f"hil/{room}" for room in ("arm", "bench", "bus", "config", "drive", "math", "payload", "serial")]
 PLANS = ["firmware_like", "host/planning", "host/model"]
 # Section: the sources that its figures are of; any other section is of ARM.
 SOURCES = {
+    "acceptance": [path for path in ARM if path != "hil"] + SIMULATOR + ["host/operator", "host/planning"],
     "archive": ["host/storage/archive"],
     "benchmarks": CORE,
     "clearance": ["host/model/clearance", "host/control/clearance_bound"],
@@ -60,9 +62,15 @@ def changes_since(text, paths):
     return max(counts, default=None)
 
 
+def expired_of(found):
+    """Those sections that have expired, with the commits since; None where no commit of theirs is in the history."""
+    counts = {name: changes_since(text, SOURCES.get(name, ARM)) for name, text in sorted(found.items())}
+    return {name: count for name, count in counts.items() if count != 0}
+
+
 def main(words):
-    found = {name: changes_since(text, SOURCES.get(name, ARM)) for name, text in sections().items()}
-    expired = {name: count for name, count in sorted(found.items()) if count != 0}
+    found = sections()
+    expired = expired_of(found)
     if words == ["--json"]:
         print(json.dumps({"sections": len(found), "expired": expired}))
         return

@@ -6,5 +6,12 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 BENCH = ROOT / "tests" / "benchmarks"
 sys.path[:0] = [
     str(ROOT / folder)
-    for folder in ("host/api/python", "hil/scenarios", "tests/benchmarks", "tests/mutation", "tests/fuzz")
+    for folder in (
+        "host/api/python",
+        "hil/scenarios",
+        "tests/benchmarks",
+        "tests/mutation",
+        "tests/fuzz",
+        "tests/structure",
+    )
 ]

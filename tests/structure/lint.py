@@ -97,7 +97,7 @@ CHECKS = {
     "lengths of sentences in the pages": runs("python3", "docs/check_prose.py"),
     "quoted sentences of messages": runs("python3", "tests/structure/quoted_sentences.py"),
     "namespaces of rooms": runs("python3", "tests/structure/check_namespaces.py"),
-    "tags of requirements, and their page": runs("python3", "tests/structure/requirements.py", "--check"),
+    "the acceptance page": runs("python3", "tests/structure/accept.py", "--check"),
     "the page of missions and their library": runs("python3", "docs/mission_page.py", "--check"),
     "documentation links": runs("python3", "docs/check_links.py"),
 }

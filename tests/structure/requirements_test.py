@@ -23,7 +23,7 @@ class List(unittest.TestCase):
     def test_a_row_has_id_kind_words_and_source(self):
         rows, problems = requirements.read_list(LIST)
         self.assertEqual(problems, [])
-        self.assertEqual(rows[1], ("A2", "T", "what is asked for", "A: a source"))
+        self.assertEqual(rows[1], ("A2", "T", "what is asked for", "A: a source", [], []))
         self.assertEqual(rows[3].source, "B: another")
 
     def test_an_id_that_is_there_twice_is_found_with_its_line(self):
@@ -35,6 +35,23 @@ class List(unittest.TestCase):
     def test_a_row_without_words_or_of_another_kind_is_found(self):
         self.assertIn(":1: must be", requirements.read_list("A1 D\n")[1][0])
         self.assertIn(":1: must be", requirements.read_list("A1 X what\n")[1][0])
+
+    def test_figures_and_deviations_belong_to_the_statement_above(self):
+        text = (
+            "@cross liana run x\n"
+            + LIST
+            + "   = time | <= 9 s | @cross | duration_s\n     | <= 12 s: why\n   ~ not all of it\n"
+        )
+        rows, problems = requirements.read_list(text)
+        self.assertEqual(problems, [])
+        self.assertEqual(rows[3].figures, [("time", "<= 9 s", "liana run x", "duration_s", "<= 12 s: why")])
+        self.assertEqual(rows[3].deviations, ["not all of it"])
+        self.assertEqual(rows[2].figures, [])
+
+    def test_a_figure_with_too_few_parts_or_an_unknown_command_is_found(self):
+        self.assertIn(":1: stands below no requirement", requirements.read_list("= a | b | c | d\n")[1][0])
+        self.assertIn(":7: a figure has 4 or 5 parts", requirements.read_list(LIST + "= a | b\n")[1][0])
+        self.assertIn(":7: @c stands for no command", requirements.read_list(LIST + "= a | b | @c | d\n")[1][0])
 
     def test_the_list_of_the_tree_is_good(self):
         rows, problems = requirements.read_list((requirements.ROOT / requirements.LIST).read_text())
@@ -87,19 +104,6 @@ class Tags(unittest.TestCase):
         rows, _ = requirements.read_list(LIST)
         found, _ = tags({"tests/a_test.cpp": "#include <x>\n// req:A9\nTEST(Arm, Bends) {\n"})
         self.assertIn("tests/a_test.cpp: req:A9: no such id", requirements.unknown(rows, found)[0])
-
-
-class Page(unittest.TestCase):
-    def test_what_has_no_test_stands_first_and_context_needs_none(self):
-        rows, _ = requirements.read_list(LIST)
-        found = [
-            requirements.Tag("A2", "tests/a_test.cpp", "Arm.Bends"),
-            requirements.Tag("A2", "tests/a_test.cpp", ""),
-        ]
-        self.assertEqual([row.id for row in requirements.missing(rows, found)], ["A3", "B1"])
-        page = requirements.page(rows, found)
-        self.assertIn("1 of 2 testable statements have a test.\n\nWithout a test:\n- A3: more\n", page)
-        self.assertIn("| A2 | T | what is asked for | [a_test.cpp](../../tests/a_test.cpp) Arm.Bends |\n", page)
 
 
 if __name__ == "__main__":
