@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <string>
+#include <vector>
 
 namespace liana::api {
 
@@ -11,23 +11,22 @@ class PacketHistory {
  public:
   static constexpr std::size_t kKept = 4096;
 
+  // Takes the memory of kKept ordinary packets at once: a program that runs for days does not grow with its events.
+  PacketHistory() : packets_(kKept, std::string(kOrdinaryBytes, '\0')) {}
+
   // The packet becomes number next(). The oldest is forgotten when kKept are there.
-  void push(std::string packet) {
-    packets_.push_back(std::move(packet));
-    ++next_;
-    if (packets_.size() > kKept) packets_.pop_front();
-  }
+  void push(const std::string& packet) { packets_[next_++ % kKept].assign(packet); }
   // Number of the oldest that is kept; next() when there is none.
-  std::uint64_t oldest() const { return next_ - packets_.size(); }
+  std::uint64_t oldest() const { return next_ > kKept ? next_ - kKept : 1; }
   // Number that the next packet will have: 1, 2, ...
   std::uint64_t next() const { return next_; }
   // A packet that is kept: oldest() <= number < next().
-  const std::string& packet(std::uint64_t number) const {
-    return packets_[static_cast<std::size_t>(number - oldest())];
-  }
+  const std::string& packet(std::uint64_t number) const { return packets_[number % kKept]; }
 
  private:
-  std::deque<std::string> packets_;
+  static constexpr std::size_t kOrdinaryBytes = 512;  // most events are shorter
+
+  std::vector<std::string> packets_;  // number n is at n % kKept
   std::uint64_t next_ = 1;
 };
 
