@@ -1,4 +1,4 @@
-"""What commands of users say about the figures that tests/structure/requirements.txt asks for: each command runs once."""
+"""What commands of users say about the figures of tests/structure/requirements.txt: each command runs once."""
 import concurrent.futures
 import json
 import os
@@ -19,7 +19,7 @@ WHERE = re.compile(rf"((?:(?:{'|'.join(REDUCE)}|abs) )*)(.+?)(?: x ([\d.e+-]+))?
 
 
 def values_at(node, path):
-    """What a path of keys leads to in JSON: `*` is each entry, a number one of a list, `key=text` those that have it."""
+    """What a path of keys leads to in JSON: `*` is each entry, a number one of a list, `key=text` those with it."""
     if not path:
         return [node]
     key, rest = path[0], path[1:]
@@ -42,7 +42,7 @@ def reduced(functions, values):
 
 
 def value_of(document, where):
-    """The number that `max abs way.*.turn_deg x 1000` is in JSON; LookupError, TypeError or ValueError where there is none."""
+    """The number that `max abs way.*.turn_deg x 1000` is; LookupError, TypeError or ValueError where there is none."""
     functions, path, factor = WHERE.fullmatch(where).groups()
     return reduced(functions, values_at(document, path.split("."))) * float(factor or 1)
 

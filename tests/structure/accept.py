@@ -2,9 +2,9 @@
 
     ./dev accept [--json FILE]   runs the commands that give figures, then writes the page
 
-Figures come from docs/measurements/figures.md and benchmarks.md alone; `./dev accept` replaces its section `acceptance`.
-Statuses are computed from values, limits and tags. Exit code 0: all is met, some of it with a deviation; 1: something is
-not met; 2: bad input. --page writes the page without running a command; --check compares it.
+Figures come from docs/measurements/figures.md and benchmarks.md alone; `./dev accept` replaces the section `acceptance`
+of the first. Statuses are computed from values, limits and tags. --page writes the page without running a command;
+--check compares it. Exit code 0: all is met, some of it with a deviation; 1: something is not met; 2: bad input.
 """
 
 import argparse
@@ -44,11 +44,11 @@ Made by `./dev accept`; do not edit by hand. Statements and limits are in `{LIST
 Tests carry the ids as in `req:A43`. Kinds: T testable, S testable against a model that is chosen here, D context.
 
 - **met**: each figure is within its limit, and a test shows the statement.
-- **met with a deviation**: a figure is within a wider limit, or has expired, or a part differs. The table says which and why.
+- **met with a deviation**: a figure is within a wider limit, or has expired, or a part differs. The list says why.
 - **not met**: a figure is outside of its limits, or a figure or a test is missing.
 
 A figure has expired if what it measures has changed since its commit. Its command measures it again.
-Commands of `liana` need `--json`, or `--json FILE` for a run. What stands behind a command leads to the value in its JSON.
+Commands of `liana` need `--json`, or `--json FILE` for a run. Behind a command is the way to the value in its JSON.
 Behind `./dev numbers` it is row and column in [figures.md](measurements/figures.md).
 """
 
@@ -131,7 +131,7 @@ def measured(figure, sections):
 
 
 def number_text(value, unit):
-    return f"{value:.4g} {unit}".strip()
+    return f"{value:.5g} {unit}".strip()
 
 
 def asserted_figure(figure, own):

@@ -1,4 +1,4 @@
-"""That accept.py computes what it says: values from pages and JSON, limits, statuses, and what is missing or has expired."""
+"""That accept.py computes what it says: values of pages and JSON, limits, statuses, what is missing or has expired."""
 
 import unittest
 

@@ -1,7 +1,7 @@
-"""What the sources ask for and the tests that show it: reads requirements.txt and the tags, as in req:A43, of all tests.
+"""What the sources ask for and the tests that show it: reads requirements.txt, and the tags of tests, as in req:A43.
 
-A tag stands in the comment directly above a test or a class of tests, in the comment at the head of a file, for the file as
-a whole, or in what a scenario is `about`. accept.py makes the acceptance page of both.
+A tag stands in the comment directly above a test or a class of tests, in the comment at the head of a file, for the
+file as a whole, or in what a scenario is `about`. accept.py makes the acceptance page of both.
 """
 
 import collections
@@ -20,8 +20,8 @@ TEST = re.compile(
     r"|(?:class|def(?= test_)) (?P<python>\w+)"
     r"|test\((?P<quote>['\"`])(?P<script>(?:\\.|.)*?)(?P=quote))"
 )
-# A figure: what it is, its limit, where it stands (a section of figures.md or a command), which value it is there, and a
-# wider limit with its reason, or "".
+# A figure: what it is, its limit, where it stands (a section of figures.md or a command), which value it is there, and
+# a wider limit with its reason, or "".
 Figure = collections.namedtuple("Figure", "what limit source where allowed", defaults=[""])
 Requirement = collections.namedtuple("Requirement", "id kind what source figures deviations")
 Tag = collections.namedtuple("Tag", "id file test")  # test is "" for a file as a whole
