@@ -204,9 +204,12 @@ class System:
 
     def start_bus(self) -> None:
         words = ["--socket", self.bus_socket, "--buses", self.directory / "buses.json", "--time", "fast"]
-        words += ["--log", self.directory, "--stats", self.directory / "bus_stats.json"]
+        words += ["--stats", self.directory / "bus_stats.json", *self.traffic_of_bus()]
         self.start("liana-bus", *words, *self.optional("--script", "script"))
         wait_until(self.bus_socket.exists, "liana-bus to listen", self.check_running)
+
+    def traffic_of_bus(self) -> list[Any]:
+        return ["--log", self.directory]
 
     def start_lianad(self) -> None:
         words = ["--api", self.api, "--bus-socket", self.bus_socket, "--time", "fast", "--expect", self.expect]

@@ -366,6 +366,8 @@ class Dev(unittest.TestCase):
             (["mission", "--sed=1"], "--sed: no such option"),
             (["mission", "--seed"], "--seed: its value"),
             (["bits", "--jsn"], "--json FILE"),
+            (["accept", "--json", "/no/such/file"], "/no/such/file"),
+            (["soak", "--hours", "0"], "'0'"),
         ]:
             done = subprocess.run([str(ROOT / "dev"), *words], capture_output=True, text=True, check=False)
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), (words, done.stderr))
