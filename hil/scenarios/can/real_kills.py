@@ -69,7 +69,9 @@ class RealKillRun(LimitedRun):
     def act(self):
         moment = MOMENTS[self.scenario.strike.moment]
         words = ["--start-pose", moment.pose]
-        with BenchOnCan(KIND, robot=str(ROBOT), scene="panel_slit", seed=self.scenario.strike.seed, bench=words) as system:
+        with BenchOnCan(
+            KIND, robot=str(ROBOT), scene="panel_slit", seed=self.scenario.strike.seed, bench=words
+        ) as system:
             with self.limited(system):
                 system.start_archive()
                 client, bystander = system.client(), system.client(name="bystander")
