@@ -171,6 +171,13 @@ struct LinkOptions {
 // Carries the packets of devices to lianad and back, late, until Ctrl-C (docs/explanation/operator-model.md).
 int link_command(const LinkOptions& options);
 
+struct GroundOptions {
+  std::string robot = "zhu2022";  // of the definitions
+  bool xtce = false, cosmos = false, markdown = false;
+};
+// The dictionary of packets for ground systems (docs/reference/ground-packets.md).
+int ground_command(const GroundOptions& options);
+
 struct ViewOptions {
   std::string run;       // its folder, or its name among the newest; empty: the one that ended last
   bool live = false;     // the console of what runs, in place of a run's page

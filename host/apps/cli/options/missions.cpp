@@ -157,6 +157,17 @@ void add_campaign(CLI::App& app, Action& action) {
   add_campaign_readers(sub, action);
 }
 
+void add_ground(CLI::App& app, Action& action) {
+  auto [sub, ground] = add<GroundOptions>(app, action, "ground", ground_command);
+  CLI::Option* xtce = sub.add_flag("--xtce", ground.xtce, "print the packets as XTCE 1.2, for Yamcs and others");
+  CLI::Option* cosmos = sub.add_flag("--cosmos", ground.cosmos, "print them as definitions of COSMOS");
+  sub.add_flag("--markdown", ground.markdown, "print docs/reference/ground-packets.md")
+      ->excludes(xtce)
+      ->excludes(cosmos);
+  xtce->excludes(cosmos);
+  add_robot(sub, ground.robot);
+}
+
 }  // namespace
 
 void declare_missions(CLI::App& app, Action& action) {
@@ -164,6 +175,7 @@ void declare_missions(CLI::App& app, Action& action) {
   add_campaign(app, action);
   add_check(app, action);
   add_mission(app, action);
+  add_ground(app, action);
 }
 
 }  // namespace liana::cli

@@ -45,7 +45,7 @@ void add_cross_wired(CLI::App& sub, std::string& drives);
 void add_control_points(CLI::App& sub, std::vector<std::string>& targets);
 
 void declare_geometry(CLI::App& app, Action& action);  // pose, ik, reach, plan, budget, sweep, verify
-void declare_missions(CLI::App& app, Action& action);  // run, check, mission
+void declare_missions(CLI::App& app, Action& action);  // run, check, mission, ground
 void declare_seeing(CLI::App& app, Action& action);    // console, view, commands, log, replay
 void declare_arm(CLI::App& app, Action& action);       // status, estop, clear, calibrate, latency, faults
 void declare_drive(CLI::App& app, Action& action);     // drive scan, read, write, watch, check, jog

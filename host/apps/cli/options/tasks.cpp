@@ -34,6 +34,8 @@ constexpr CommandText kCommands[] = {
      "liana check lab_tour"},
     {"liana mission", kRun, "pause, resume, step, confirm or abort the mission that runs", "liana mission pause"},
     {"liana status", kRun, "show the state of every running system", "liana status"},
+    {"liana ground", kRun, "connect a ground station to a running system, or define the packets for one",
+     "liana ground --xtce"},
 
     {"liana teleop", kSteer, "move an arm from this terminal, with keys or a gamepad", "liana teleop --simulate"},
     {"liana device", kSteer, "list the input devices of a running system, and watch their samples",
