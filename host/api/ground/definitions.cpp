@@ -425,6 +425,7 @@ constexpr const char* kPageBegin = R"(# Ground packets
 <!-- made by ./dev docs from host/api/ground/dictionary.cpp -->
 
 For people who connect a ground station: every packet between `liana ground` and the ground.
+[fly-it-from-a-ground-station.md](../how-to/fly-it-from-a-ground-station.md) says how to begin.
 `liana ground --xtce` and `--cosmos` write the same dictionary for other programs.
 
 ## Packets

@@ -174,8 +174,15 @@ int link_command(const LinkOptions& options);
 struct GroundOptions {
   std::string robot = "zhu2022";  // of the definitions
   bool xtce = false, cosmos = false, markdown = false;
+  std::string api;  // empty: the one running system
+  std::string telemetry = "127.0.0.1:10015", telecommand = "127.0.0.1:10025";
+  std::string udp_to;  // HOST:PORT; empty: telemetry by TCP alone
+  double silence_s = 10.0, store_mb = 64.0;
+  bool trusted_network = false;
+  bool json = false;
 };
-// The dictionary of packets for ground systems (docs/reference/ground-packets.md).
+// The on-board end of a link to a ground station, until Ctrl-C; or the dictionary of its packets
+// (docs/reference/ground-packets.md).
 int ground_command(const GroundOptions& options);
 
 struct ViewOptions {

@@ -1,19 +1,69 @@
 #include <cstdio>
+#include <optional>
+#include <stdexcept>
 
 #include "host/api/ground/definitions.hpp"
 #include "host/apps/cli/commands.hpp"
+#include "host/apps/ground/server.hpp"
+#include "host/apps/launcher/errors.hpp"
+#include "host/apps/launcher/interrupt.hpp"
+#include "host/apps/launcher/observer.hpp"
 #include "host/apps/launcher/tables.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::cli {
+namespace {
 
-int ground_command(const GroundOptions& options) {
-  if (!options.xtce && !options.cosmos && !options.markdown)
-    throw launcher::BadInput("ground: says nothing to do: allowed --xtce, --cosmos or --markdown: give one of them");
+constexpr double kMegabyte = 1e6;
+
+int print_definitions(const GroundOptions& options) {
   const std::string robot = launcher::evaluate_table("robot", options.robot);
   const ground::Sizes sizes = launcher::checked([&] { return ground::sizes_of(Json::parse(robot)); });
   const auto make = options.xtce ? ground::xtce : options.cosmos ? ground::cosmos : ground::ground_page;
   std::fputs(make(sizes).c_str(), stdout);
+  return launcher::kExitOk;
+}
+
+// Packets carry no key.
+api::InternetAddress address_of(const GroundOptions& options, const char* option, const std::string& text) {
+  const api::InternetAddress address = launcher::checked([&] { return api::parse_internet_address(option, text); });
+  if (address.is_loopback() || options.trusted_network) return address;
+  throw launcher::BadInput(std::string(option) + " " + text +
+                           ": others than this computer can reach it, and packets carry no key: allowed a loopback "
+                           "address: give one, or --trusted-network");
+}
+
+ground::ServerConfig config_of(const GroundOptions& options) {
+  ground::ServerConfig out;
+  out.telemetry = address_of(options, "--telemetry", options.telemetry);
+  out.telecommand = address_of(options, "--telecommand", options.telecommand);
+  if (!options.udp_to.empty()) out.to = address_of(options, "--udp-to", options.udp_to);
+  const std::vector<std::string> systems = launcher::systems_to_ask(options.api);
+  if (systems.size() > 1) throw launcher::BadInput("ground: more than one system runs: name one with --api");
+  out.api = systems.front();
+  out.on_board = {options.silence_s, static_cast<std::size_t>(options.store_mb * kMegabyte)};
+  return out;
+}
+
+void print_ports(const ground::Server& server, bool json) {
+  const std::string telemetry = server.telemetry().text(), telecommand = server.telecommand().text();
+  if (json) {
+    std::puts(Json{{"telemetry", telemetry}, {"telecommand", telecommand}}.dump().c_str());
+  } else {
+    std::printf("telemetry at %s, telecommands at %s; Ctrl-C ends it\n", telemetry.c_str(), telecommand.c_str());
+  }
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int ground_command(const GroundOptions& options) {
+  if (options.xtce || options.cosmos || options.markdown) return print_definitions(options);
+  const ground::ServerConfig config = config_of(options);
+  const auto server = launcher::checked([&] { return std::make_unique<ground::Server>(config); });
+  print_ports(*server, options.json);
+  const launcher::InterruptGuard interrupts;
+  server->run(interrupts.any());
   return launcher::kExitOk;
 }
 

@@ -26,7 +26,7 @@ struct Options {
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 // Beyond this machine nobody is let in without a token, and nothing goes in the clear.
-void require_safe(const Options& options, const ListenAddress& listen) {
+void require_safe(const Options& options, const liana::api::InternetAddress& listen) {
   if (options.certificate.empty() != options.key.empty())
     throw std::runtime_error("--cert and --key: one without the other; give both");
   if (listen.is_loopback()) return;
@@ -48,7 +48,7 @@ int serve(WebServer& server) {
 }
 
 int run(const Options& options) {
-  const ListenAddress listen = parse_listen_address(options.listen);
+  const liana::api::InternetAddress listen = liana::api::parse_internet_address("--listen", options.listen);
   require_safe(options, listen);
   std::optional<Tokens> tokens;
   if (!options.token_file.empty()) tokens = read_tokens(options.token_file);

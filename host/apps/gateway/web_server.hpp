@@ -5,12 +5,12 @@
 #include <string>
 
 #include "host/apps/gateway/gateway.hpp"
-#include "host/apps/gateway/listen_address.hpp"
+#include "host/base/net/internet_address.hpp"
 
 namespace liana::gateway {
 
 struct WebOptions {
-  ListenAddress listen;
+  api::InternetAddress listen;
   std::string certificate, key;  // PEM files; empty: plain HTTP
   std::string page;              // file that / shows
   std::string runs;              // folder of recorded runs; empty: none are shown

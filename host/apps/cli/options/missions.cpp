@@ -165,7 +165,22 @@ void add_ground(CLI::App& app, Action& action) {
       ->excludes(xtce)
       ->excludes(cosmos);
   xtce->excludes(cosmos);
-  add_robot(sub, ground.robot);
+  sub.add_option("--robot", ground.robot, "of these: a name under lua/robots or a file")->capture_default_str();
+  sub.add_option("--api", ground.api, "API socket of a lianad; where not given that of the one running system");
+  sub.add_option("--telemetry", ground.telemetry, "ADDR:PORT where ground stations read telemetry, by TCP")
+      ->capture_default_str();
+  sub.add_option("--telecommand", ground.telecommand, "ADDR:PORT that takes telecommands, by TCP and UDP")
+      ->capture_default_str();
+  sub.add_option("--udp-to", ground.udp_to, "ADDR:PORT to which telemetry goes by UDP, too");
+  sub.add_option("--silence-s", ground.silence_s, "without a telecommand for so long the link is lost; 1 to 3600")
+      ->capture_default_str()
+      ->check(within(1.0, 3600.0));
+  sub.add_option("--store-mb", ground.store_mb, "of telemetry kept to be sent again; 1 to 4096")
+      ->capture_default_str()
+      ->check(within(1.0, 4096.0));
+  sub.add_flag("--trusted-network", ground.trusted_network,
+               "listen beyond this computer: whoever reaches the ports can move the arm");
+  add_json(sub, ground.json);
 }
 
 }  // namespace
