@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 """liana ground between a ground station and lianad: the station is this test, with a codec of its own."""
+import contextlib
 import json
 import select
+import signal
 import socket
+import sqlite3
 import struct
 import subprocess
 import time
@@ -135,21 +138,23 @@ class GroundTest(support.SystemTest):
         self.client.step()
         self.station = self.station_of()
 
+    def start(self, *words):
+        """`liana` with these words and --json; ended when the test ends."""
+        process = subprocess.Popen(
+            [program("liana"), *map(str, words), "--json"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+        )
+        self.addCleanup(process.wait)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.kill)
+        return process
+
     def station_of(self, *words):
         ends = ["--telemetry", "127.0.0.1:0", "--telecommand", "127.0.0.1:0"]
-        self.process = subprocess.Popen(
-            [program("liana"), "ground", "--json", "--api", self.system.api, *ends, *map(str, words)],
-            stdout=subprocess.PIPE,
-            text=True,
-        )
-        self.addCleanup(self.process.wait)
-        self.addCleanup(self.process.stdout.close)
-        self.addCleanup(self.process.kill)
+        self.process = self.start("ground", "--api", self.system.api, *ends, *words)
         self.ports = json.loads(self.process.stdout.readline())
         station = Station(self.client, self.ports)
         self.addCleanup(station.close)
-        there = struct.pack(">H", 103)
-        station.until(lambda: any(each.kind == (5, 1) and each.data[:2] == there for each in station.reports))
+        station.until(lambda: any(each.kind == (3, 25) for each in station.reports))  # lianad is there
         return station
 
     def assert_completed(self, count):
@@ -320,6 +325,49 @@ class GroundTest(support.SystemTest):
         self.station.end_of(count)
         again = [each.octets for each in self.station.reports[before:] if each.octets in sent]
         self.assertEqual(again, sent)
+
+    # req:A25
+    def test_a_store_behind_a_bad_line_has_every_packet_in_the_end(self):
+        line = self.start(
+            *("link", "--listen", "127.0.0.1:0", "--to", self.ports["telemetry"], "--seed", 3),
+            *("--delay", "0,0.05", "--jitter", 0.9, "--loss", 0.1, "--outage", "2,2"),
+        )
+        far = json.loads(line.stdout.readline())["listen"]
+        file = self.system.directory / "telemetry.db"
+        store = self.start("ground", "store", file, "--telemetry", far, "--telecommand", self.ports["telecommand"])
+        for structure in (1, 2):
+            self.assert_completed(self.station.send(3, 31, bytes([1, structure]) + struct.pack(">I", 5)))
+        end = time.monotonic() + 6.0
+        while time.monotonic() < end:
+            self.station.step()
+            time.sleep(0.01)
+
+        def stored():
+            if not file.exists():
+                return set()
+            with contextlib.closing(sqlite3.connect(file)) as database:
+                return {row[0] for row in database.execute("SELECT packet FROM packets")}
+
+        first = self.station.until(lambda: next((each for each in self.reports() if each.octets in stored()), None))
+        wanted = {each.octets for each in self.reports()[self.reports().index(first) :]}
+        self.assertGreater(len(wanted), 50)
+        end = time.monotonic() + 90.0
+        while wanted - stored() and time.monotonic() < end:
+            self.station.step()
+            time.sleep(0.05)
+        self.assertEqual(len(wanted - stored()), 0)
+        store.send_signal(signal.SIGINT)
+        counts = json.loads(store.communicate(timeout=PATIENCE_S)[0])
+        self.assertGreater(counts["filled"], 10)
+        self.assertGreater(counts["questions"], 0)
+        shown = subprocess.run(
+            [program("liana"), "ground", "show", file, "--name", "joints"], capture_output=True, text=True, check=True
+        )
+        self.assertGreater(len(shown.stdout.splitlines()), 10)
+        for row in map(json.loads, shown.stdout.splitlines()):
+            state = self.station.states.get(row["values"]["tick"])
+            if state:
+                self.assertEqual(row["values"]["setpoint_js_deg"], state["setpoint_js_deg"])
 
     # req:A21
     def test_an_xtce_walker_reads_what_the_api_says(self):

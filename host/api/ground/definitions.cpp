@@ -433,10 +433,12 @@ For people who connect a ground station: every packet between `liana ground` and
 - The APID of the arm is 100, both ways. The highest octet comes first.
 - Telecommands and telemetry have the secondary headers of PUS-C (ECSS-E-ST-70-41C, clause 7.4), version 2.
 - Telecommands have a source of 2 octets and no spare octets.
-- In the acknowledgement flags, bit 0 (the lowest) asks for acceptance, 1 for start, 2 for progress and 3 for completion.
+- In the acknowledgement flags, bit 0 (the lowest) asks for acceptance, 1 for start, 2 for progress and 3 for
+  completion.
   Failures are always reported, progress never is.
 - Telemetry has a message count for each service and subtype, a destination, and the time.
-- Time is CUC (CCSDS 301.0-B-4) without a preamble: 4 octets of seconds since 1970-01-01, and 3 octets of their fraction.
+- Time is CUC (CCSDS 301.0-B-4) without a preamble: 4 octets of seconds since 1970-01-01, and 3 octets of
+  their fraction.
   It is the clock of the computer of `liana ground`; leap seconds are not counted.
 - The last two octets are the packet error control: CRC-16-CCITT, which begins with FFFFh.
 - TCP carries packets one after another without anything between. A UDP datagram is one packet.
@@ -487,7 +489,9 @@ constexpr const char* kPageServices = R"(
 - Missions are started on the computer of the arm; telecommand `mission` controls the one that runs.
 
 ## Loss of the link
-The link is lost when no telecommand comes for 10 s (`--silence-s`), or when the last TCP connection for telecommands ends.
+The link is lost when no telecommand comes for 10 s (`--silence-s`), or when the last TCP connection for
+telecommands ends.
+Service 15 does not count: a store that fills its gaps does not fly the arm.
 If `ground` owns motion then, the on-board end leaves lianad. Its owner is gone for lianad: the arm holds.
 All telecommands that are not completed fail with code 34, and an event 101 follows.
 Send TC[17,1] every few seconds to keep the link.

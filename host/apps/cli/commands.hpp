@@ -161,14 +161,16 @@ struct TeleopOptions {
 int teleop_command(const TeleopOptions& options);
 
 struct LinkOptions {
-  std::string listen;         // where devices come
-  std::string devices;        // lianad's own socket of devices
-  std::string delay = "0,0";  // FORWARD_S,RETURN_S
-  double jitter = 0.05;       // share of a delay, 0 .. 1
-  double loss = 0.0;          // share of samples and states, 0 .. 1
+  std::string listen, devices, to;  // either devices: sockets, or to: ADDR:PORT, as listen then is
+  std::string delay = "0,0";        // FORWARD_S,RETURN_S
+  std::string outage = "0,0";       // with to: AFTER_S,FOR_S
+  double jitter = 0.05;             // share of a delay, 0 .. 1
+  double loss = 0.0;                // share of samples and states, or of packets, 0 .. 1
   std::uint64_t seed = 1;
+  bool json = false;
 };
-// Carries the packets of devices to lianad and back, late, until Ctrl-C (docs/explanation/operator-model.md).
+// Carries the packets of devices to lianad and back, late, until Ctrl-C (docs/explanation/operator-model.md); or those
+// of a ground station to liana ground.
 int link_command(const LinkOptions& options);
 
 struct GroundOptions {
@@ -184,6 +186,19 @@ struct GroundOptions {
 // The on-board end of a link to a ground station, until Ctrl-C; or the dictionary of its packets
 // (docs/reference/ground-packets.md).
 int ground_command(const GroundOptions& options);
+
+struct GroundStoreOptions {
+  std::string file;
+  std::string telemetry = "127.0.0.1:10015", telecommand = "127.0.0.1:10025";
+  double keep_h = 24.0;
+  std::string robot = "zhu2022";  // show: whose packets they are
+  std::string name;               // show: only reports of this name; empty: all
+  bool json = false;
+};
+// Keeps telemetry on the ground and asks again for what is missing, until Ctrl-C; exit code 1 when packets are lost.
+int ground_store_command(const GroundStoreOptions& options);
+// The packets of such a file, a line each.
+int ground_show_command(const GroundStoreOptions& options);
 
 struct ViewOptions {
   std::string run;       // its folder, or its name among the newest; empty: the one that ended last

@@ -1,4 +1,4 @@
-// A link that delays between devices and lianad: a program beside it, by the wall clock.
+// A link that delays between devices and lianad, or ground and arm: a program beside them, by the wall clock.
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -11,9 +11,13 @@
 #include <vector>
 
 #include "host/api/device/packets.hpp"
+#include "host/apps/cli/arguments.hpp"
 #include "host/apps/cli/commands.hpp"
+#include "host/apps/ground/packet_relay.hpp"
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/interrupt.hpp"
+#include "host/apps/launcher/tables.hpp"
+#include "host/base/json/json.hpp"
 #include "host/base/net/connect.hpp"
 #include "host/operator/station/relay.hpp"
 
@@ -97,9 +101,55 @@ class LinkRelay {
   std::uint64_t next_ = 0;
 };
 
+constexpr double kMaxOutage_s = 86400.0;
+
+ground::Outage outage_of(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos)
+    throw launcher::BadInput("--outage: '" + text + "': allowed AFTER_S,FOR_S, like 10,5: give two numbers");
+  const auto part = [](const std::string& number) {
+    return parse_number_in("--outage", number, 0.0, kMaxOutage_s, "s");
+  };
+  return {part(text.substr(0, comma)), part(text.substr(comma + 1))};
+}
+
+int relay_packets(const LinkOptions& options) {
+  const haptics::Delays delays = delays_of(options);
+  ground::RelayConfig config;
+  config.listen = launcher::checked([&] { return api::parse_internet_address("--listen", options.listen); });
+  config.to = launcher::checked([&] { return api::parse_internet_address("--to", options.to); });
+  config.forward = {delays.forward_s, options.jitter, options.loss};
+  config.back = {delays.back_s, options.jitter, options.loss};
+  config.seed = options.seed;
+  config.outage = outage_of(options.outage);
+  const auto relay = launcher::checked([&] { return std::make_unique<ground::PacketRelay>(config); });
+  const launcher::InterruptGuard interrupts;
+  const std::string listen = relay->listen().text();
+  if (options.json) {
+    std::puts(Json{{"listen", listen}}.dump().c_str());
+  } else {
+    std::printf("packets come in at %s and go on to %s; Ctrl-C ends it\n", listen.c_str(), options.to.c_str());
+  }
+  std::fflush(stdout);
+  while (interrupts.count() == 0) {
+    relay->wait(kStep_ms);
+    relay->step(now_us());
+  }
+  if (options.json) {
+    std::puts(Json{{"sent", relay->sent()}, {"received", relay->received()}}.dump().c_str());
+  } else {
+    std::printf("%llu packets came in, %llu went on\n", static_cast<unsigned long long>(relay->sent()),
+                static_cast<unsigned long long>(relay->received()));
+  }
+  return launcher::kExitOk;
+}
+
 }  // namespace
 
 int link_command(const LinkOptions& options) {
+  if (!options.to.empty()) return relay_packets(options);
+  if (options.devices.empty())
+    throw launcher::BadInput("link: says nowhere to go on to: allowed --devices SOCKET or --to ADDR:PORT: give one");
   launcher::InterruptGuard interrupts;
   LinkRelay desk(options);
   std::fprintf(stderr, "liana: devices come in at %s and go on to %s; Ctrl-C ends it\n", options.listen.c_str(),

@@ -157,8 +157,33 @@ void add_campaign(CLI::App& app, Action& action) {
   add_campaign_readers(sub, action);
 }
 
+// The ground's side of the link.
+void add_ground_store(CLI::App& ground, Action& action) {
+  auto [store, kept] = add<GroundStoreOptions>(ground, action, "store", ground_store_command);
+  store.add_option("file", kept.file, "SQLite file; what is there stays")->required();
+  store.add_option("--telemetry", kept.telemetry, "ADDR:PORT of liana ground, or of a line to it")
+      ->capture_default_str();
+  store.add_option("--telecommand", kept.telecommand, "ADDR:PORT that takes questions for packets, by UDP")
+      ->capture_default_str();
+  store.add_option("--keep-h", kept.keep_h, "hours of telemetry that stay in the file; 0.01 to 8760")
+      ->capture_default_str()
+      ->check(within(0.01, 8760.0));
+  add_json(store, kept.json);
+  auto [show, shown] = add<GroundStoreOptions>(ground, action, "show", ground_show_command);
+  show.add_option("file", shown.file, "what liana ground store wrote")->required();
+  show.add_option("--name", shown.name, "only reports of this name (docs/reference/ground-packets.md)");
+  show.add_option("--robot", shown.robot, "whose telemetry it is: a name under lua/robots or a file")
+      ->capture_default_str();
+  show.add_flag("--json", shown.json, "the output is JSON with or without it");
+}
+
 void add_ground(CLI::App& app, Action& action) {
-  auto [sub, ground] = add<GroundOptions>(app, action, "ground", ground_command);
+  const auto options = std::make_shared<GroundOptions>();
+  GroundOptions& ground = *options;
+  CLI::App& sub = *app.add_subcommand("ground");
+  sub.callback([&sub, &action, options] {
+    if (sub.get_subcommands().empty()) action = [options] { return ground_command(*options); };
+  });
   CLI::Option* xtce = sub.add_flag("--xtce", ground.xtce, "print the packets as XTCE 1.2, for Yamcs and others");
   CLI::Option* cosmos = sub.add_flag("--cosmos", ground.cosmos, "print them as definitions of COSMOS");
   sub.add_flag("--markdown", ground.markdown, "print docs/reference/ground-packets.md")
@@ -181,6 +206,7 @@ void add_ground(CLI::App& app, Action& action) {
   sub.add_flag("--trusted-network", ground.trusted_network,
                "listen beyond this computer: whoever reaches the ports can move the arm");
   add_json(sub, ground.json);
+  add_ground_store(sub, action);
 }
 
 }  // namespace

@@ -51,13 +51,20 @@ void add_teleop(CLI::App& app, Action& action) {
 
 void add_link(CLI::App& app, Action& action) {
   auto [sub, link] = add<LinkOptions>(app, action, "link", link_command);
-  sub.add_option("--listen", link.listen, "socket at which devices come")->required();
-  sub.add_option("--devices", link.devices, "lianad's socket of devices, to which they go on")->required();
+  sub.add_option("--listen", link.listen, "where the line begins: a socket for devices; with --to ADDR:PORT")
+      ->required();
+  CLI::Option* devices = sub.add_option("--devices", link.devices, "lianad's socket of devices, to which they go on");
+  CLI::Option* to = sub.add_option("--to", link.to, "ADDR:PORT of liana ground: packets go on there, by TCP and UDP");
+  to->excludes(devices);
+  sub.add_option("--outage", link.outage, "AFTER_S,FOR_S: nothing comes through for so long; each 0 to 86400")
+      ->needs(to);
   sub.add_option("--delay", link.delay, "FORWARD_S,RETURN_S, e.g. 0.5,0.5, each 0 to 2 s");
   sub.add_option("--jitter", link.jitter, "share by which every delay varies; packets overtake each other")
       ->check(within(0.0, 1.0));
-  sub.add_option("--loss", link.loss, "share of samples and states that never come")->check(within(0.0, 1.0));
+  sub.add_option("--loss", link.loss, "share of samples and states, or of packets, that never come")
+      ->check(within(0.0, 1.0));
   add_seed(sub, link.seed, "seed of jitter and loss");
+  add_json(sub, link.json);
 }
 
 void add_view(CLI::App& app, Action& action) {
