@@ -1,22 +1,45 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { pitchBudget } from '../../host/apps/web/src/model/pitch_budget';
-import { lengthText, sentenceOf } from '../../host/apps/web/src/model/sentence';
+import { deviationText, distanceLines, mainDistance } from '../../host/apps/web/src/model/distances';
+import { sentenceOf } from '../../host/apps/web/src/model/sentence';
 import { scaleOf, tensionColour } from '../../host/apps/web/src/model/tension_colour';
+import { lengthText, spoken } from '../../host/apps/web/src/model/text';
 import { moved, rotated, turnBetween } from '../../host/apps/web/src/model/vector';
 import { FramePace, FrameTurns } from '../../host/apps/web/src/scene/frame_pace';
 import { writeCameraFrame } from '../../host/apps/web/src/scene/tip_camera';
 import { spreadLabels } from '../../host/apps/web/src/scene/spread_labels';
-import { ARM, near, sampleOf } from './support';
+import { ARM, MICRO, near, sampleOf } from './support';
+import type { Robot } from '../../host/apps/web/src/model/robot';
 
 const scene = { name: 'x', rod: { position_m: [3, 0, 0] as [number, number, number], radius_m: 0.01 } };
 
-test('one sentence says step, clearance and way to the goal', () => {
+test('one sentence says the step and one distance: the clearance where it is small', () => {
   const sample = sampleOf(
     { measured_cp: [2.14, 0, 0, 1, 0, 0, 0], 'clearance.distance_m': [0.041] },
     { state: 'ENABLED', step: { index: 4, name: 'segment 5 into the slit', device: 'hand' }, clearance: { body: 'panel', confidence: 'camera', camera: 'none', level: 'free' } },
   );
-  assert.equal(sentenceOf(sample, ARM, scene, 6), 'step 4 of 6: segment 5 into the slit, 41 mm from the panel, 0.86 m to the rod');
+  assert.equal(sentenceOf(sample, ARM, scene, 6), 'step 4 of 6: segment 5 into the slit, at least 41 mm from the panel');
+});
+
+test('one distance is shown at a time; the others have names: guaranteed, measured, predicted', () => {
+  const clearance = { body: 'drive_box', confidence: 'camera', camera: 'none', level: 'free' };
+  const far = sampleOf({ measured_cp: [2.14, 0, 0, 1, 0, 0, 0], 'clearance.distance_m': [0.46], 'clearance.bound_m': [0.004], 'verdict.margins': [0.35, 1, 1, 1, 1] }, { clearance });
+  assert.equal(mainDistance(far, scene), '0.86 m to the rod');
+  assert.deepEqual(distanceLines(far, scene).map(([name]) => name), ['guaranteed (bound)', 'measured now', 'predicted', 'tip, measured now']);
+  const close = sampleOf({ measured_cp: [2.14, 0, 0, 1, 0, 0, 0], 'clearance.distance_m': [0.05] }, { clearance });
+  assert.equal(mainDistance(close, scene), 'at least 50 mm from the drive box');
+  assert.deepEqual(distanceLines(close, scene).map(([name]) => name), ['guaranteed (bound)', 'tip, measured now']);
+  assert.equal(mainDistance(sampleOf({}, {}), scene), '');
+  assert.equal(spoken('panel_edge'), 'panel edge');
+});
+
+test('what the commanded tip is off the measured one has its cause beside it', () => {
+  const cause = (facts: object, robot: Robot) => /\((.*)\)/.exec(deviationText(sampleOf({}, facts), robot, 0.001))![1];
+  const causes = [{ state: 'DISABLED' }, { state: 'ENABLED', at_rest: true }, { state: 'ENABLED', at_rest: false }, { state: 'ENABLED', friction: { not_as_declared: true } },
+    { state: 'ENABLED', recovery: { where: '', next: '', recovers: true } }].map((facts) => cause(facts, ARM));
+  assert.equal(new Set(causes).size, 5);
+  assert.notEqual(cause({ state: 'ENABLED' }, MICRO), cause({ state: 'ENABLED' }, ARM));
 });
 
 test('a stop and a fault come before the step in the sentence', () => {

@@ -40,7 +40,7 @@ class PredictedView(SystemTest):
                 self.assertTrue(shown["verdict"]["released"])
                 self.assertEqual(shown["verdict"]["twin_js_deg"], then["setpoint_js_deg"])
                 errors_deg.append(apart_deg(shown["verdict"]["twin_js_deg"], then["measured_js_deg"]))
-            # The page writes the distance of these two poses beside the arm, as "prediction error".
+            # The page writes the distance of these two poses beside the arm, "commanded less measured".
             errors_mm = [1e3 * math.dist(s["setpoint_cp"][:3], s["measured_cp"][:3]) for s in states]
             print(f"prediction error at most {max(errors_deg):.3f} deg, {max(errors_mm):.1f} mm at the tip")
             self.assertLess(max(errors_deg), 0.2)

@@ -3,7 +3,7 @@
 import { isKnown, value, values, type Sample } from '../data/sample';
 import { payloadPlace } from './payload_place';
 import type { Scene } from './robot';
-import { lengthText } from './sentence';
+import { lengthText } from './text';
 
 function lengthOf(v: ArrayLike<number>): number {
   return Math.hypot(v[0], v[1], v[2]);

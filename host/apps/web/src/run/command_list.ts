@@ -1,6 +1,6 @@
 // Commands with both verdicts and their margins: those that were refused, and samples of the others.
 import type { Command, Judged, Run } from '../data/run';
-import { lengthText } from '../model/sentence';
+import { lengthText } from '../model/text';
 import { checkbox, h } from '../ui/dom';
 
 const AT_MOST = 400; // rows in the page at a time

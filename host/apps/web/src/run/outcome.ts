@@ -3,7 +3,7 @@ import type { Command, RunHead } from '../data/run';
 import { lastBefore } from '../data/run';
 import type { LianaEvent } from '../data/sample';
 import { PATH_REFUSED } from '../model/outcome_text';
-import { lengthText } from '../model/sentence';
+import { lengthText } from '../model/text';
 import { faultRow, refusalRow } from '../model/tables';
 
 export interface Outcome {

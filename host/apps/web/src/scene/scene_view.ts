@@ -4,7 +4,8 @@ import { isKnown, value, values, type Facts, type Sample } from '../data/sample'
 import { isAtSite, payloadPlace } from '../model/payload_place';
 import { segmentsOf } from '../model/drive_names';
 import type { Robot, Scene } from '../model/robot';
-import { lengthText } from '../model/sentence';
+import { boundText, deviationText, NEAR_M } from '../model/distances';
+import { spoken } from '../model/text';
 import { distance } from '../model/vector';
 import { h, setClass, setText } from '../ui/dom';
 import { ArmBody, GhostArm } from './arm_body';
@@ -20,7 +21,6 @@ import { viewsOf, type View } from './views';
 
 const TIP_PICTURE = { width: 280, height: 180 };
 const EXAGGERATION = 10;
-const NEAR_M = 0.3; // a clearance is worth a label below
 const LABELS_MS = 200; // words are laid out at most so often: that costs more than the whole scene's script
 
 export class SceneView {
@@ -189,7 +189,7 @@ export class SceneView {
     const setpoint = values(sample, 'setpoint_js_deg');
     this.arm.markHeld(new Set((sample.facts.held ?? []).map((theta) => (theta - 1) >> 1)));
     this.arm.set(measured, values(sample, 'tension_N'));
-    this.moveGhost(measured, setpoint);
+    this.moveGhost(sample, measured, setpoint);
     const stop = values(sample, 'verdict.stop_js_deg');
     const predicted = isKnown(stop) ? stop : values(sample, 'verdict.twin_js_deg');
     if (this.predicted.mesh.visible && isKnown(predicted)) this.predicted.set(predicted);
@@ -212,20 +212,20 @@ export class SceneView {
     else this.stage.hiddenFromTip.delete(this.payload.mesh);
   }
 
-  // The commanded arm is what the twin had predicted: the difference is the error of the prediction.
-  private moveGhost(measured: Float32Array, setpoint: Float32Array): void {
+  // The commanded arm beside the measured one.
+  private moveGhost(sample: Sample, measured: Float32Array, setpoint: Float32Array): void {
     this.ghost.mesh.visible = isKnown(setpoint);
     if (!this.ghost.mesh.visible) return;
     const factor = this.exaggerate ? EXAGGERATION : 1;
     for (let i = 0; i < setpoint.length; ++i) this.drawnAngles[i] = setpoint[i];
     this.ghost.set(this.drawnAngles);
-    const error_m = distance(this.ghost.chain.tip.subarray(12, 15), this.arm.chain.tip.subarray(12, 15));
+    const deviation_m = distance(this.ghost.chain.tip.subarray(12, 15), this.arm.chain.tip.subarray(12, 15));
     if (factor > 1) {
       for (let i = 0; i < setpoint.length; ++i) this.drawnAngles[i] = measured[i] + factor * (setpoint[i] - measured[i]);
       this.ghost.set(this.drawnAngles);
     }
     const drawn = this.exaggerate ? `, drawn ${EXAGGERATION} times as large` : '';
-    this.errorText = `prediction error ${(1000 * error_m).toFixed(1)} mm at the tip${drawn}`;
+    this.errorText = `${deviationText(sample, this.robot, deviation_m)}${drawn}`;
   }
 
   private placeLabels(): void {
@@ -235,20 +235,18 @@ export class SceneView {
     const clear_m = value(sample, 'clearance.distance_m');
     const isNear = clear_m < NEAR_M;
     if (sample && isNear) {
-      const bound_m = value(sample, 'clearance.bound_m');
-      const sure = Number.isFinite(bound_m) ? ` \u00b1 ${lengthText(bound_m)}` : '';
-      labels.push({ text: `${lengthText(clear_m)} clear of ${sample.facts.clearance?.body ?? 'it'}${sure}`, place_m: values(sample, 'clearance.where_m').slice() });
+      labels.push({ text: boundText(sample), place_m: values(sample, 'clearance.where_m').slice() });
     }
     if (scene.rod) labels.push({ text: 'press rod: the goal', place_m: scene.rod.position_m });
     if (scene.slit) labels.push({ text: `slit, ${Math.round(2000 * scene.slit.half_gap_m)} mm`, place_m: scene.slit.frame.position_m });
     if (this.payload) labels.push({ text: 'payload', place_m: this.payload.centre_m });
     if (scene.adapter) labels.push({ text: 'adapter', place_m: scene.adapter.position_m });
-    for (const body of scene.spheres ?? []) labels.push({ text: body.name, place_m: body.center_m });
+    for (const body of scene.spheres ?? []) labels.push({ text: spoken(body.name), place_m: body.center_m });
     labels.push({ text: this.robot.kind === 'serial' ? 'base' : `base: ${segmentsOf(this.robot).length} motors`, place_m: [-0.16, 0, 0.1] });
     if (this.tipLabel) labels.push({ text: this.tipLabel, place_m: chain.tip.subarray(12, 15) });
     for (const body of scene.convex ?? []) {
       const at = body.points_m?.[0] ?? body.cylinder?.from_m ?? body.chain?.points_m[0];
-      if (at) labels.push({ text: body.name, place_m: at });
+      if (at) labels.push({ text: spoken(body.name), place_m: at });
     }
     const { inset } = stage;
     const taken = inset ? [{ x: inset.left, y: inset.top, width: inset.width, height: inset.height }] : [];

@@ -4,7 +4,7 @@ import type { Live } from '../live/live';
 import type { Ask } from '../live/pending_command';
 import { pitchBudget } from '../model/pitch_budget';
 import { hardwareText } from '../model/hardware';
-import { lengthText } from '../model/sentence';
+import { boundText, distanceLines } from '../model/distances';
 import { h, setClass, setText } from '../ui/dom';
 
 const CLEARANCE_SHOWN_M = 0.1; // the bar is full at this clearance
@@ -31,6 +31,7 @@ export class DevicePanel {
   private readonly clearance = new Bar('clearance');
   private readonly budget = new Bar('pitch budget');
   private readonly limit = new Bar('nearest limit');
+  private readonly distances = h('dl');
   private readonly mode = h('p');
   private readonly device = h('p');
   private readonly hardware = h('p', { class: 'hardware' });
@@ -41,7 +42,7 @@ export class DevicePanel {
     const node = h('select', { 'aria-label': 'node of the left hand' }, ...[0, 1, 2, 3, 4].map((n) => h('option', { value: n, selected: n === 3 }, n === 0 ? 'no node' : `left: node ${n}`)));
     const use = () => ({ op: 'use_device', device: device.value, scale: Number(scale.value), node: device.value === 'vr' ? Number(node.value) : 0 });
     this.element = h('section', { class: 'card', 'aria-label': 'Room and device' }, h('h2', {}, 'Room and device'),
-      this.clearance.element, this.budget.element, this.limit.element, this.mode, this.device, this.hardware,
+      this.clearance.element, h('details', { class: 'distances' }, h('summary', {}, 'all distances'), this.distances), this.budget.element, this.limit.element, this.mode, this.device, this.hardware,
       h('div', { class: 'filter' }, device, h('label', {}, 'scale ', scale), node,
         h('button', { type: 'button', onclick: () => ask('device', use()) }, 'use')));
   }
@@ -52,7 +53,8 @@ export class DevicePanel {
     const clear_m = value(sample, 'clearance.distance_m');
     const level = facts.clearance?.level ?? '';
     this.clearance.set(clear_m / CLEARANCE_SHOWN_M, level === 'slow' || level === 'refuse',
-      Number.isFinite(clear_m) ? `${lengthText(clear_m)} from ${facts.clearance?.body}, sure by ${facts.clearance?.confidence}` : 'none can be claimed');
+      boundText(sample) || 'none is guaranteed');
+    this.sayDistances(distanceLines(sample, welcome.scene));
     const budget = pitchBudget(facts.held ?? [], values(sample, 'measured_js_deg'), values(sample, 'setpoint_js_deg'));
     this.budget.set(budget?.share ?? 0, (budget?.share ?? 0) > 0.8,
       budget ? `${budget.used_deg.toFixed(3)} of ${budget.allowed_deg} deg, segment ${budget.segments.join(', ')}` : 'no pitch is held');
@@ -63,6 +65,12 @@ export class DevicePanel {
     setText(this.mode, `Mode ${free}+${facts.held?.length ?? 0}: ${held ? `${held} held (S2, white discs)` : 'all angles follow the tip'}`);
     this.sayDevice(now_s);
     setText(this.hardware, hardwareText(sample, welcome.robot));
+  }
+
+  private sayDistances(lines: [string, string][]): void {
+    while (this.distances.children.length > 2 * lines.length) this.distances.lastElementChild!.remove();
+    while (this.distances.children.length < 2 * lines.length) this.distances.append(h('dt'), h('dd'));
+    lines.flat().forEach((text, i) => setText(this.distances.children[i], text));
   }
 
   private sayDevice(now_s: number): void {
