@@ -6,6 +6,8 @@ import { telemetryOf } from '../../host/apps/web/src/data/telemetry';
 import { chainOf } from '../../host/apps/web/src/model/arm_chain';
 import { crc32 } from '../../host/apps/web/src/run/replay';
 import { decimated } from '../../host/apps/web/src/plots/decimate';
+import { groupsOf } from '../../host/apps/web/src/plots/groups';
+import { yRange } from '../../host/apps/web/src/plots/strip';
 import { ARM, near } from './support';
 
 const layout: Layout = {
@@ -111,4 +113,23 @@ test('of a run each moment has the facts of its time, which are told by their ch
 test('the checksum is that of IEEE 802.3', () => {
   assert.equal(crc32(new TextEncoder().encode('123456789')), 0xcbf43926); // its check value
   assert.equal(crc32(new Uint8Array()), 0);
+});
+
+test('no two cables of a strip look the same, and its limits are those of robot and scene', () => {
+  const groups = groupsOf(ARM, { name: 'x', margins: { slow_m: 0.006, refuse_m: 0.003 } }, () => true);
+  const limits = (name: string) => groups.find((group) => group.name === name)?.limits?.map(({ at }) => at);
+  const tension = groups.find(({ name }) => name === 'tension')!;
+  assert.equal(new Set(tension.sources.map(({ colour, dash }) => `${colour} ${dash}`)).size, 15);
+  assert.equal(new Set(tension.sources.map(({ label }) => label)).size, 15);
+  assert.deepEqual(limits('tension'), [15, 150, 400]);
+  assert.deepEqual(limits('pitch'), [20, -20]);
+  assert.deepEqual(limits('clearance'), [6, 3]);
+});
+
+test('a limit near the values is in the strip, and one far away leaves them their height', () => {
+  const limits = [{ at: 15, name: 'floor' }, { at: 150, name: 'ceiling' }];
+  const [bottom, top] = yRange(35, 60, Infinity, limits);
+  assert.ok(bottom < 15 && bottom > 0 && top > 60 && top < 100);
+  assert.ok(yRange(100, 140, Infinity, limits)[1] > 150);
+  assert.deepEqual(yRange(null, null, Infinity, limits), [0, 1]);
 });

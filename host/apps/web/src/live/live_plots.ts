@@ -10,7 +10,7 @@ import type { Welcome } from './protocol';
 
 const EVERY = 3; // rows: a thousand points a minute
 const PERIOD_MS = 250;
-const STRIP_PX = 112;
+const STRIP_PX = 132;
 
 export class LivePlots {
   readonly element = h('div', { class: 'strips' });
@@ -20,8 +20,8 @@ export class LivePlots {
 
   constructor(private readonly live: Live, welcome: Welcome, theme: Theme, goTo: (time_s: number) => void) {
     const counts = new Map(welcome.layout.fields.map((f) => [f.name, f.count]));
-    const groups = groupsOf(welcome.robot, (field, index) => index < (counts.get(field) ?? 0));
-    this.strips = groups.map((group) => ({ group, strip: new Strip(group.title, group.sources, chartColours(theme), 396, STRIP_PX, goTo, group.most), data: [] }));
+    const groups = groupsOf(welcome.robot, welcome.scene, (field, index) => index < (counts.get(field) ?? 0));
+    this.strips = groups.map((group) => ({ group, strip: new Strip(group, chartColours(theme), 396, STRIP_PX, goTo), data: [] }));
     this.element.append(...this.strips.map(({ strip }) => strip.element));
     new ResizeObserver(() => {
       const width = this.element.clientWidth;

@@ -1,8 +1,8 @@
 // Which numbers stand together on a strip, with their colours.
 import { segmentsOf } from '../model/drive_names';
-import { feedCount, type Robot } from '../model/robot';
+import { feedCount, type Robot, type Scene } from '../model/robot';
 import { segmentColour } from '../scene/palette';
-import type { Curve } from './strip';
+import type { Curve, Limit } from './strip';
 
 export interface Source extends Curve {
   field: string;
@@ -15,15 +15,32 @@ export interface Group {
   title: string;
   sources: Source[];
   most?: number; // values beyond it are not worth the room
+  limits?: Limit[]; // lines across the strip
+  note?: string; // how its curves are told apart, where they are many
 }
 
 const AXIS_COLOURS = ['#e0564a', '#57b894', '#4e9bd6']; // x, y, z, as in the scene
 
 type Has = (field: string, index: number) => boolean;
 
+const DASHES = [undefined, [7, 3], [2, 2], [9, 3, 2, 3]]; // of the first, second, ... curve of a segment
+const CABLE_NOTE = 'by segment; its cables solid, dashed, dotted';
+
 function source(field: string, index: number, label: string, colour: string, factor = 1, dashed = false): Source {
-  return { field, index, label, colour, factor, dashed };
+  return { field, index, label, colour, factor, dash: dashed ? [4, 3] : undefined };
 }
+
+// One curve for each cable or joint: the segment's colour, and a line of its own within the segment.
+function ofDrives(robot: Robot, field: string, factor = 1): Source[] {
+  if (robot.kind === 'serial') return robot.joints.map((_, i) => source(field, i, `joint ${i + 1}`, segmentColour(i), factor));
+  const segments = segmentsOf(robot);
+  return segments.map((segment, i) => {
+    const place = i - segments.indexOf(segment);
+    return { ...source(field, i, `cable ${i + 1}, segment ${segment}`, segmentColour(segment - 1), factor), dash: DASHES[place % DASHES.length] };
+  });
+}
+
+const both = (limit: number, name: string): Limit[] => [{ at: limit, name }, { at: -limit, name }];
 
 function angleGroups(robot: Robot): Group[] {
   if (robot.kind === 'serial') {
@@ -33,31 +50,26 @@ function angleGroups(robot: Robot): Group[] {
   const base = feedCount(robot);
   const ofAxis = (axis: number) =>
     robot.segments.map((_, m) => source('measured_js_deg', base + 2 * m + axis, String(base / 2 + m + 1), segmentColour(m)));
+  const limit_deg = Math.min(...robot.segments.map((segment) => segment.theta_limit_deg));
   const fed = ['slide', 'roll'].map((name, i) => source('measured_js_deg', i, name, AXIS_COLOURS[i]));
   return [
     ...(base === 0 ? [] : [{ name: 'base', title: 'slide and roll of the base [deg]', sources: fed }]),
-    { name: 'pitch', title: 'pitch of segments [deg]', sources: ofAxis(0) },
-    { name: 'yaw', title: 'yaw of segments [deg]', sources: ofAxis(1) },
+    { name: 'pitch', title: 'pitch of segments [deg]', sources: ofAxis(0), limits: both(limit_deg, 'limit') },
+    { name: 'yaw', title: 'yaw of segments [deg]', sources: ofAxis(1), limits: both(limit_deg, 'limit') },
   ];
 }
 
 // What the drives report: share of the rated torque, which is that of the rated current.
 function currentGroup(robot: Robot): Group {
-  const serial = robot.kind === 'serial';
-  const colours = serial ? robot.joints.map((_, i) => i) : segmentsOf(robot).map((segment) => segment - 1);
-  const sources = colours.map((colour, i) => source('drives.torque_permille', i, String(i + 1), segmentColour(colour), 0.1));
-  return { name: 'current', title: 'motor current, of rated [%]', sources };
+  const note = robot.kind === 'serial' ? undefined : CABLE_NOTE;
+  return { name: 'current', title: 'motor current, of rated [%]', sources: ofDrives(robot, 'drives.torque_permille', 0.1), note, limits: both(100, 'rated') };
 }
 
 function forceGroups(robot: Robot): Group[] {
-  if (robot.kind === 'serial') {
-    const joints = robot.joints.map((_, i) => source('torque_Nm', i, String(i + 1), segmentColour(i)));
-    return [{ name: 'torque', title: 'joint torque [N m]', sources: joints }];
-  }
-  const cables = segmentsOf(robot)
-    .map((segment, i) => source('tension_N', i, String(i + 1), segmentColour(segment - 1)))
-    .slice(feedCount(robot));
-  return [{ name: 'tension', title: 'cable tension, in the colours of the segments [N]', sources: cables }];
+  if (robot.kind === 'serial') return [{ name: 'torque', title: 'joint torque [N m]', sources: ofDrives(robot, 'torque_Nm') }];
+  const { floor_motor_N, ceiling_free_N, alarm_N } = robot.tension;
+  const limits = [{ at: floor_motor_N, name: 'floor' }, { at: ceiling_free_N, name: 'ceiling' }, { at: alarm_N, name: 'alarm' }];
+  return [{ name: 'tension', title: 'cable tension [N]', sources: ofDrives(robot, 'tension_N').slice(feedCount(robot)), note: CABLE_NOTE, limits }];
 }
 
 function axes(field: string, factor = 1): Source[] {
@@ -81,13 +93,16 @@ function pushGroups(): Group[] {
 }
 
 // The strips of this arm; fields that are not there are left out, and strips without any.
-export function groupsOf(robot: Robot, has: Has): Group[] {
+export function groupsOf(robot: Robot, scene: Scene, has: Has): Group[] {
+  const { slow_m, refuse_m } = scene.margins ?? {};
+  const margins = [[slow_m, 'slowed'], [refuse_m, 'refused']] as const;
   const clearance: Group = {
     name: 'clearance',
     title: 'clearance up to 150 mm [mm]',
     most: 150,
+    limits: margins.flatMap(([at_m, name]) => (at_m === undefined ? [] : [{ at: 1000 * at_m, name }])),
     sources: [
-      source('clearance.distance_m', 0, 'verified', '#f0a030', 1000),
+      source('clearance.distance_m', 0, 'guaranteed', '#f0a030', 1000),
       source('truth.clearance_m', 0, 'true', '#57b894', 1000),
       source('clearance.bound_m', 0, 'bound of error', '#8f9aa6', 1000, true),
     ],
@@ -105,6 +120,7 @@ export function groupsOf(robot: Robot, has: Has): Group[] {
   const verdict: Group = {
     name: 'verdict',
     title: 'nearest limit, share used [%]',
+    limits: [{ at: 100, name: 'limit' }],
     sources: [source('verdict.share', 0, 'verdict', '#c96bb0', 100)],
   };
   const tick: Group = { name: 'tick', title: 'longest tick in real time [us]', sources: [source('tick_us', 0, 'tick', '#4e9bd6')] };

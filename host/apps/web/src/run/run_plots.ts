@@ -10,7 +10,7 @@ import type { Theme } from '../scene/palette';
 import { checkbox, h } from '../ui/dom';
 
 const POINTS = 800;
-const STRIP_PX = 122;
+const STRIP_PX = 132;
 const WINDOWS_S = [0, 60, 20, 5]; // 0: everything
 
 interface Shown {
@@ -58,9 +58,9 @@ export class RunPlots {
     const { telemetry } = this.run;
     // What never had a number has no curve: runs of older versions lack some.
     const has = (field: string, index: number) => telemetry.columns.get(field)?.[index]?.some(Number.isFinite) ?? false;
-    const groups = groupsOf(this.run.head.robot, has);
+    const groups = groupsOf(this.run.head.robot, this.run.head.scene, has);
     this.shown = groups.map((group) => {
-      const strip = new Strip(group.title, group.sources, chartColours(this.theme), this.width, STRIP_PX, this.goTo, group.most);
+      const strip = new Strip(group, chartColours(this.theme), this.width, STRIP_PX, this.goTo);
       const needle = h('div', { class: 'plot-needle' });
       strip.plot.over.append(needle);
       const columns = group.sources.map((s) => telemetry.columns.get(s.field)![s.index].map((v) => v * s.factor));
