@@ -23,6 +23,7 @@ def examples_of(page):
 
 
 FOLDER = ROOT / "docs" / "examples"
+NOTEBOOK = FOLDER / "07_notebook" / "notebook.py"
 EXAMPLES, README = examples_of("docs/getting-started/python.md"), examples_of("README.md")
 
 
@@ -43,7 +44,7 @@ class Examples(unittest.TestCase):
         self.assertRegex(said_by(EXAMPLES[2]), r"^0\.004 -?\d+ \d\d\n$")
 
     def test_the_environment_of_the_page_tells_how_far_the_goal_is(self):
-        said = re.fullmatch(r"(0\.\d+) m to go, reward -(0\.\d+)\n", said_by(EXAMPLES[3]))
+        said = re.fullmatch(r"(0\.\d+) m to go, reward -(0\.\d+)\n", said_by(EXAMPLES[4]))
         self.assertEqual(said[1], said[2])
 
     def test_the_smallest_example_reads_the_state(self):
@@ -70,11 +71,11 @@ def python_with(*modules):
 
 class Notebook(unittest.TestCase):
     def run_it(self, *words):
-        """The notebook in a folder of its own: how it ended, and the folder."""
+        """The notebook, or what else `words` end with, in a folder of its own: how it ended, and the folder."""
         folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         package = str(ROOT / "host" / "api" / "python")
         environment = {**os.environ, "MPLCONFIGDIR": str(folder), "PYTHONPATH": package}
-        call = [python_with("numpy", "matplotlib"), *words, FOLDER / "07_notebook" / "notebook.py"]
+        call = [python_with("numpy", "matplotlib"), *(words or [NOTEBOOK])]
         return subprocess.run(call, cwd=folder, capture_output=True, text=True, check=False, env=environment), folder
 
     def test_the_cells_move_the_arm_and_draw_its_tensions_in_newtons(self):
@@ -90,9 +91,16 @@ class Notebook(unittest.TestCase):
         self.assertLess(abs(int(said[2]) - int(said[3])), 0.1 * int(said[3]))
         self.assertEqual((folder / "tensions.png").read_bytes()[:4], b"\x89PNG")
 
+    def test_the_plot_of_the_page_has_the_tensions_in_newtons(self):
+        done, folder = self.run_it("-c", EXAMPLES[3])
+        said = re.fullmatch(r"(\d+) N at most, in tensions.png\n", done.stdout)
+        self.assertTrue(said, done.stdout + done.stderr)
+        self.assertTrue(30 < int(said[1]) < 150)
+        self.assertEqual((folder / "tensions.png").read_bytes()[:4], b"\x89PNG")
+
     def test_without_matplotlib_it_says_what_to_install(self):
         hidden = "import sys, runpy; sys.modules['matplotlib'] = None; runpy.run_path(sys.argv[1], run_name='__main__')"
-        done, folder = self.run_it("-c", hidden)
+        done, folder = self.run_it("-c", hidden, NOTEBOOK)
         self.assertEqual((done.returncode, list(folder.glob("*.png"))), (1, []), done.stderr)
         self.assertIn("python3-matplotlib", done.stderr)
 
