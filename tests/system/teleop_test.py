@@ -23,12 +23,12 @@ UNREAD_S = 2.0  # twenty pictures: a terminal keeps 4 to 64 kB
 
 
 class Driver:
-    """`liana teleop` with these words, 120 columns wide."""
+    """`liana teleop` with these words, on a terminal of 80 x 24."""
 
     def __init__(self, test, *words):
         home = test.enterContext(tempfile.TemporaryDirectory(prefix="liana-home-", ignore_cleanup_errors=True))
         here, there = pty.openpty()
-        fcntl.ioctl(there, termios.TIOCSWINSZ, struct.pack("HHHH", 40, 120, 0, 0))
+        fcntl.ioctl(there, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
         homes = {"XDG_RUNTIME_DIR": home, "XDG_STATE_HOME": home, "TMPDIR": home}
         call = [program("liana"), "teleop", *map(str, words)]
         self.process = subprocess.Popen(

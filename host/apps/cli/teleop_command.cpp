@@ -75,7 +75,7 @@ void drive(const std::string& api, std::optional<terminal::Gamepad>& gamepad, co
     feel(terminal.read(client.fd(), terminal::Session::kPeriod_s), gamepad, session, client);
     while (const auto message = client.receive(0.0)) session.hear(*message);
     if (goal.is_due(now_s())) send_all(client, session.pass(now_s()));
-    if (picture.is_due(now_s())) terminal.draw(session.lines(terminal.columns()));
+    if (picture.is_due(now_s())) terminal.draw(session.lines(terminal.size()));
   }
 }
 

@@ -4,8 +4,6 @@
 #include <numbers>
 #include <utility>
 
-#include "host/operator/terminal/status_line.hpp"
-
 namespace liana::terminal {
 namespace {
 
@@ -101,8 +99,8 @@ void Session::hear(const Json& message) {
   goal_.reset();  // begins anew at the commanded tip
 }
 
-std::vector<std::string> Session::lines(std::size_t columns) const {
-  return status_lines(state_, {name_, robot_, speed_, goal_.has_value(), said_}, columns);
+std::vector<std::string> Session::lines(Size size) const {
+  return status_lines(state_, {name_, robot_, speed_, goal_.has_value(), said_}, size);
 }
 
 std::string Session::why_still() const {

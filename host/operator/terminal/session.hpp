@@ -7,6 +7,7 @@
 
 #include "host/base/json/json.hpp"
 #include "host/operator/terminal/jog.hpp"
+#include "host/operator/terminal/status_line.hpp"
 
 namespace liana::terminal {
 
@@ -33,8 +34,8 @@ class Session {
   bool wants_end() const { return wants_end_; }
   // lianad has said that it ends.
   bool is_over() const { return state_.value("stopping", false); }
-  // What is shown: one line each, none longer than `columns`.
-  std::vector<std::string> lines(std::size_t columns) const;
+  // What is shown on a terminal of this size.
+  std::vector<std::string> lines(Size size) const;
 
  private:
   bool owns_motion() const { return state_.value("owner", "") == name_; }

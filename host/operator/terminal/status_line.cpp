@@ -111,37 +111,70 @@ std::string limits_line(const Json& state) {
   return "limits      " + (text.empty() ? "none" : text) + (outcome.empty() ? "" : "   inverse kinematics " + outcome);
 }
 
-// Bytes of UTF-8 that go on a letter do not count.
-std::string cut(const std::string& line, std::size_t columns) {
-  std::size_t letters = 0;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if ((static_cast<unsigned char>(line[i]) & 0xC0U) == 0x80U) continue;
-    if (letters++ == columns) return line.substr(0, i);
+constexpr std::size_t kIndent = 12;  // of what goes on in the next line
+constexpr std::size_t kMaxPieces = 3;
+
+bool begins_letter(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }
+
+// Where so many letters end; bytes of UTF-8 that go on a letter do not count.
+std::size_t end_of_letters(const std::string& line, std::size_t letters) {
+  std::size_t i = 0;
+  for (; i < line.size(); ++i)
+    if (begins_letter(line[i]) && letters-- == 0) break;
+  return i;
+}
+
+// A line that is too long goes on in the next ones, at most three in all; broken at a space where there is one.
+void append_folded(std::vector<std::string>& lines, std::string line, std::size_t columns) {
+  for (std::size_t piece = 1;; ++piece) {
+    const std::size_t end = end_of_letters(line, columns);
+    if (end == line.size() || piece == kMaxPieces || columns < 2 * kIndent) {
+      lines.push_back(line.substr(0, end));
+      return;
+    }
+    const std::size_t space = line.rfind(' ', end);
+    const std::size_t cut = space != std::string::npos && space > kIndent ? space : end;
+    lines.push_back(line.substr(0, cut));
+    line = std::string(kIndent, ' ') + line.substr(cut == space ? cut + 1 : cut);
   }
-  return line;
+}
+
+std::vector<std::string> folded(const std::vector<std::string>& lines, std::size_t columns) {
+  std::vector<std::string> out;
+  for (const std::string& line : lines) append_folded(out, text::printable(line, text::Lines::kOne, ' '), columns);
+  return out;
 }
 
 }  // namespace
 
-std::vector<std::string> status_lines(const Json& state, const Shown& shown, std::size_t columns) {
-  std::vector<std::string> lines = {
-      text_of("%s  %s  %s  %s  %.1f s", shown.robot.c_str(), state.value("state", "no state yet").c_str(),
-              owner_of(state, shown.name).c_str(), what_next(state, shown).c_str(), state.value("time_s", 0.0)),
-      text_of("speed       %.0f mm/s, %.1f deg/s, along the %s axes", 1e3 * shown.speed.tip_m_s,
-              shown.speed.turn_rad_s / kDegree, shown.speed.in_tip ? "tip's" : "base's"),
-      "",
-      tip_line(state),
-      clearance_line(state),
-      force_line(state),
-      limits_line(state),
-  };
-  for (std::string& line : trouble_lines(state)) lines.push_back(std::move(line));
-  lines.insert(lines.end(),
-               {"", "said        " + shown.said, "",
-                "w s  a d  e q   tip along x, y, z (arrows too)   j l  i k  u o   turn it   f   axes of base or tip",
-                "h hold   r retract   + - speed   t take motion   n enable   b disable   c clear   x end",
-                "SPACE or ESCAPE: emergency stop"});
-  for (std::string& line : lines) line = cut(text::printable(line, text::Lines::kOne, ' '), columns);
+std::vector<std::string> status_lines(const Json& state, const Shown& shown, Size size) {
+  std::vector<std::string> lines = folded(
+      {
+          text_of("%s  %s  %s  %s  %.1f s", shown.robot.c_str(), state.value("state", "no state yet").c_str(),
+                  owner_of(state, shown.name).c_str(), what_next(state, shown).c_str(), state.value("time_s", 0.0)),
+          text_of("speed       %.0f mm/s, %.1f deg/s, along the %s axes", 1e3 * shown.speed.tip_m_s,
+                  shown.speed.turn_rad_s / kDegree, shown.speed.in_tip ? "tip's" : "base's"),
+          tip_line(state),
+          clearance_line(state),
+          force_line(state),
+          limits_line(state),
+      },
+      size.columns);
+  const std::vector<std::string> below = folded(
+      {"", "said        " + shown.said, "", "w s  a d  e q   tip along x, y, z (arrows too)   f   base or tip axes",
+       "j l  i k  u o   turn the tip    + -   speed    h   hold    r   retract",
+       "t   take motion    n   enable   b   disable   c   clear", "SPACE or ESCAPE   emergency stop",
+       "x or Ctrl-C   quit: the arm holds, motion is given back"},
+      size.columns);
+  std::vector<std::string> trouble = folded(trouble_lines(state), size.columns);
+  const std::size_t taken = lines.size() + below.size();
+  const std::size_t room = size.rows > taken ? size.rows - taken : 0;
+  if (trouble.size() > room) {
+    trouble.resize(room);
+    if (room > 0) trouble.back() = "            more: liana status";
+  }
+  lines.insert(lines.end(), trouble.begin(), trouble.end());
+  lines.insert(lines.end(), below.begin(), below.end());
   return lines;
 }
 

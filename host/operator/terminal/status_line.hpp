@@ -1,6 +1,7 @@
 // The status lines of the terminal.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,15 @@ struct Shown {
   std::string said;  // what became of what was asked last
 };
 
-// `state` as in docs/reference/api.md, or an empty object before the first. Lines are cut at `columns`, and end in no
-// newline.
-std::vector<std::string> status_lines(const Json& state, const Shown& shown, std::size_t columns);
+// Of a terminal [letters].
+struct Size {
+  std::size_t columns = 80;
+  std::size_t rows = 24;
+};
+
+// `state` as in docs/reference/api.md, or an empty object before the first. Long lines go on in the next ones, none is
+// longer than the columns. Faults and refusals get the rows that the rest leaves: all of it fits 80 x 24. Lines end in
+// no newline.
+std::vector<std::string> status_lines(const Json& state, const Shown& shown, Size size);
 
 }  // namespace liana::terminal

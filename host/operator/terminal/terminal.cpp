@@ -15,9 +15,9 @@ namespace {
 constexpr const char* kOtherScreen = "\x1b[?1049h\x1b[?25l";   // and no cursor
 constexpr const char* kFormerScreen = "\x1b[?25h\x1b[?1049l";  // with its cursor
 constexpr const char* kToTop = "\x1b[H";
-constexpr const char* kRestOfLine = "\x1b[K\r\n";
+constexpr const char* kRestOfLine = "\x1b[K";
+constexpr const char* kNextLine = "\r\n";  // not after the last one, where it would scroll
 constexpr const char* kRestOfScreen = "\x1b[J";
-constexpr std::size_t kUsualColumns = 80;
 
 }  // namespace
 
@@ -54,7 +54,7 @@ std::string Terminal::read(int other_fd, double timeout_s) {
 
 void Terminal::draw(const std::vector<std::string>& lines) {
   std::string text = kToTop;
-  for (const std::string& line : lines) text += line + kRestOfLine;
+  for (std::size_t i = 0; i < lines.size(); ++i) text += (i > 0 ? kNextLine : "") + lines[i] + kRestOfLine;
   text += kRestOfScreen;
   put(text);
 }
@@ -63,9 +63,10 @@ void Terminal::put(const std::string& text) const {
   [[maybe_unused]] const ssize_t count = write(out_, text.data(), text.size());
 }
 
-std::size_t Terminal::columns() const {
+Size Terminal::size() const {
   winsize size{};
-  return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kUsualColumns;
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0) return {};
+  return {size.ws_col, size.ws_row};
 }
 
 }  // namespace liana::terminal

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "host/operator/terminal/status_line.hpp"
+
 namespace liana::terminal {
 
 class Terminal {
@@ -23,7 +25,8 @@ class Terminal {
   bool is_gone() const { return is_gone_; }
   // Never waits: what a terminal that has stopped reading does not take is left out, so that keys still stop the arm.
   void draw(const std::vector<std::string>& lines);
-  std::size_t columns() const;
+  // As it is now; 80 x 24 where it does not say.
+  Size size() const;
 
  private:
   void put(const std::string& text) const;

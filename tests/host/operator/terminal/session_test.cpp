@@ -37,9 +37,9 @@ Session session_at(const Json& said) {
   return session;
 }
 
-std::string text_of(const Session& session, std::size_t columns = 200) {
+std::string text_of(const Session& session) {
   std::string text;
-  for (const std::string& line : session.lines(columns)) text += line + "\n";
+  for (const std::string& line : session.lines({.columns = 200, .rows = 50})) text += line + "\n";
   return text;
 }
 
@@ -140,8 +140,25 @@ TEST(TeleopSession, LinesSayStateOwnerClearanceForceAndWhatIsWrong) {
   EXPECT_EQ(wrong.find('\x1b'), std::string::npos) << "texts of others move no cursor";
 }
 
-TEST(TeleopSession, LinesAreCutAtTheTerminalsWidthAndBeforeTheFirstStateThereAreSome) {
-  for (const std::string& line : session_at(state()).lines(20)) EXPECT_LE(line.size(), 20U);
+// req:A24
+TEST(TeleopSession, EverythingFitsATerminalOf80By24AndItsLastLineSaysHowToQuit) {
+  Json bad = state("pilot", "FAULT");
+  for (int number = 3001; number < 3020; ++number)
+    bad["faults"].push_back({{"number", number}, {"name", "drive_silent"}, {"remedy", std::string(150, 'a') + " b"}});
+  Session session = session_at(bad);
+  session.say(std::string(100, 'x') + " " + std::string(300, 'y'));
+  for (const Json& shown : {state(), bad}) {
+    session.hear(shown);
+    const std::vector<std::string> lines = session.lines({});
+    EXPECT_LE(lines.size(), 24U);
+    for (const std::string& line : lines) EXPECT_LE(line.size(), 80U) << line;
+    EXPECT_NE(lines.back().find("Ctrl-C"), std::string::npos);
+  }
+  EXPECT_NE(text_of(session).find("3001"), std::string::npos);
+}
+
+TEST(TeleopSession, NoLineIsLongerThanTheTerminalIsWideAndBeforeTheFirstStateThereAreSome) {
+  for (const std::string& line : session_at(state()).lines({.columns = 20, .rows = 24})) EXPECT_LE(line.size(), 20U);
   EXPECT_NE(text_of(Session("me", welcome())).find("no state yet"), std::string::npos);
 }
 
