@@ -21,6 +21,7 @@ void require_no_wishes(const launcher::RunOptions& run, const std::string& api) 
   refuse("--scene", run.scene != none.scene);
   refuse("--bus", run.bus != none.bus);
   refuse("--start-pose", run.start_pose != none.start_pose);
+  refuse("--faults", run.faults != none.faults);
   refuse("--physics", run.physics != none.physics);
   refuse("--calibration", run.calibration != none.calibration);
   refuse("--seed", run.seed != none.seed);

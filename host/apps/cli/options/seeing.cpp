@@ -30,6 +30,9 @@ void add_system(CLI::App& sub, SystemSelection& wish) {
   sub.add_option("--bus", wish.run.bus, "of the simulated arm: an embedded bus table");
   sub.add_option("--start-pose", wish.run.start_pose,
                  "of the simulated arm: a named pose of the robot, or all its angles, t1,t2,... deg");
+  sub.add_option("--faults", wish.run.faults,
+                 "to practise: faults of the simulated arm's drives, cables and camera (docs/how-to/run-hil.md)")
+      ->check(CLI::ExistingFile);
   add_physics(sub, wish.run.physics, "of the simulated arm: ");
   sub.add_option("--calibration", wish.run.calibration, "of the simulated arm: what liana calibrate wrote");
   add_seed(sub, wish.run.seed, "of the simulated arm");
