@@ -7,7 +7,8 @@ import { creditOf, proofOf } from '../../host/apps/web/src/live/protocol';
 import { Rate } from '../../host/apps/web/src/live/rate';
 import { StateAge } from '../../host/apps/web/src/live/state_age';
 import { AlarmBook, conditionsOf, type Condition } from '../../host/apps/web/src/model/alarms';
-import { driveText, placesText } from '../../host/apps/web/src/model/drive_names';
+import { driveText, lostCables, placesText } from '../../host/apps/web/src/model/drive_names';
+import { missionCommands } from '../../host/apps/web/src/steer/mission_panel';
 import { ARM, MICRO, near } from './support';
 
 if (!('crypto' in globalThis)) Object.assign(globalThis, { crypto: webcrypto }); // Node 18
@@ -135,6 +136,22 @@ test('an arm that goes back without a cable says so, and what the next command i
   const recovery = { where: driveText(4, ARM), next: 'liana recover goes on', recovers: true };
   assert.deepEqual(conditionsOf({ recovery }).map((each) => [each.key, each.todo]), [['recovery', 'liana recover goes on']]);
   assert.deepEqual(conditionsOf({ recovery: { ...recovery, recovers: false } }), []);
+});
+
+test('a cable that broke is lost while its fault is latched and on the way back after it', () => {
+  assert.deepEqual(lostCables({ faults: [{ number: 5006, name: 'cable_break', index: 4 }, { number: 3002, name: 'drive_silent', index: 2 }] }), [4]);
+  assert.deepEqual(lostCables({ faults: [], recovery: { cables: [5], where: '', next: '', recovers: true } }), [4]);
+  assert.deepEqual(lostCables({ recovery: null }), []);
+});
+
+test('a mission that waits is shown with what can be done, and one that runs can pause', () => {
+  const step = { index: 2, name: 'cover', device: 'none' };
+  const commands = (waits: string | null) => missionCommands({ step: { ...step, waits } });
+  assert.deepEqual(commands('confirm: cover removed'), ['confirm', 'abort']);
+  assert.deepEqual(commands('paused: people'), ['resume', 'step', 'abort']);
+  assert.deepEqual(commands(null), ['pause', 'abort']);
+  assert.deepEqual(missionCommands({ step: null }), []);
+  assert.deepEqual(conditionsOf({ step: { ...step, waits: 'confirm: cover removed' } }).map((each) => [each.key, each.cause]), [['mission', 'confirm: cover removed']]);
 });
 
 test('drives count from 1, with node and segment', () => {

@@ -1,14 +1,14 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { pitchBudget } from '../../host/apps/web/src/model/pitch_budget';
-import { deviationText, distanceLines, mainDistance } from '../../host/apps/web/src/model/distances';
+import { deviationText, distanceLines, mainDistance, slowdownText } from '../../host/apps/web/src/model/distances';
 import { sentenceOf } from '../../host/apps/web/src/model/sentence';
 import { scaleOf, tensionColour } from '../../host/apps/web/src/model/tension_colour';
 import { lengthText, spoken } from '../../host/apps/web/src/model/text';
 import { moved, rotated, turnBetween } from '../../host/apps/web/src/model/vector';
 import { FramePace, FrameTurns } from '../../host/apps/web/src/scene/frame_pace';
 import { writeCameraFrame } from '../../host/apps/web/src/scene/tip_camera';
-import { spreadLabels } from '../../host/apps/web/src/scene/spread_labels';
+import { isIn, spreadLabels } from '../../host/apps/web/src/scene/spread_labels';
 import { ARM, MICRO, near, sampleOf } from './support';
 import type { Robot } from '../../host/apps/web/src/model/robot';
 
@@ -83,6 +83,19 @@ test('labels are pushed apart, the first stays, all are inside the picture and b
   for (const a of all)
     for (const b of all) if (a !== b) assert.ok(a.y + a.height <= b.y || b.y + b.height <= a.y, JSON.stringify(all));
   assert.ok(areas.every((a) => a.y >= 0 && a.y + a.height <= 200));
+});
+
+test('a label without a free place is not shown, and neither is one whose thing is under a control', () => {
+  const taken = [{ x: 0, y: 0, width: 300, height: 200 }];
+  assert.deepEqual(spreadLabels([{ x: 100, y: 100, width: 80, height: 18 }], 300, 200, taken), [false]);
+  assert.deepEqual(spreadLabels([{ x: 100, y: 100, width: 80, height: 18 }], 300, 200), [true]);
+  assert.deepEqual([[300, 200], [301, 200], [150, -1]].map((at) => isIn(at as [number, number], taken)), [true, false, false]);
+});
+
+test('what slows the tip is named, with its share where it is known', () => {
+  assert.equal(slowdownText(sampleOf({ 'guidance.speed_share': [1] }, { guidance: { slowed_by: '' }, limits: [] })), '');
+  assert.equal(slowdownText(sampleOf({ 'guidance.speed_share': [0.4] }, { guidance: { slowed_by: 'tension' }, limits: ['theta_rate'] })), 'slowed to 40 % by tension, theta rate');
+  assert.equal(slowdownText(sampleOf({}, { limits: ['tip_speed'] })), 'slowed by tip speed');
 });
 
 test('the picture becomes coarser while states wait long, and finer again only after calm seconds', () => {

@@ -4,6 +4,7 @@ import { distance } from '../../host/apps/web/src/model/vector';
 import { ACTIONS, roleBlocked } from '../../host/apps/web/src/steer/actions';
 import { LEAD_S, nextGoal, sumOf, towards } from '../../host/apps/web/src/steer/jog';
 import { actionOf, isField, type Direction } from '../../host/apps/web/src/steer/keyboard';
+import { plannerCommand, pointsOfPlan } from '../../host/apps/web/src/steer/planner_offer';
 import { near } from './support';
 
 const limits = { tip_speed_m_s: 0.1, tip_rate_deg_s: 20 };
@@ -85,4 +86,13 @@ test('each button says why it cannot be used now', () => {
   assert.match(blocked('clear', { faults: [] }, true), /nothing to clear/);
   assert.notEqual(roleBlocked('watch'), '');
   assert.equal(roleBlocked('operate'), '');
+});
+
+test('the planner is offered from where the arm is commanded to the goal, in this scene', () => {
+  assert.equal(plannerCommand('zhu2022', 'panel_slit', [0, 1.23456], [-2, 3]), 'liana plan --robot zhu2022 --scene panel_slit --from-deg=0,1.235 --to-deg=-2,3 --out way.json');
+});
+
+test('a plan is carried out only where it has points of this arm', () => {
+  assert.deepEqual(pointsOfPlan('{"waypoints_deg":[[0,1],[2,3]]}', 2), [[0, 1], [2, 3]]);
+  for (const text of ['{', '{}', '{"waypoints_deg":[]}', '{"waypoints_deg":[[0]]}', '{"waypoints_deg":[[0,null]]}', 'null']) assert.throws(() => pointsOfPlan(text, 2), /liana plan --out/);
 });

@@ -9,7 +9,7 @@ import { deflateRawSync } from 'node:zlib';
 const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, '..', '..', '..');
 const out = join(root, 'build', 'page');
-const MAX_BUNDLE_KB = 700;
+const MAX_BUNDLE_KB = 720;
 
 // The rows of a table in docs/ that begin with a number, as arrays of cells.
 function tableRows(file) {

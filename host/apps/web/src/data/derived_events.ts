@@ -1,6 +1,7 @@
 // What a state tells of push, adapter, servo and payload has no events of its own: here they are made of facts that
 // changed.
 import type { Facts, LianaEvent } from './sample';
+import { spoken } from '../model/text';
 
 export const TROUBLE = 1; // an event's number when somebody should look at it
 
@@ -40,7 +41,7 @@ function ofAdapter({ adapter: before }: Facts, { adapter: now }: Facts): Change[
 function ofServo({ servo: before }: Facts, { servo: now }: Facts): Change[] {
   if (!before || !now || (before.phase === now.phase && before.target === now.target)) return [];
   const why = now.reason ? `: ${now.reason}` : '';
-  const text = `servo to ${now.target || 'nothing'}: ${now.phase.replaceAll('_', ' ')}${why}`;
+  const text = `servo to ${now.target || 'nothing'}: ${spoken(now.phase)}${why}`;
   return [change('servo', text, ['lost', 'timed_out'].includes(now.phase))];
 }
 

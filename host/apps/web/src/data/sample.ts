@@ -15,9 +15,10 @@ export interface Facts {
   held_at_target?: boolean;
   planar_segments?: number;
   faults?: { number: number; name: string; index?: number; where?: string; detail?: number; text?: string; cause?: number | null }[];
-  recovery?: { where: string; next: string; recovers: boolean } | null; // a cable is lost
+  recovery?: { cables?: number[]; where: string; next: string; recovers: boolean } | null; // a cable is lost
   enabling_waits?: string;
   limits?: string[];
+  guidance?: { slowed_by?: string };
   stop?: { by: string; reason: string; tick: number } | null;
   stop_category?: string;
   stopping?: boolean;

@@ -3,7 +3,10 @@ import type { Sample } from '../data/sample';
 import { value, values } from '../data/sample';
 import type { Condition } from '../model/alarms';
 import type { CableRobot } from '../model/robot';
+import { slowdownText } from '../model/distances';
 import { sentenceOf } from '../model/sentence';
+import { lengthText } from '../model/text';
+import { distance } from '../model/vector';
 import { SceneView } from '../scene/scene_view';
 import { sceneColours, type Theme } from '../scene/palette';
 import { DevicePanel } from '../steer/device_panel';
@@ -13,6 +16,7 @@ import { Jogger } from '../steer/jogger';
 import { JogPanel } from '../steer/jog_panel';
 import { JointPanel } from '../steer/joint_panel';
 import { actionOf, isField } from '../steer/keyboard';
+import { MissionPanel } from '../steer/mission_panel';
 import { MotionPanel } from '../steer/motion_panel';
 import { ShapePanel } from '../steer/shape_panel';
 import { h, setText } from '../ui/dom';
@@ -135,13 +139,14 @@ export class LivePage {
     this.scene?.stage.renderer.dispose();
     const { ask } = this.pending;
     const motion = new MotionPanel(this.live, this.connection, ask);
+    const mission = new MissionPanel(this.live, ask);
     const joints = new JointPanel(this.live, welcome, ask);
     const device = new DevicePanel(this.live, ask);
     const jog = new JogPanel(this.live, this.jogger, ask);
     const shape = welcome.robot.kind === 'serial' ? null : new ShapePanel(this.live, welcome.robot, ask);
-    this.panels = [motion, device, joints, ...(shape ? [shape] : [])];
+    this.panels = [motion, mission, device, joints, ...(shape ? [shape] : [])];
     this.pushCard = new PushCard(welcome.scene);
-    const cards = [motion, this.pushCard, device, jog, joints, ...(shape ? [shape] : [])];
+    const cards = [mission, motion, this.pushCard, device, jog, joints, ...(shape ? [shape] : [])];
     const steer = h('div', { class: 'panel' }, ...cards.map(({ element }) => element));
     const goTo = (time_s: number) => this.historyScrubber.goTo(time_s);
     this.plots = new LivePlots(this.live, welcome, theme, goTo);
@@ -207,10 +212,19 @@ export class LivePage {
     if (this.handle) {
       this.handle.isEnabled = this.live.status === '' && this.live.isMine && sample.facts.state === 'ENABLED' && this.historyScrubber.time_s === null;
       this.handle.place(values(sample, 'setpoint_cp'));
-      this.scene.tipLabel = this.handle.isEnabled && !this.jogger.isJogging ? 'drag the tip' : '';
+      this.scene.dragTarget_m = this.handle.isEnabled ? this.jogger.target : null;
+      this.scene.tipLabel = this.handle.isEnabled ? this.tipText(sample) : '';
     }
     if (this.historyScrubber.time_s === null) this.scene.trail.add(values(sample, 'measured_cp'));
     this.scene.show(sample);
+  }
+
+  // Of a drag what is left to its target, and what slows the tip.
+  private tipText(sample: Sample): string {
+    if (!this.jogger.isJogging) return 'drag the tip';
+    const { target } = this.jogger;
+    const left = target ? `${lengthText(distance(target, values(sample, 'setpoint_cp')))} to the target` : '';
+    return [left, slowdownText(sample)].filter(Boolean).join(', ');
   }
 
   private drawn(now_ms: number): void {
@@ -245,10 +259,10 @@ export class LivePage {
     if (!this.live.isLive(now_s)) return 'NOT LIVE';
     const age_ms = 1000 * this.shownAge_s;
     const ratio = this.scene?.stage.pace.pixelRatio ?? 1;
-    const coarse = ratio < 1 ? `, picture at ${Math.round(100 * ratio)} %` : '';
+    const coarse = ratio < 1 ? `, drawn at ${Math.round(100 * ratio)} %` : '';
     const share = value(sample, 'path.share');
     const path = Number.isFinite(share) ? `, path ${(100 * share).toFixed(0)} %` : '';
-    return `age ${age_ms.toFixed(0)} ms, ${this.live.states.perSecond(now_s)} states/s${coarse}${path}`;
+    return `state ${age_ms.toFixed(0)} ms old, ${this.live.states.perSecond(now_s)} a second${coarse}${path}`;
   }
 
   private keyDown(event: KeyboardEvent): void {

@@ -1,6 +1,7 @@
 // What was last asked of the arm, and what became of it: taken, until the controller says how it ended.
 import type { LianaEvent } from '../data/sample';
 import { endingOf, refusalText, type Taken } from '../model/outcome_text';
+import { spoken } from '../model/text';
 import { h, setText } from '../ui/dom';
 import type { Connection } from './connection';
 import type { Live } from './live';
@@ -22,7 +23,7 @@ export class PendingCommand {
   // An error of something that nobody waits for.
   error(what: string, answer: Answer): void {
     this.taken = null;
-    this.show(`${what}: ${answer.code ?? 'error'}: ${answer.message ?? ''}`, true);
+    this.show(`${what}: ${spoken(answer.code ?? 'error')}: ${answer.message ?? ''}`, true);
   }
 
   // An event that has just happened: what verification refuses comes after the answer that a request was taken.

@@ -2,6 +2,7 @@
 import type { Facts } from '../data/sample';
 import { placesText } from './drive_names';
 import { faultRow } from './tables';
+import { spoken } from './text';
 
 export type Priority = 1 | 2 | 3; // 1: act now; 2: act soon; 3: know it
 
@@ -89,7 +90,7 @@ const DRIVE_IS_LOST = [3001, 3002, 3007];
 function faultTitles(faults: readonly Fault[]): Map<number, string> {
   const places = new Map<number, string[]>();
   for (const fault of faults) places.set(fault.number, [...(places.get(fault.number) ?? []), ...(fault.where ? [fault.where] : [])]);
-  const named = (number: number, where: string) => `${number} ${faults.find((f) => f.number === number)!.name.replaceAll('_', ' ')}${where === '' ? '' : `: ${where}`}`;
+  const named = (number: number, where: string) => `${number} ${spoken(faults.find((f) => f.number === number)!.name)}${where === '' ? '' : `: ${where}`}`;
   return new Map([...places].map(([number, where]) => [number, named(number, placesText(where))]));
 }
 
@@ -123,7 +124,7 @@ function busConditions(facts: Facts): Condition[] {
     .map((bus) => ({
       key: `bus ${bus.name}`,
       priority: bus.lost ? 1 : 2,
-      title: `bus ${bus.name} ${bus.lost ? 'is lost' : `is ${bus.state.replaceAll('_', ' ')}`}`,
+      title: `bus ${bus.name} ${bus.lost ? 'is lost' : `is ${spoken(bus.state)}`}`,
       cause: bus.lost ? 'It is out, or none of its drives is heard.' : 'Frames on it were damaged.',
       todo: 'Check connectors, termination and interface of this bus.',
     }));
@@ -140,18 +141,21 @@ function withoutEchoes(faults: readonly Condition[], buses: readonly Condition[]
 // What in these facts a person should act on.
 export function conditionsOf(facts: Facts): Condition[] {
   const conditions = [...withoutEchoes(faultConditions(facts), busConditions(facts)), ...recoveryConditions(facts)];
-  const { clearance, stop, friction } = facts;
+  const { clearance, stop, friction, step } = facts;
   if (stop) {
     conditions.push({ key: 'stop', priority: 1, title: `emergency stop by ${stop.by}`, cause: stop.reason || 'No reason was given.',
       todo: 'Find out why. Then clear and enable; who does not own motion takes it first.' });
   }
+  if (step?.waits) {
+    conditions.push({ key: 'mission', priority: 3, passes: true, title: 'the mission waits', cause: step.waits, todo: 'Do what it waits for; then confirm or resume it in Steer, or abort it.' });
+  }
   if (clearance?.level === 'refuse') {
-    conditions.push({ key: 'clearance', priority: 1, title: `no verified clearance from the ${clearance.body}`, cause: 'The arm may touch it.', todo: 'Retract.' });
+    conditions.push({ key: 'clearance', priority: 1, title: `no verified clearance from the ${spoken(clearance.body)}`, cause: 'The arm may touch it.', todo: 'Retract.' });
   } else if (clearance?.level === 'slow') {
-    conditions.push({ key: 'clearance', priority: 2, title: `close to the ${clearance.body}: slowed down`, cause: 'Verified clearance is under the margin of this scene.', todo: 'Steer away from it, or go on slowly.' });
+    conditions.push({ key: 'clearance', priority: 2, title: `close to the ${spoken(clearance.body)}: slowed down`, cause: 'Verified clearance is under the margin of this scene.', todo: 'Move away from it, or go on slowly.' });
   }
   if (clearance && clearance.camera !== 'none' && clearance.camera !== '') {
-    conditions.push({ key: 'camera', priority: 2, title: `tip camera: ${clearance.camera.replaceAll('_', ' ')}`, cause: 'Distances are claimed without it, with more margin.', todo: 'Look whether something covers the camera; go on with care.' });
+    conditions.push({ key: 'camera', priority: 2, title: `tip camera: ${spoken(clearance.camera)}`, cause: 'Distances are guaranteed without it, with more margin.', todo: 'Look whether something covers the camera; go on with care.' });
   }
   if (friction?.not_as_declared) {
     const row = faultRow(5009);

@@ -38,6 +38,16 @@ export function distanceLines(sample: Sample, scene: Scene): [string, string][] 
   return lines.filter(([, text]) => text !== '');
 }
 
+// "slowed to 40 % by tension", or by the limits that act now; empty while nothing holds the tip back.
+export function slowdownText(sample: Sample): string {
+  const { clearance, guidance, limits } = sample.facts;
+  const share = value(sample, 'guidance.speed_share');
+  const by = [guidance?.slowed_by ?? '', ...(limits ?? [])].filter((name) => name !== '').map(spoken);
+  if (clearance?.level === 'slow') by.unshift(`the ${spoken(clearance.body)} being near`);
+  if (by.length === 0) return '';
+  return `slowed${share < 0.995 ? ` to ${Math.round(100 * share)} %` : ''} by ${[...new Set(by)].join(', ')}`;
+}
+
 function causeOfDeviation({ facts }: Sample, robot: Robot): string {
   if (facts.recovery) return 'a cable is lost';
   if (facts.state !== 'ENABLED') return 'brakes hold; the cables are not tightened';

@@ -1,4 +1,5 @@
 // How drives and cables are written in every text: counted from 1, with node and segment.
+import type { Facts } from '../data/sample';
 import { feedCount, type Robot } from './robot';
 
 // Segment (from 1) of each drive, in their order; empty for an arm without cables.
@@ -12,6 +13,14 @@ export function segmentsOf(robot: Robot): number[] {
 export function driveText(drive: number, robot: Robot): string {
   const segment = segmentsOf(robot)[drive];
   return `drive ${drive + 1} (node ${drive + 1}${segment ? `, segment ${segment}` : ''})`;
+}
+
+const CABLE_BREAK = 5006;
+
+// Drives (from 0) whose cable is lost: by a break that is latched, or on the way back after it.
+export function lostCables(facts: Facts): number[] {
+  const broken = (facts.faults ?? []).filter((fault) => fault.number === CABLE_BREAK && fault.index !== undefined).map((fault) => fault.index!);
+  return [...new Set([...broken, ...(facts.recovery?.cables ?? []).map((cable) => cable - 1)])].sort((a, b) => a - b);
 }
 
 // "a, b and c"

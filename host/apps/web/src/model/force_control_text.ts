@@ -3,7 +3,7 @@
 import { isKnown, value, values, type Sample } from '../data/sample';
 import { payloadPlace } from './payload_place';
 import type { Scene } from './robot';
-import { lengthText } from './text';
+import { lengthText, spoken } from './text';
 
 function lengthOf(v: ArrayLike<number>): number {
   return Math.hypot(v[0], v[1], v[2]);
@@ -38,7 +38,7 @@ function pushText(sample: Sample): string {
   if (!push || push.number === 0) return '';
   const law = push.law === 'impedance' ? ' by impedance' : '';
   const said = listed(
-    push.end !== 'none' && `ended: ${push.end.replaceAll('_', ' ')}`,
+    push.end !== 'none' && `ended: ${spoken(push.end)}`,
     push.phase !== 'none' && `${push.phase}${law}`,
     known(value(sample, 'insert.force_setpoint_N'), (newtons) => `set ${newtons.toFixed(1)} N`),
     known(lengthOf(values(sample, 'insert.applied_force.force_N')), (newtons) => `gives ${newtons.toFixed(1)} N`),
@@ -65,7 +65,7 @@ function servoText(sample: Sample): string {
   const turn = known(lengthOf(error_deg), (deg) => ` and ${deg.toFixed(2)} deg`);
   const swing_m = value(sample, 'servo.sway_m');
   const said = listed(
-    servo.phase.replaceAll('_', ' '),
+    spoken(servo.phase),
     known(lengthOf(error_m), (m) => `${lengthText(m)}${turn} to go`),
     swing_m > 0 && `the target swings by ${lengthText(swing_m)}`,
     servo.reason,

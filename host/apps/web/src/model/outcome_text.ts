@@ -2,11 +2,12 @@
 // events that follow.
 import type { Facts, LianaEvent } from '../data/sample';
 import { refusalRow } from './tables';
+import { spoken } from './text';
 
 // A request that lianad has taken.
 export interface Taken {
   op: string;
-  command?: string; // of state_command
+  command?: string; // of state_command, mission_control
   device?: string; // of use_device
   time_s: number; // arm time when it was taken
   lastEvent: number; // sequence of the newest event before it was sent
@@ -48,7 +49,7 @@ function cutShort(taken: Taken, seen: Seen): Ending | null {
   if (stop) return { ok: false, text: `ended by an emergency stop of ${stop.by}` };
   const refusal = eventsSince(taken, seen).map(refusalText).find((text) => text !== '');
   if (refusal) return { ok: false, text: refusal };
-  if (faults && faults.length > 0) return { ok: false, text: `ended by fault ${faults[0].number} ${faults[0].name.replaceAll('_', ' ')}` };
+  if (faults && faults.length > 0) return { ok: false, text: `ended by fault ${faults[0].number} ${spoken(faults[0].name)}` };
   if (!seen.isMine) return { ok: false, text: 'ended: motion is no longer yours' };
   return null;
 }
@@ -93,6 +94,7 @@ export function endingOf(taken: Taken, seen: Seen): Ending | null {
   if (taken.op === 'acquire') return seen.isMine ? WHOLE : null;
   if (taken.op === 'release') return seen.isMine ? null : WHOLE;
   if (taken.op === 'use_device') return seen.facts.device === taken.device ? WHOLE : null;
+  if (taken.op === 'mission_control') return seen.facts.mission_control?.command === taken.command ? { ok: true, text: 'sent to the mission' } : null;
   if (taken.op === 'state_command') return endOfStateCommand(taken, seen);
   if (taken.op === 'retract') return endOfRetract(taken, seen);
   return endOfMotion(taken, seen);

@@ -22,7 +22,7 @@ function doing(sample: Sample, stepCount: number | null): string {
   if (stop) return `emergency stop by ${stop.by}`;
   if (state === 'FAULT') return STATES.FAULT;
   if (retract && ['stopping', 'joining', 'back'].includes(retract.phase)) return 'going back along the verified path';
-  if (step) return `step ${step.index}${stepCount ? ` of ${stepCount}` : ''}: ${step.name}`;
+  if (step) return `step ${step.index}${stepCount ? ` of ${stepCount}` : ''}: ${step.name}${step.waits ? `, waits: ${step.waits}` : ''}`;
   const what = STATES[state ?? ''] ?? 'no state yet';
   if (state !== 'ENABLED') return what;
   if (device_engaged) return MODES[device ?? ''] ?? 'moved with a device';

@@ -1,6 +1,6 @@
 // Commands with both verdicts and their margins: those that were refused, and samples of the others.
 import type { Command, Judged, Run } from '../data/run';
-import { lengthText } from '../model/text';
+import { lengthText, spoken } from '../model/text';
 import { checkbox, h } from '../ui/dom';
 
 const AT_MOST = 400; // rows in the page at a time
@@ -16,7 +16,7 @@ function marginsText(margins: Record<string, number | null> | undefined): string
     .filter((entry): entry is [string, number] => entry[1] !== null)
     .map(([name, value]) => {
       const [, what, unit] = /^(.*?)(?:_(m|deg|deg_s|N|us))?$/.exec(name) ?? [];
-      return unit === 'm' ? `${what} ${lengthText(value)}` : `${what.replaceAll('_', ' ')} ${Number(value.toPrecision(3))} ${(unit ?? '').replace('_', '/')}`;
+      return unit === 'm' ? `${what} ${lengthText(value)}` : `${spoken(what)} ${Number(value.toPrecision(3))} ${(unit ?? '').replace('_', '/')}`;
     })
     .join(', ');
 }

@@ -3,7 +3,7 @@ import type { Command, RunHead } from '../data/run';
 import { lastBefore } from '../data/run';
 import type { LianaEvent } from '../data/sample';
 import { PATH_REFUSED } from '../model/outcome_text';
-import { lengthText } from '../model/text';
+import { lengthText, spoken } from '../model/text';
 import { faultRow, refusalRow } from '../model/tables';
 
 export interface Outcome {
@@ -101,7 +101,7 @@ function failureOf(head: RunHead): Outcome {
   if (cause) todo.add(remedyOf(cause, head.commands) ?? '');
   todo.delete('');
   for (const criterion of todo.size === 0 && !failed ? report.criteria ?? [] : []) {
-    if (!criterion.met) todo.add(`${criterion.name.replaceAll('_', ' ')} is ${Number(criterion.value.toPrecision(4))}, its limit is ${criterion.limit}: look at where that was.`);
+    if (!criterion.met) todo.add(`${spoken(criterion.name)} is ${Number(criterion.value.toPrecision(4))}, its limit is ${criterion.limit}: look at where that was.`);
   }
   if (todo.size === 0) todo.add('Look at that moment: what the step still waited for stands above, what the arm did in plots and events.');
   return {

@@ -44,14 +44,14 @@ export class ArmBody {
   private readonly cables: Cables | null;
   private held = '';
 
-  constructor(robot: Robot, private heldColour: string) {
+  constructor(robot: Robot, private heldColour: string, lostColour: string) {
     this.chain = chainOf(robot);
     const { pieces } = this.chain;
     const isCable = robot.kind !== 'serial';
     const core = isCable ? LINK_RADIUS_M : 0.7 * SERIAL_RADIUS_M;
     this.links = new THREE.InstancedMesh(shaded(rodGeometry(core, SIDES, true)), paint(), pieces.length);
     this.discs = new THREE.InstancedMesh(shaded(rodGeometry(moduleRadius_m(robot))), paint(), 2 * pieces.length);
-    this.cables = isCable ? new Cables(robot, this.chain) : null;
+    this.cables = isCable ? new Cables(robot, this.chain, lostColour) : null;
     for (const mesh of [this.links, this.discs]) mesh.frustumCulled = false;
     this.group.add(this.links, this.discs);
     if (this.cables) this.group.add(this.cables.lines);
@@ -62,8 +62,9 @@ export class ArmBody {
 
   private readonly faces: Faces[];
 
-  // Moves the arm; tensions in the order of the API, none for an arm without cables.
-  set(theta_deg: ArrayLike<number>, tension_N: ArrayLike<number>): void {
+  // Moves the arm; tensions in the order of the API, none for an arm without cables; `lost`: drives (from 0) whose cable
+  // is lost.
+  set(theta_deg: ArrayLike<number>, tension_N: ArrayLike<number>, lost: readonly number[]): void {
     this.chain.set(theta_deg);
     const { matrices } = this.chain;
     this.faces.forEach(({ first_m, last_m }, k) => {
@@ -73,7 +74,7 @@ export class ArmBody {
     });
     this.links.instanceMatrix.needsUpdate = true;
     this.discs.instanceMatrix.needsUpdate = true;
-    this.cables?.set(tension_N);
+    this.cables?.set(tension_N, lost);
   }
 
   // Segments (from 0) whose pitch is held: their discs are white (S2 of the paper).
@@ -127,8 +128,10 @@ class Cables {
   private readonly scale: TensionScale;
   private readonly faces: Faces[];
   private readonly first: number; // of the drives that are cables'
+  private readonly lostColour: [number, number, number];
 
-  constructor(robot: CableRobot, private readonly chain: ArmChain) {
+  constructor(robot: CableRobot, private readonly chain: ArmChain, lostColour: string) {
+    this.lostColour = new THREE.Color(lostColour).toArray() as [number, number, number];
     this.scale = scaleOf(robot.tension);
     this.first = feedCount(robot);
     this.faces = facesOf(robot, chain.pieces);
@@ -152,10 +155,12 @@ class Cables {
     this.lines.frustumCulled = false;
   }
 
-  set(tension_N: ArrayLike<number>): void {
+  // A lost cable is a broken line in a colour of its own.
+  set(tension_N: ArrayLike<number>, lost: readonly number[]): void {
     const { matrices } = this.chain;
     this.runs.forEach((run, cable) => {
-      const colour = tensionColour(tension_N[this.first + cable] ?? NaN, this.scale);
+      const isLost = lost.includes(this.first + cable);
+      const colour = isLost ? this.lostColour : tensionColour(tension_N[this.first + cable] ?? NaN, this.scale);
       const points = 2 * run.pieces;
       let vertex = run.at;
       for (let p = 0; p < points; ++p) {
@@ -171,9 +176,17 @@ class Cables {
           ++vertex;
         }
       }
+      if (isLost) this.breakUp(run);
     });
     this.lines.geometry.attributes.position.needsUpdate = true;
     this.lines.geometry.attributes.color.needsUpdate = true;
+  }
+
+  // Every second piece of the line shrinks to a point.
+  private breakUp(run: { pieces: number; at: number }): void {
+    for (let vertex = run.at; vertex < run.at + 2 * (2 * run.pieces - 1); vertex += 4) {
+      this.places.copyWithin(3 * vertex + 3, 3 * vertex, 3 * vertex + 3);
+    }
   }
 }
 

@@ -3,6 +3,7 @@ import * as THREE from 'three';
 import type { SceneColours } from './palette';
 
 const TRAIL_POINTS = 3000;
+export const GOAL_AXES_M = 0.15;
 const TRAIL_STEP_M = 0.003;
 
 // A line through the places where the tip has been.
@@ -88,7 +89,7 @@ export class GoalCross {
   readonly group = new THREE.Group();
 
   constructor() {
-    this.group.add(new THREE.AxesHelper(0.15));
+    this.group.add(new THREE.AxesHelper(GOAL_AXES_M));
     this.group.visible = false;
     this.group.matrixAutoUpdate = false;
   }

@@ -26,6 +26,7 @@ const SCENE_COLOURS = {
   way: ['#5a6b7c', '#93a3b3'],
   slit: ['#3fd0b0', '#00866c'],
   near: ['#ffb020', '#c05a00'],
+  lost: ['#ff4fd8', '#c4008f'],
   held: ['#f4f6f8', '#1b2631'],
 };
 

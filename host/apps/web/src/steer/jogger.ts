@@ -26,6 +26,11 @@ export class Jogger {
     return this.timer !== 0;
   }
 
+  // Where the mouse drags the tip; null: nowhere.
+  get target(): ArrayLike<number> | null {
+    return this.target_m;
+  }
+
   // Begins (or goes on) with what `who` asks for.
   press(who: string, direction: Direction): void {
     this.asked.set(who, direction);

@@ -7,16 +7,20 @@ import type { Ask } from '../live/pending_command';
 import { angleCount, angleName, angleRange_deg } from '../model/robot';
 import { segmentColour } from '../scene/palette';
 import { h, setText } from '../ui/dom';
+import { PlannerOffer } from './planner_offer';
+import { spoken } from '../model/text';
 
 export class JointPanel {
   readonly element: HTMLElement;
   private readonly sliders: HTMLInputElement[];
   private readonly outputs: HTMLElement[];
   private readonly now: HTMLElement[];
+  private readonly planner: PlannerOffer;
   private readonly touched = new Set<number>();
 
   constructor(private readonly live: Live, welcome: Welcome, ask: Ask) {
     const { robot } = welcome;
+    this.planner = new PlannerOffer(live, welcome, ask);
     const count = angleCount(robot);
     this.outputs = Array.from({ length: count }, () => h('output', {}));
     this.now = Array.from({ length: count }, () => h('span', { class: 'now' }));
@@ -27,11 +31,12 @@ export class JointPanel {
     const rows = this.sliders.map((slider, i) =>
       h('div', { class: 'joint' }, h('span', { class: 'name', style: `border-color:${segmentColour(robot.kind === 'serial' ? i : i >> 1)}` }, angleName(robot, i)), slider, this.outputs[i], this.now[i]));
     const poses = h('select', { 'aria-label': 'named pose', onchange: () => this.set(robot.named_poses_deg[poses.value] ?? []) },
-      h('option', { value: '' }, 'named pose'), ...Object.keys(robot.named_poses_deg).map((name) => h('option', { value: name }, name.replaceAll('_', ' '))));
+      h('option', { value: '' }, 'named pose'), ...Object.keys(robot.named_poses_deg).map((name) => h('option', { value: name }, spoken(name))));
     this.element = h('section', { class: 'card', 'aria-label': 'Angles' }, h('h2', {}, 'Angles [deg]'), ...rows,
       h('div', { class: 'filter' }, poses,
         h('button', { type: 'button', onclick: () => this.reset() }, 'as they are now'),
-        h('button', { type: 'button', 'data-action': 'go', title: 'all angles together, verified, at most 2 deg/s', onclick: () => ask('angles', { op: 'move_jp', goal_deg: this.goal_deg() }) }, 'go')));
+        h('button', { type: 'button', 'data-action': 'go', title: 'all angles together, verified, at most 2 deg/s', onclick: () => this.go(ask) }, 'go')),
+      h('p', { class: 'hint' }, 'The whole way is checked before anything moves.'), this.planner.element);
   }
 
   // All sliders follow the arm again.
@@ -46,7 +51,14 @@ export class JointPanel {
     this.commanded_deg().forEach((angle_deg, i) => {
       if (!this.touched.has(i) && i < this.sliders.length) this.sliders[i].value = String(angle_deg);
     });
+    this.planner.update();
     this.say();
+  }
+
+  private go(ask: Ask): void {
+    const goal_deg = this.goal_deg();
+    this.planner.asked(goal_deg);
+    ask('angles', { op: 'move_jp', goal_deg });
   }
 
   private commanded_deg(): Float32Array {

@@ -5,22 +5,39 @@ import { keep, kept } from './storage';
 
 const KEY = 'liana-theme';
 
+const systemIsLight = () => matchMedia('(prefers-color-scheme: light)');
+
+function systemTheme(): Theme {
+  return systemIsLight().matches ? 'light' : 'dark';
+}
+
 export function themeNow(): Theme {
   const theme = kept(KEY);
-  return theme === 'dark' || theme === 'light' ? theme : matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark';
+  return theme === 'dark' || theme === 'light' ? theme : systemTheme();
 }
 
 export function apply(theme: Theme): void {
   document.documentElement.dataset.theme = theme;
 }
 
-// Switches to the other theme; `changed` draws again what has colours of its own.
+// Goes along with the system's theme while the person has chosen none.
+function followSystem(changed: (theme: Theme) => void): void {
+  systemIsLight().addEventListener('change', () => {
+    if (kept(KEY)) return;
+    apply(themeNow());
+    changed(themeNow());
+  });
+}
+
+// Switches to the other theme; `changed` draws again what has colours of its own. Whoever comes back to the system's
+// theme follows it again.
 export function themeButton(changed: (theme: Theme) => void): HTMLElement {
+  followSystem(changed);
   return h('button', {
-    type: 'button', class: 'quiet', title: 'dark or light', 'aria-label': 'switch between dark and light',
+    type: 'button', class: 'quiet', title: 'dark or light; the system\u2019s theme is followed until you choose the other one', 'aria-label': 'switch between dark and light',
     onclick: () => {
-      const theme = document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark';
-      keep(KEY, theme);
+      const theme = themeNow() === 'dark' ? 'light' : 'dark';
+      keep(KEY, theme === systemTheme() ? '' : theme);
       apply(theme);
       changed(theme);
     },
