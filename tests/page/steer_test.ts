@@ -88,8 +88,9 @@ test('each button says why it cannot be used now', () => {
   assert.equal(roleBlocked('operate'), '');
 });
 
-test('the planner is offered from where the arm is commanded to the goal, in this scene', () => {
-  assert.equal(plannerCommand('zhu2022', 'panel_slit', [0, 1.23456], [-2, 3]), 'liana plan --robot zhu2022 --scene panel_slit --from-deg=0,1.235 --to-deg=-2,3 --out way.json');
+test('the planner is offered from where the arm is commanded to the goal, with the margin of this scene', () => {
+  assert.equal(plannerCommand('zhu2022', { name: 'x' }, [0, 1.23456], [-2, 3]), 'liana plan --robot zhu2022 --scene x --from-deg=0,1.235 --to-deg=-2,3 --out way.json');
+  assert.match(plannerCommand('zhu2022', { name: '', margins: { prediction_m: 0.007, refuse_m: 0.003 } }, [0], [1]), /--scene none .* --margin=0.0100 /);
 });
 
 test('a plan is carried out only where it has points of this arm', () => {

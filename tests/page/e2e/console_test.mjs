@@ -152,6 +152,17 @@ test('retract goes back along the verified path, hold ends it', async () => {
   await isAtRest('hold');
 });
 
+test('a goal whose way is refused offers the planner, and a file that is no plan is refused in words', async () => {
+  await isAtRest('before');
+  await page.selectOption('[aria-label="named pose"]', 'zero'); // straight through the panel
+  await page.click('[data-action="go"]');
+  await page.waitForSelector('.offer:not([hidden])');
+  assert.match(await text('.offer code'), /^liana plan --robot zhu2022 --scene panel_slit --from-deg=.* --to-deg=0(,0){9} --margin=/);
+  await page.setInputFiles('[aria-label="plan to carry out"]', { name: 'no.json', mimeType: 'application/json', buffer: Buffer.from('{}') });
+  await page.waitForSelector('section[aria-label="Angles"] :text("no.json: waypoints_deg")');
+  await isAtRest('after');
+});
+
 test('recorded runs are listed, each with its page', async () => {
   await page.click('#tab-Runs');
   await page.waitForFunction(() => /No run is recorded yet|shows no recorded|liana-/.test(document.querySelector('#panel-Runs').textContent));

@@ -87,7 +87,7 @@ export interface Scene {
   rod?: { position_m: Triple; radius_m: number };
   payload?: ScenePose & { start: string; length_m: number; radius_m?: number; fetch_pose?: string }; // frame of its grapple, z towards its pins
   adapter?: ScenePose; // the middle of its face, z into it
-  margins?: { slow_m?: number; refuse_m?: number };
+  margins?: { prediction_m?: number; slow_m?: number; refuse_m?: number };
 }
 
 // How many angles the arm has.

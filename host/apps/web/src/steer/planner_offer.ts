@@ -1,11 +1,11 @@
 // A way around, where the straight way to a goal of angles is refused: the planner's command to copy, and its file to
-// carry out. The planner takes a minute and more, so it is a program beside the console.
+// carry out. The planner is a program of its own, which may take a minute.
 import { values, type LianaEvent } from '../data/sample';
 import type { Live } from '../live/live';
 import type { Welcome } from '../live/protocol';
 import type { Ask } from '../live/pending_command';
 import { refusalText } from '../model/outcome_text';
-import { angleCount } from '../model/robot';
+import { angleCount, type Scene } from '../model/robot';
 import { h, setText } from '../ui/dom';
 
 const FILE = 'way.json';
@@ -13,9 +13,11 @@ const MAX_POINTS = 500; // of move_path
 
 const listed = (angles_deg: ArrayLike<number>) => Array.from(angles_deg, (angle) => Number(angle.toFixed(3))).join(',');
 
-// What plans a way from here to the goal in this scene.
-export function plannerCommand(robot: string, scene: string, from_deg: ArrayLike<number>, to_deg: ArrayLike<number>): string {
-  return `liana plan --robot ${robot} --scene ${scene || 'none'} --from-deg=${listed(from_deg)} --to-deg=${listed(to_deg)} --out ${FILE}`;
+// What plans a way from here to the goal in this scene, with the margin that verification asks for.
+export function plannerCommand(robot: string, scene: Scene, from_deg: ArrayLike<number>, to_deg: ArrayLike<number>): string {
+  const { prediction_m = 0, refuse_m = 0 } = scene.margins ?? {};
+  const margin = prediction_m + refuse_m > 0 ? ` --margin=${(prediction_m + refuse_m).toFixed(4)}` : '';
+  return `liana plan --robot ${robot} --scene ${scene.name || 'none'} --from-deg=${listed(from_deg)} --to-deg=${listed(to_deg)}${margin} --out ${FILE}`;
 }
 
 // The points of a plan for an arm of so many angles. Throws with what is wrong in words.
@@ -74,7 +76,7 @@ export class PlannerOffer {
     if (!refusal) return;
     const { robot, scene } = this.welcome;
     setText(this.why, `The straight way is ${refusalText(refusal)} Plan a way around:`);
-    setText(this.command, plannerCommand(robot.name, scene.name, values(this.live.sample, 'setpoint_js_deg'), this.goal_deg));
+    setText(this.command, plannerCommand(robot.name, scene, values(this.live.sample, 'setpoint_js_deg'), this.goal_deg));
     this.goal_deg = null;
     this.offer.hidden = false;
   }
