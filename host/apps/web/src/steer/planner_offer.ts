@@ -37,7 +37,7 @@ export function pointsOfPlan(text: string, count: number): number[][] {
 
 export class PlannerOffer {
   readonly element: HTMLElement;
-  private readonly why = h('p', { class: 'warning' });
+  private readonly why = h('p', { class: 'warning' }, 'The straight way is refused, as the line at the top says. Plan a way around:');
   private readonly command = h('code');
   private readonly offer: HTMLElement;
   private goal_deg: number[] | null = null; // asked for and not yet refused
@@ -72,10 +72,9 @@ export class PlannerOffer {
   // Offers the planner when the way to the goal was refused.
   update(): void {
     if (!this.goal_deg) return;
-    const refusal = this.live.events.find((event: LianaEvent) => event.sequence > this.lastEvent && refusalText(event) !== '');
-    if (!refusal) return;
+    const isRefused = this.live.events.some((event: LianaEvent) => event.sequence > this.lastEvent && refusalText(event) !== '');
+    if (!isRefused) return;
     const { robot, scene } = this.welcome;
-    setText(this.why, `The straight way is ${refusalText(refusal)} Plan a way around:`);
     setText(this.command, plannerCommand(robot.name, scene, values(this.live.sample, 'setpoint_js_deg'), this.goal_deg));
     this.goal_deg = null;
     this.offer.hidden = false;
