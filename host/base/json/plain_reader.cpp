@@ -125,11 +125,18 @@ class Reader {
 
   template <class Number>
   bool converted(const char* begin, Json& out) {
-    Number number{};
-    const auto [stopped, error] = std::from_chars(begin, at_, number);
-    if (error != std::errc() || stopped != at_) return false;
-    out = Json(number);
-    return true;
+#ifndef __cpp_lib_to_chars  // a library that reads no fractions (libc++ 14): the other parser does
+    if constexpr (std::floating_point<Number>)
+      return false;
+    else
+#endif
+    {
+      Number number{};
+      const auto [stopped, error] = std::from_chars(begin, at_, number);
+      if (error != std::errc() || stopped != at_) return false;
+      out = Json(number);
+      return true;
+    }
   }
 
   template <class Value>

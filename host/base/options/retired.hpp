@@ -14,7 +14,8 @@ struct RetiredName {
 
 // The present name of what was called `given`; empty where that is no retired name.
 constexpr std::string_view present_name(std::string_view given, std::span<const RetiredName> retired) {
-  const auto found = std::ranges::find(retired, given, &RetiredName::old_name);
+  const auto found =
+      std::find_if(retired.begin(), retired.end(), [&](const RetiredName& name) { return name.old_name == given; });
   return found != retired.end() ? found->new_name : std::string_view{};
 }
 

@@ -3,26 +3,16 @@
 
 #include <limits>
 
-#include "host/control/arbiter/cable_traits.hpp"
-#include "host/control/arbiter/serial_traits.hpp"
 #include "host/control/verification/judge_serial.hpp"
 #include "host/control/verification/judge_simulated.hpp"
+#include "host/control/verification/told_sequence.hpp"
 #include "host/control/verification/verify.hpp"
 #include "host/model/simulation/arm_observer.hpp"
 #include "host/model/simulation/worker.hpp"
 
 namespace liana::verification {
 
-constexpr double kEnough_m = 0.1;  // farther from the scene nobody asks how far
 constexpr double kWhenever = std::numeric_limits<double>::infinity();
-
-// Every T_c what the drives are told: now, then at the end of each interval that the twin has looked into.
-template <class Arm>
-void read_sequence(const TwinSnapshot<Arm>& image, std::uint64_t first_tick, const Prediction<Arm>& prediction,
-                   simulation::ToldRows<arbiter::Joints<Arm>>& out);
-// The same of a cable arm, with what its tensions are planned to do at the rows.
-void read_sequence(const TwinSnapshot<cable::CableArm>& image, std::uint64_t first_tick,
-                   const Prediction<cable::CableArm>& prediction, simulation::JointSequence& out);
 
 template <class Arm>
 class SimulationVerifier;
