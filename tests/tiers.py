@@ -56,7 +56,7 @@ ALL_PACKAGES = [
     "npm",
 ]
 FUZZ_SECONDS = 3  # each target
-PAGE_SUITES = ["unit", "console", "tls", "run_page", "vr", "frames"]
+PAGE_SUITES = ["unit", "console", "tls", "run_page", "try", "vr", "frames"]
 BARE_ROOT = "README's first command on a bare Debian 12"
 # Tests that may be skipped, by the beginning of their name, and why; any other skip fails.
 PLANNED_SKIPS = {
@@ -384,8 +384,8 @@ def deep():
 
 
 def only_page():
-    install("build", "chromium", "wasm", "npm")
-    if built(lambda: build_programs("programs")):
+    install("build", "configure", "chromium", "wasm", "npm")
+    if built(lambda: build_programs("tests", "try_player")):
         with stage("page"):
             page()
 

@@ -24,3 +24,11 @@ declare module 'node:path' {
   export function join(...parts: string[]): string;
 }
 declare const process: { env: Record<string, string | undefined>; cwd(): string };
+
+declare module 'node:child_process' {
+  export function spawnSync(
+    program: string,
+    words: string[],
+    options: { input: string; encoding: 'utf8' },
+  ): { stdout: string; stderr: string; status: number | null; error?: Error };
+}

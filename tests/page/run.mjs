@@ -1,5 +1,5 @@
 // Runs the tests of the page: types, style, plain modules, and end to end in Chromium against the real system.
-//   node tests/page/run.mjs [unit|console|run_page|frames|vr ...] [--judge-times]; all without a name. Needs `npm ci` in
+//   node tests/page/run.mjs [unit|console|run_page|try|frames|vr ...] [--judge-times]; all without a name. Needs `npm ci` in
 //   host/apps/web. --judge-times: frames must hold their figures, not only their ratio
 // (docs/getting-started/tour-of-the-console.md).
 import { spawnSync } from 'node:child_process';

@@ -2,6 +2,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { pitchBudget } from '../../host/apps/web/src/model/pitch_budget';
 import { deviationText, distanceLines, mainDistance, slowdownText } from '../../host/apps/web/src/model/distances';
+import type { Scene } from '../../host/apps/web/src/model/robot';
 import { sentenceOf } from '../../host/apps/web/src/model/sentence';
 import { scaleOf, tensionColour } from '../../host/apps/web/src/model/tension_colour';
 import { lengthText, spoken } from '../../host/apps/web/src/model/text';
@@ -12,7 +13,7 @@ import { isIn, spreadLabels } from '../../host/apps/web/src/scene/spread_labels'
 import { ARM, MICRO, near, sampleOf } from './support';
 import type { Robot } from '../../host/apps/web/src/model/robot';
 
-const scene = { name: 'x', rod: { position_m: [3, 0, 0] as [number, number, number], radius_m: 0.01 } };
+const scene: Scene = { name: 'x', rod: { position_m: [3, 0, 0], radius_m: 0.01, quaternion_wxyz: [1, 0, 0, 0] } };
 
 test('one sentence says the step and one distance: the clearance where it is small', () => {
   const sample = sampleOf(

@@ -1,7 +1,9 @@
-// Builds the page: build/page/console.html (one file, live) and build/page/view.html (template of a run's page).
+// Builds the page: build/page/console.html (one file, live) and build/page/view.html (template of a run's page). With
+// --try: build/page/try.html, the page to try Liana, of try.wasm beside it and of the tables that ship.
 // Beside them, with --tests, the unit tests of tests/page as one program for node.
 import { build } from 'esbuild';
-import { mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { deflateRawSync } from 'node:zlib';
@@ -10,6 +12,8 @@ const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, '..', '..', '..');
 const out = join(root, 'build', 'page');
 const MAX_BUNDLE_KB = 720;
+const MAX_TRY_KB = 1500;
+const TRY_TABLES = [['buses', 'embedded'], ['robot', 'zhu2022'], ['scene', 'panel_slit']];
 
 // The rows of a table in docs/ that begin with a number, as arrays of cells.
 function tableRows(file) {
@@ -55,11 +59,19 @@ const INFLATE = `(async()=>{try{const p=Uint8Array.from(atob(document.getElement
 const s=document.createElement('script');s.textContent=await new Response(new Blob([p]).stream().pipeThrough(new DecompressionStream('deflate-raw'))).text();
 document.head.append(s)}catch(e){document.body.textContent='This page needs a browser of 2023 or newer (Chromium 103, Firefox 113, Safari 16.4): '+e}})()`;
 
-async function pages() {
-  const script = await bundle('src/main.ts', { minify: true, format: 'iife', target: 'es2021' });
+const SCRIPT = { minify: true, format: 'iife', target: 'es2021' };
+
+const packedText = (bytes) => deflateRawSync(Buffer.from(bytes), { level: 9 }).toString('base64');
+
+async function emptyPage() {
   const style = await bundle('src/page.css', { minify: true });
-  const shell = readFileSync(join(here, 'src', 'page.html'), 'utf8').replace('/* style */', () => style);
-  const packed = deflateRawSync(Buffer.from(script), { level: 9 }).toString('base64');
+  return readFileSync(join(here, 'src', 'page.html'), 'utf8').replace('/* style */', () => style);
+}
+
+async function pages() {
+  const script = await bundle('src/main.ts', SCRIPT);
+  const shell = await emptyPage();
+  const packed = packedText(script);
   const fill = (text) => shell.replace('<!-- script -->', () => text);
   mkdirSync(out, { recursive: true });
   writeFileSync(join(out, 'console.html'), fill(`<script>${inlined(script)}</script>`).replace('<!-- liana-run -->\n', ''));
@@ -69,6 +81,29 @@ async function pages() {
   if (size_kB > MAX_BUNDLE_KB) throw new Error(`the script has ${size_kB} kB, at most ${MAX_BUNDLE_KB} are allowed`);
 }
 
+// Tables as the system evaluates them: canonical JSON, a line each.
+function tryTables() {
+  const folders = [process.env.LIANA_BIN, join(root, 'build', 'bin')].filter(Boolean);
+  const program = folders.map((folder) => join(folder, 'liana-mission')).find((file) => existsSync(file));
+  if (!program) throw new Error(`no liana-mission in ${folders.join(', ')}, which reads the tables of try.html: build it first (./dev build)`);
+  const lua = ['--lua-dir', join(root, 'lua')];
+  return TRY_TABLES.map(([kind, name]) => execFileSync(program, ['eval', kind, name, ...lua], { encoding: 'utf8' })).join('');
+}
+
+async function tryPage() {
+  const script = await bundle('src/try/main.ts', SCRIPT);
+  const held = { 'liana-tables': inlined(tryTables()), 'liana-try': packedText(readFileSync(join(out, 'try.wasm'))), 'liana-page': packedText(script) };
+  const texts = Object.entries(held).map(([id, text]) => `<script type="text/plain" id="${id}">${text}</script>`).join('\n');
+  const html = (await emptyPage())
+    .replace('<title>Liana</title>', '<title>Try Liana</title>')
+    .replace('<!-- liana-run -->\n', '')
+    .replace('<!-- script -->', () => `${texts}\n<script>${INFLATE}</script>`);
+  writeFileSync(join(out, 'try.html'), html);
+  const size_kB = Math.ceil(html.length / 1000);
+  console.log(`build/page: try.html ${size_kB} kB`);
+  if (size_kB > MAX_TRY_KB) throw new Error(`try.html has ${size_kB} kB, at most ${MAX_TRY_KB} are allowed`);
+}
+
 async function tests() {
   const folder = join(root, 'tests', 'page');
   const entries = readdirSync(folder).filter((file) => file.endsWith('_test.ts')).map((file) => join(folder, file));
@@ -76,4 +111,5 @@ async function tests() {
 }
 
 if (process.argv.includes('--tests')) await tests();
+else if (process.argv.includes('--try')) await tryPage();
 else await pages();

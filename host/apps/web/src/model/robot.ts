@@ -84,7 +84,7 @@ export interface Scene {
   spheres?: { name: string; center_m: Triple; radius_m: number }[];
   convex?: Convex[];
   slit?: Slit;
-  rod?: { position_m: Triple; radius_m: number };
+  rod?: ScenePose & { radius_m: number };
   payload?: ScenePose & { start: string; length_m: number; radius_m?: number; fetch_pose?: string }; // frame of its grapple, z towards its pins
   adapter?: ScenePose; // the middle of its face, z into it
   margins?: { prediction_m?: number; slow_m?: number; refuse_m?: number };

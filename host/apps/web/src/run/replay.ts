@@ -2,6 +2,7 @@
 // inputs, and what it answers is compared with what was recorded, by checksum.
 import type { ReplayHead } from '../data/run';
 import { inflated } from '../data/telemetry';
+import { startedProgram } from '../data/wasm';
 
 export interface ReplayState {
   done: number; // ticks so far
@@ -30,15 +31,6 @@ export function crc32(bytes: Uint8Array): number {
   return ~value >>> 0;
 }
 
-// The core asks its surroundings for nothing that matters: no file, no clock.
-async function coreOf(program: Uint8Array): Promise<Core> {
-  const module = await WebAssembly.compile(program as BufferSource);
-  const nothing = Object.fromEntries(WebAssembly.Module.imports(module).map(({ name }) => [name, () => 0]));
-  const { exports } = await WebAssembly.instantiate(module, { wasi_snapshot_preview1: nothing });
-  (exports['_initialize'] as () => void)();
-  return exports as unknown as Core;
-}
-
 export class Replay {
   readonly state: ReplayState = { done: 0, differing: 0, firstDiffering: null };
   private readonly view: DataView;
@@ -58,7 +50,7 @@ export class Replay {
   }
 
   static async of(program: Uint8Array, head: ReplayHead, bytes: Uint8Array): Promise<Replay> {
-    return new Replay(await coreOf(program), head, bytes);
+    return new Replay((await startedProgram(program)) as unknown as Core, head, bytes);
   }
 
   // Replays up to `count` more ticks; false when all are done.

@@ -6,6 +6,7 @@ import { writeCameraFrame, type Ahead } from './tip_camera';
 import type { View } from './views';
 
 const FIELD_DEG = 38;
+const NARROW = 1.25; // width to height; on a narrower picture the field is as wide as on this one
 const TIP_FIELD_DEG = 70;
 
 THREE.ColorManagement.enabled = false; // colours as they are written: half a megabyte of shader work less a frame
@@ -50,6 +51,8 @@ export class Stage {
     this.renderer.setPixelRatio(this.pace.pixelRatio);
     this.renderer.setSize(this.width, this.height, false);
     this.camera.aspect = this.width / this.height;
+    const half = Math.tan((FIELD_DEG * Math.PI) / 360) * Math.max(1, NARROW / this.camera.aspect);
+    this.camera.fov = (Math.atan(half) * 360) / Math.PI;
     this.camera.updateProjectionMatrix();
   }
 
