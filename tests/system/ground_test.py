@@ -3,6 +3,7 @@
 import contextlib
 import json
 import select
+import shutil
 import signal
 import socket
 import sqlite3
@@ -36,6 +37,17 @@ def telecommand(count, service, subtype, data=b"", apid=APID, acknowledge=ALL, f
     body = bytes([0x20 | acknowledge, service, subtype, 0, 7]) + data
     head = struct.pack(">HHH", first | apid, 0xC000 | count, len(body) + 1)
     return head + body + struct.pack(">H", crc(head + body))
+
+
+def pcap_of(packets):
+    """A capture with each packet in a UDP datagram of its own: raw IPv4, as libpcap's LINKTYPE_IPV4 has it."""
+    out = struct.pack("<IHHiIII", 0xA1B2C3D4, 2, 4, 0, 0, 65535, 228)
+    for packet in packets:
+        udp = struct.pack(">HHHH", 10015, 10015, 8 + len(packet), 0) + packet
+        ends = bytes([127, 0, 0, 1, 127, 0, 0, 1])
+        frame = struct.pack(">BBHHHBBH", 0x45, 0, 20 + len(udp), 0, 0, 64, 17, 0) + ends + udp
+        out += struct.pack("<IIII", 0, 0, len(frame), len(frame)) + frame
+    return out
 
 
 class Report:
@@ -326,6 +338,23 @@ class GroundTest(support.SystemTest):
         again = [each.octets for each in self.station.reports[before:] if each.octets in sent]
         self.assertEqual(again, sent)
 
+    def test_tshark_reads_every_primary_header(self):
+        self.assertIsNotNone(shutil.which("tshark"), "tshark is missing: apt-get install tshark")
+        self.station.end_of(self.station.send(17, 1))
+        self.assert_completed(self.station.send(9, 1, b"\0"))
+        packets = [telecommand(16383, 17, 1), *(each.octets for each in self.station.reports)]
+        file = self.system.directory / "packets.pcap"
+        file.write_bytes(pcap_of(packets))
+        names = ("version", "type", "secheader", "apid", "seqflag", "seqnum", "length")
+        fields = [word for name in names for word in ("-e", f"ccsds.{name}")]
+        call = ["tshark", "-r", file, "-d", "udp.port==10015,ccsds", "-T", "fields", *fields]
+        read = subprocess.run(call, capture_output=True, text=True, check=True).stdout.splitlines()
+        self.assertEqual(len(read), len(packets))
+        for line, packet in zip(read, packets):
+            first, second, length = struct.unpack(">HHH", packet[:6])
+            head = [first >> 13, first >> 12 & 1, first >> 11 & 1, first & 0x7FF, second >> 14, second & 0x3FFF, length]
+            self.assertEqual([int(word) for word in line.split()], head)
+
     # req:A25
     def test_a_store_behind_a_bad_line_has_every_packet_in_the_end(self):
         line = self.start(
@@ -384,35 +413,35 @@ class GroundTest(support.SystemTest):
             name, values = walker.decode(report.octets)
             names[name] = names.get(name, 0) + 1
             if name in ("arm", "joints", "forces", "work"):
-                compared += self.assert_as_told(name, values)
+                compared += self.assert_as_said(name, values)
         self.assertGreater(compared, 10)
         self.assertLessEqual(
             {"arm", "joints", "forces", "work", "time", "acceptance", "start", "completion", "event_informative"},
             names.keys(),
         )
 
-    def assert_as_told(self, structure, values):
+    def assert_as_said(self, structure, values):
         """Every value of a housekeeping packet is that of the state of its tick, as the API sent it to this test."""
         state = self.station.states.get(values[f"{structure}_tick"])
         if state is None:
             return 0  # of before this test looked
         for name, path in PLACES[structure].items():
-            told = state
+            said = state
             for key in path.split("."):
-                told = told[key] if isinstance(told, dict) and key in told else None
-            if isinstance(told, list):
+                said = said[key] if isinstance(said, dict) and key in said else None
+            if isinstance(said, list):
                 own = sorted(key for key in values if key.startswith(f"{structure}_{name}_"))
-                if len(told) != 7:  # a pose has axes as names
-                    self.assertEqual(len(own), len(told), name)
+                if len(said) != 7:  # a pose has axes as names
+                    self.assertEqual(len(own), len(said), name)
                 axes = (
                     ("x_m", "y_m", "z_m", "qw", "qx", "qy", "qz")
-                    if len(told) == 7
+                    if len(said) == 7
                     else [f"{i + 1:02}" for i in range(99)]
                 )
-                for axis, each in zip(axes, told):
+                for axis, each in zip(axes, said):
                     self.assertTrue(same(values[f"{structure}_{name}_{axis}"], each), (name, axis, each))
             else:
-                self.assertTrue(same(values[f"{structure}_{name}"], told), (name, values[f"{structure}_{name}"], told))
+                self.assertTrue(same(values[f"{structure}_{name}"], said), (name, values[f"{structure}_{name}"], said))
         return 1
 
 

@@ -111,12 +111,12 @@ class Walker:
         return found[0]
 
 
-def same(decoded, told):
-    """Whether a decoded value is what the API told; null there is a value that is not known."""
-    if told is None:
+def same(decoded, said):
+    """Whether a decoded value is what the API said; null there is a value that is not known."""
+    if said is None:
         return decoded in ("", "not_known") or decoded != decoded or decoded in (2**8 - 1, 2**16 - 1, 2**32 - 1)
-    if isinstance(told, bool):
-        return decoded == ("true" if told else "false")
-    if isinstance(told, float):
-        return math.isclose(decoded, told, rel_tol=0.0, abs_tol=0.0)
-    return decoded == told
+    if isinstance(said, bool):
+        return decoded == ("true" if said else "false")
+    if isinstance(said, float):
+        return math.isclose(decoded, said, rel_tol=0.0, abs_tol=0.0)
+    return decoded == said

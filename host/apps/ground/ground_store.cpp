@@ -50,7 +50,7 @@ class Keeper {
     read();
     ask();
     if (now_s_ - committed_s_ > kCommit_s) commit();
-    if (gaps_.open() != told_) tell();
+    if (gaps_.open() != reported_) report();
   }
   StoreCounts end() {
     file_.commit();
@@ -106,9 +106,9 @@ class Keeper {
     file_.commit();
   }
 
-  void tell() {
-    told_ = gaps_.open();
-    news_(std::to_string(told_) + " gaps open; " + std::to_string(gaps_.found()) + " packets were missing, " +
+  void report() {
+    reported_ = gaps_.open();
+    news_(std::to_string(reported_) + " gaps open; " + std::to_string(gaps_.found()) + " packets were missing, " +
           std::to_string(gaps_.filled()) + " of them have come, " + std::to_string(gaps_.lost()) + " are lost");
   }
 
@@ -119,7 +119,7 @@ class Keeper {
   StoreCounts counts_;
   api::UniqueFd fd_, asks_;
   PacketStream stream_;
-  std::size_t told_ = 0;
+  std::size_t reported_ = 0;
   double now_s_ = 0.0, tried_s_ = -1e9, committed_s_ = 0.0, removed_s_ = 0.0;
 };
 

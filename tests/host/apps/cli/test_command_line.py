@@ -390,7 +390,7 @@ class Help(Messages, unittest.TestCase):
         examples = self.examples()
         self.assertGreater(len(examples), 40)
         runs_long = {"", "campaign", "check", "run", "console", "teleop", "calibrate", "latency", "force", "link"}
-        needs_system = {"mission", "status", "device", "estop", "clear", "recover"}
+        needs_system = {"mission", "ground", "status", "device", "estop", "clear", "recover"}
         with tempfile.TemporaryDirectory() as folder:
             environment = os.environ | {"PATH": f"{BIN}:{os.environ['PATH']}", "XDG_STATE_HOME": folder}
             for command, example in examples.items():

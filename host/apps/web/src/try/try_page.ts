@@ -2,7 +2,8 @@
 import * as THREE from 'three';
 import { value, values } from '../data/sample';
 import type { CableRobot, Scene } from '../model/robot';
-import { lengthText, sentenceOf } from '../model/sentence';
+import { sentenceOf } from '../model/sentence';
+import { lengthText } from '../model/text';
 import { quaternionOf, type Pose } from '../model/vector';
 import { sceneColours, type Theme } from '../scene/palette';
 import { SceneView } from '../scene/scene_view';
