@@ -48,7 +48,7 @@ TEST(Eval, RefusesMalformedLuaTablesByField) {
       {"robot",
        "robots.zhu2022",
        "t.module.mass_kg = 'heavy'",
-       {"given.lua", "module.mass_kg", "heavy", "1e-04", "100", "number"}},
+       {"given.lua", "module.mass_kg", "heavy", "1e-06", "100", "number"}},
       {"robot", "robots.zhu2022", "t.format = 3", {"given.lua", "format", "3", "1"}},
       {"robot", "robots.zhu2022", "t.limits.tip_speed = 1", {"given.lua", "limits.tip_speed", "1", "field"}},
       {"robot",
