@@ -109,7 +109,7 @@ class EveryRobot(Messages, unittest.TestCase):
         checked = liana_json("robot", "check", file, expected=(1,))
         text = "\n".join(checked["problems"])
         for named in (
-            ("cable 1 (segment 1) and cable 4 (segment 2)", "holes", "0.0 mm"),
+            ("cable 1 (segment 1) and cable 4 (segment 2)", "holes", "0 mm"),
             ("pose look", "tensions"),
             ("jig_poses",),
         ):
