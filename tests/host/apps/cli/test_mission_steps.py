@@ -160,7 +160,7 @@ class MissionSteps(Messages, unittest.TestCase):
         for old, new, problem in (
             ("drum_radius_m = 0.012", "drum_radius_m = 1e-9", ("drives.drum_radius_m", "1e-09", "0.001", "0.5")),
             ("gear = 1", "gear = 1e-9", ("drives.gear", "1e-09", "0.01", "1000")),
-            ("mass_kg = 0.2", "mass_kg = 1e-300", ("module.mass_kg", "1e-300", "1e-04", "100")),
+            ("mass_kg = 0.2", "mass_kg = 1e-300", ("module.mass_kg", "1e-300", "1e-06", "100")),
             (
                 "theta_accel_deg_s2 = 6",
                 "theta_accel_deg_s2 = 1e-12",
