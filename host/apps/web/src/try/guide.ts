@@ -1,7 +1,7 @@
 // What to do next on the way through the slit, in one line.
 import { value, values } from '../data/sample';
 import type { TrySample } from './try_arm';
-import { lengthText } from '../model/sentence';
+import { lengthText } from '../model/text';
 import type { Way } from './way';
 
 const AT_ROD_M = 0.012; // the tip touches it, 10 mm thick, with what the arm's command may be off
