@@ -56,7 +56,7 @@ ALL_PACKAGES = [
     "npm",
 ]
 FUZZ_SECONDS = 3  # each target
-PAGE_SUITES = ["unit", "console", "tls", "run_page", "try", "vr", "frames"]
+PAGE_SUITES = ["unit", "console", "tls", "run_page", "try", "practice", "vr", "frames"]
 BARE_ROOT = "README's first command on a bare Debian 12"
 # Tests that may be skipped, by the beginning of their name, and why; any other skip fails.
 PLANNED_SKIPS = {
