@@ -1,6 +1,7 @@
 // The operating state machine: when drives are powered, when the arm may move, how it stops, how faults are cleared.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <type_traits>
 
@@ -13,6 +14,9 @@ namespace liana {
 
 // CRTK-like operating states.
 enum class OperatingState : std::uint8_t { kDisabled = 0, kEnabling = 1, kEnabled = 2, kStopping = 3, kFault = 4 };
+// Their names, as states and reports have them, by the enumerators' values.
+inline constexpr std::array<const char*, 5> kOperatingStateNames{"DISABLED", "ENABLING", "ENABLED", "STOPPING",
+                                                                 "FAULT"};
 
 // The operating states, split where the drives are told different things.
 enum class Phase : std::uint8_t {

@@ -417,7 +417,10 @@ std::string event_section() {
            (zero == one ? std::to_string(one) : std::to_string(zero) + " for number 0, else " + std::to_string(one)) +
            " |\n";
   }
-  return out + "| 101 | the link is lost | 3 |\n| 102 | lianad is gone | 3 |\n| 103 | lianad is there | 1 |\n";
+  for (const OwnEventRow& row : own_events())
+    out += "| " + std::to_string(static_cast<unsigned>(row.event)) + " | " + row.meaning + " | " +
+           std::to_string(row.severity) + " |\n";
+  return out;
 }
 
 constexpr const char* kPageBegin = R"(# Ground packets

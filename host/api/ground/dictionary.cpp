@@ -4,10 +4,12 @@
 #include <array>
 #include <bit>
 
+#include "firmware_like/safety/supervisor.hpp"
 #include "host/api/server/request_bounds.hpp"
 #include "host/api/server/request_table.hpp"
 #include "host/base/event/event.hpp"
 #include "host/base/json/json.hpp"
+#include "host/base/text/printable.hpp"
 
 namespace liana::ground {
 namespace {
@@ -32,7 +34,12 @@ constexpr Parameter time(const char* name, const char* doc) {
   return {name, ValueType::kTime, static_cast<std::uint8_t>(kTimeBytes), doc};
 }
 
-constexpr std::array kStates{"BOOTING", "DISABLED", "ENABLING", "ENABLED", "STOPPING", "FAULT"};
+// BOOTING is lianad's alone: the controller does not run yet.
+constexpr auto kStates = [] {
+  std::array<const char*, 1 + kOperatingStateNames.size()> out{"BOOTING"};
+  std::copy(kOperatingStateNames.begin(), kOperatingStateNames.end(), out.begin() + 1);
+  return out;
+}();
 constexpr std::array kStops{"none", "hold", "stop", "off"};
 constexpr std::array kRetractPhases{"none", "stopping", "joining", "back", "done", "ended"};
 constexpr std::array kServoPhases{"standby", "approaching", "dwelling", "done", "lost", "timed_out"};
@@ -201,6 +208,12 @@ constexpr std::array kCommandRows{
     CommandRow{"ping", 17, 1, 0, "Are you alive?"},
 };
 
+constexpr std::array kOwnEvents{
+    OwnEventRow{OwnEvent::kLinkLost, 3, "the link is lost"},
+    OwnEventRow{OwnEvent::kControllerGone, 3, "lianad is gone"},
+    OwnEventRow{OwnEvent::kControllerThere, 1, "lianad is there"},
+};
+
 constexpr std::array kOwnFailures{Failure::kLength,   Failure::kChecksum,       Failure::kHeader,     Failure::kApid,
                                   Failure::kService,  Failure::kFunction,       Failure::kArgument,   Failure::kTooMany,
                                   Failure::kAway,     Failure::kNoConfirmation, Failure::kNotReached, Failure::kStopped,
@@ -275,13 +288,6 @@ std::uint64_t word_of(const Json& value, Words words) {
   return found == words.end() ? none_of(1) : static_cast<std::uint64_t>(found - words.begin());
 }
 
-// At most so many octets, cut between characters of UTF-8.
-std::string_view cut(std::string_view text, std::size_t bytes) {
-  if (text.size() <= bytes) return text;
-  while (bytes > 0 && (static_cast<std::uint8_t>(text[bytes]) & 0xc0u) == 0x80u) --bytes;
-  return text.substr(0, bytes);
-}
-
 void append_one(std::string& out, const Parameter& parameter, const Json& value) {
   switch (parameter.type) {
     case ValueType::kWhole:
@@ -295,7 +301,7 @@ void append_one(std::string& out, const Parameter& parameter, const Json& value)
     case ValueType::kWord:
       return append_whole(out, word_of(value, parameter.words), 1);
     case ValueType::kText: {
-      std::string text(value.is_string() ? cut(value.text(), parameter.bytes) : std::string_view());
+      std::string text(value.is_string() ? text::whole_characters(value.text(), parameter.bytes) : std::string_view());
       text.resize(parameter.bytes, '\0');
       out += text;
       return;
@@ -425,6 +431,12 @@ std::uint8_t severity_of(std::string_view kind, std::int64_t number) {
 std::uint16_t definition_of(std::string_view kind) {
   const auto known = event::event_kind_from(kind);
   return known ? static_cast<std::uint16_t>(static_cast<unsigned>(*known) + 1) : std::uint16_t{0};
+}
+
+std::span<const OwnEventRow> own_events() { return kOwnEvents; }
+
+const OwnEventRow& row_of(OwnEvent event) {
+  return *std::find_if(kOwnEvents.begin(), kOwnEvents.end(), [event](const auto& row) { return row.event == event; });
 }
 
 std::string_view meaning_of(Failure failure) {

@@ -102,6 +102,13 @@ std::uint8_t severity_of(std::string_view kind, std::int64_t number);
 std::uint16_t definition_of(std::string_view kind);
 // Event definitions that the on-board end has itself.
 enum class OwnEvent : std::uint16_t { kLinkLost = 101, kControllerGone = 102, kControllerThere = 103 };
+struct OwnEventRow {
+  OwnEvent event{};
+  std::uint8_t severity = 0;  // as of severity_of()
+  const char* meaning = "";
+};
+std::span<const OwnEventRow> own_events();
+const OwnEventRow& row_of(OwnEvent event);
 
 // What a failure code means, for people; empty for those of other pages.
 std::string_view meaning_of(Failure failure);

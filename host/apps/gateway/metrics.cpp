@@ -1,14 +1,12 @@
 #include "host/apps/gateway/metrics.hpp"
 
-#include <array>
 #include <string_view>
 
+#include "firmware_like/safety/supervisor.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::gateway {
 namespace {
-
-constexpr std::array<std::string_view, 5> kStates{"DISABLED", "ENABLING", "ENABLED", "STOPPING", "FAULT"};
 
 std::string label(std::string_view name, std::string_view value) {
   std::string text = std::string(name) + "=\"";
@@ -77,7 +75,7 @@ std::string metrics_text(const Json& state, std::size_t clients) {
   if (!state.is_object()) return out.text();
   const std::string name = state.value("state", "");
   out.begin("state", "gauge", "1 for the state of the arm, 0 for the others.");
-  for (const std::string_view each : kStates) out.sample(each == name ? 1 : 0, label("state", each));
+  for (const std::string_view each : kOperatingStateNames) out.sample(each == name ? 1 : 0, label("state", each));
   out.one("arm_time_seconds", "gauge", "Time of the arm.", state.member_or_null("time_s"));
   constexpr double kMicro = 1e-6;
   out.one("tick_seconds", "gauge", "Longest control tick of the last second.", state.member_or_null("tick_us"), kMicro);

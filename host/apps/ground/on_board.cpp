@@ -170,7 +170,7 @@ void OnBoard::welcome(const Json& message) {
     periodic_.back().interval = intervals(kSeldom_s);
   }
   is_there_ = true;
-  own_event(OwnEvent::kControllerThere, 1, "lianad is there");
+  own_event(OwnEvent::kControllerThere);
 }
 
 void OnBoard::take(const Json& message) {
@@ -252,11 +252,13 @@ void OnBoard::take_event(const Json& event) {
   downlink_.report(5, severity, 0, time_us_, data);
 }
 
-void OnBoard::own_event(OwnEvent event, std::uint8_t severity, const std::string& text) {
+void OnBoard::own_event(OwnEvent event, const std::string& more) {
+  const OwnEventRow& row = row_of(event);
   std::string data;
-  append_json(data, row_of(5, severity),
-              {{"definition", static_cast<std::uint64_t>(event)}, {"subject", kClientName}, {"text", text}});
-  downlink_.report(5, severity, 0, time_us_, data);
+  append_json(
+      data, row_of(5, row.severity),
+      {{"definition", static_cast<std::uint64_t>(event)}, {"subject", kClientName}, {"text", row.meaning + more}});
+  downlink_.report(5, row.severity, 0, time_us_, data);
 }
 
 void OnBoard::send_time() {
@@ -271,7 +273,7 @@ void OnBoard::controller_gone() {
   is_there_ = false;
   state_ = Json();
   fail_all(Failure::kAway);
-  own_event(OwnEvent::kControllerGone, 3, "lianad is gone: it has ended, or closed the connection");
+  own_event(OwnEvent::kControllerGone, ": it has ended, or closed the connection");
 }
 
 void OnBoard::fail_all(Failure failure) {
@@ -284,7 +286,7 @@ void OnBoard::lose_link() {
   if (state_.is_null() || state_.value("owner", "") != kClientName) return;
   ++links_lost_;
   fail_all(Failure::kLinkLost);
-  own_event(OwnEvent::kLinkLost, 3, "the link is lost: ground leaves lianad, which holds the arm");
+  own_event(OwnEvent::kLinkLost, ": ground leaves lianad, which holds the arm");
   is_there_ = false;
   state_ = Json();
   ways_.leave();

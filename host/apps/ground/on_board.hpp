@@ -71,7 +71,7 @@ class OnBoard {
   void answer(const Json& message);
   void take_state(const Json& state);
   void take_event(const Json& event);
-  void own_event(OwnEvent event, std::uint8_t severity, const std::string& text);
+  void own_event(OwnEvent event, const std::string& more = "");
   void send_structure(std::size_t structure);
   void send_time();
   void count(const Telecommand& telecommand);

@@ -41,6 +41,13 @@ std::size_t character_bytes(std::string_view text) {
   return good ? bytes : 0;
 }
 
+std::string_view whole_characters(std::string_view text, std::size_t max_bytes) {
+  if (text.size() <= max_bytes) return text;
+  std::size_t bytes = max_bytes;
+  while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0u) == 0x80) --bytes;
+  return text.substr(0, bytes);
+}
+
 bool is_control(std::string_view character) {
   const std::uint32_t code = code_of(character);
   return code < 0x20 || is_in(code, 0x7F, 0x9F) || code == 0x61C || is_in(code, 0x200E, 0x200F) ||

@@ -13,6 +13,9 @@ enum class Lines : std::uint8_t { kOne, kMany };  // kMany: tabs and ends of lin
 // Bytes of the UTF-8 character that `text` begins with; 0 when it begins with none, or with one that is cut off.
 std::size_t character_bytes(std::string_view text);
 
+// The begin of UTF-8 text: as many whole characters as fit into so many bytes.
+std::string_view whole_characters(std::string_view text, std::size_t max_bytes);
+
 // The code point of one whole character.
 std::uint32_t code_of(std::string_view character);
 

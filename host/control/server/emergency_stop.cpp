@@ -6,15 +6,7 @@
 namespace liana::server {
 
 std::string printable(std::string_view text) {
-  std::string out = text::printable(text, text::Lines::kOne, ' ');
-  std::size_t bytes = 0;
-  while (bytes < out.size()) {
-    const std::size_t next = bytes + text::character_bytes(std::string_view(out).substr(bytes));
-    if (next > kMaxReasonBytes) break;
-    bytes = next;
-  }
-  out.resize(bytes);
-  return out;
+  return std::string(text::whole_characters(text::printable(text, text::Lines::kOne, ' '), kMaxReasonBytes));
 }
 
 std::string stop_reason(const Json* reason) {

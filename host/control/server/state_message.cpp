@@ -137,10 +137,9 @@ Json events_json(const std::deque<event::Event>& events) {
 }  // namespace
 
 const char* state_name(const ArmServer& desk) {
-  static constexpr std::array<const char*, 5> kNames{"DISABLED", "ENABLING", "ENABLED", "STOPPING", "FAULT"};
   if (desk.report().boot == realtime::BootPhase::kBooting) return "BOOTING";
   if (desk.report().boot == realtime::BootPhase::kFailed) return "FAULT";
-  return kNames[static_cast<std::size_t>(desk.outputs().state)];
+  return kOperatingStateNames[static_cast<std::size_t>(desk.outputs().state)];
 }
 
 Json state_message(const config::BusesConfig& buses, const ArmServer& desk, const Owner& owner, const Notes& notes,

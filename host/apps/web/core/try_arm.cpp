@@ -1,7 +1,6 @@
 #include "host/apps/web/core/try_arm.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "firmware_like/cable/arm/payout.hpp"
@@ -71,8 +70,6 @@ Pose ahead(const Pose& tip, const Pose& target, double lead_m, double lead_rad) 
   return {add(tip.position_m, way_m),
           normalize(multiply(quaternion_of(no_longer(turn_rad, lead_rad)), tip.quaternion))};
 }
-
-constexpr std::array<const char*, 5> kStates{"DISABLED", "ENABLING", "ENABLED", "STOPPING", "FAULT"};
 
 template <class Vector>
 Json first_of(const Vector& values, std::int32_t count, double unit = 1.0) {
@@ -240,7 +237,7 @@ std::string TryArm::state() const {
   const Vec3& where_m = near.nearest.on_obstacle_m;
   return Json({{"tick", now.tick},
                {"time_s", static_cast<double>(now.tick) * table.tick_s},
-               {"state", kStates[static_cast<std::size_t>(now.state)]},
+               {"state", kOperatingStateNames[static_cast<std::size_t>(now.state)]},
                {"is_homed", now.homed != 0},
                {"at_rest", now.at_rest != 0},
                {"faults", faults_json(now.faults)},

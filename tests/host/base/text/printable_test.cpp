@@ -29,6 +29,12 @@ TEST(Printable, WhatIsNoUtf8IsAQuestionMarkAByte) {
   EXPECT_EQ(printable("", Lines::kOne), "");
 }
 
+TEST(WholeCharacters, AreAsManyAsFitAndNoPartOfOne) {
+  const std::string text = "a\xc3\xa9\xf0\x9f\x90\x8d";  // of 1, 2 and 4 bytes
+  const std::size_t fit[] = {0, 1, 1, 3, 3, 3, 3, 7, 7};
+  for (std::size_t bytes = 0; bytes < 9; ++bytes) EXPECT_EQ(whole_characters(text, bytes), text.substr(0, fit[bytes]));
+}
+
 TEST(Printable, InPiecesIsTheSameAsWhole) {
   const std::string text = "caf\xc3\xa9 \xe2\x80\xae\xc2\x9b 12\xc2\xb0 \xf0\x9f\x90\x8d\x1b[2J\xe2\x80";
   for (std::size_t bytes = 1; bytes < text.size(); ++bytes) {
