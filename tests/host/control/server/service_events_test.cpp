@@ -173,6 +173,14 @@ class ServiceTellsEvents : public testing::Test {
     }
     return out;
   }
+  std::vector<event::Event> refusals(verification::Refusal refusal) const {
+    std::vector<event::Event> out;
+    for (const event::Event& event : heard(event::EventKind::kVerdict)) {
+      if (event.number == event::number_of(refusal)) out.push_back(event);
+    }
+    return out;
+  }
+  // Until a command is released. A loaded machine may have no verdict in time: it is asked again, as the message says.
   void move() {
     client_.send({{"op", "acquire"}});
     intervals(10);
@@ -184,13 +192,15 @@ class ServiceTellsEvents : public testing::Test {
       if (goal.size() < 10) goal.push_back(theta_rad / kDegree);
     }
     goal[0] = goal[0].get<double>() + 2.0;
-    client_.send({{"op", "move_jp"}, {"goal_deg", goal}});
-    // Its way is looked at first, by a thread that takes its time where every access is checked.
-    for (int i = 0; i < 2000 && arm_.now().active_sequence == 0; ++i) {
-      intervals(1);
-      if (i >= 100) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    for (std::size_t asked = 0; asked < 50 && arm_.now().active_sequence == 0; ++asked) {
+      client_.send({{"op", "move_jp"}, {"goal_deg", goal}});
+      // Its way is looked at first, by a thread that takes its time where every access is checked.
+      for (int i = 0; i < 2000 && arm_.now().active_sequence == 0; ++i) {
+        intervals(1);
+        if (refusals(verification::Refusal::kNoVerdict).size() > asked) break;
+        if (i >= 100) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      }
     }
-    intervals(20);
   }
 
   verification::SimArm arm_;
@@ -204,15 +214,14 @@ class ServiceTellsEvents : public testing::Test {
 TEST_F(ServiceTellsEvents, ARefusedVerdictIsAnEventAndAReleasedOneIsNone) {
   move();
   ASSERT_GT(arm_.now().active_sequence, 0u) << "commands were released";
-  EXPECT_TRUE(heard(event::EventKind::kVerdict).empty());
+  EXPECT_EQ(heard(event::EventKind::kVerdict).size(), refusals(verification::Refusal::kNoVerdict).size());
   auto late = arm_.link.report.value();  // the verdict comes when its interval is over
   late.next_tick += 100;
   arm_.link.report.publish(late);
   service_.cycle();
   hear();
-  const std::vector<event::Event> verdicts = heard(event::EventKind::kVerdict);
+  const std::vector<event::Event> verdicts = refusals(verification::Refusal::kTooSlow);
   ASSERT_EQ(verdicts.size(), 1u);
-  EXPECT_EQ(verdicts[0].number, event::number_of(verification::Refusal::kTooSlow));
   EXPECT_EQ(verdicts[0].subject, "execution");
   EXPECT_GT(verdicts[0].values[0].value, 0.0);
 }
