@@ -89,6 +89,8 @@ class Target:
         chosen = [f"-DCMAKE_CXX_COMPILER={self.compiler}", f"-DCMAKE_CXX_FLAGS={self.options}"]
         if self.toolchain:
             chosen = [f"-DCMAKE_TOOLCHAIN_FILE={TARGETS / self.toolchain}", f"-DBITS_OPTIONS={self.options}"]
+        # All sources at once take less than half the time of one after the other.
+        chosen += ["-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=60"]
         run(["cmake", "-G", "Ninja", "-S", TARGETS, "-B", folder, *chosen], f"configuring {self.name}")
         parts = [] if self.plays else ["liana_core", "player", "planted"]
         run(["ninja", "-C", folder, "-j", "1", *parts], f"building {self.name}")
@@ -102,9 +104,9 @@ class Target:
             "planted": ["CMakeFiles/planted.dir"],
         }.items():
             objects = [file for place in places for file in sorted((folder / place).rglob("*.o*"))]
-            if what == "core":
-                self.has_every_arm(objects)
             text = run([self.objdump, "-dr", "--no-show-raw-insn", *objects], f"disassembling {self.name}")
+            if what == "core":
+                self.has_every_arm(text)
             if not re.search(r":\s+ret|:\s+bx\s+lr|:\s+ldmia", text):
                 raise Failed(f"disassembling {self.name}: no code in {len(objects)} objects under {folder}")
             found[what] = len(FUSED.findall(text))
@@ -116,10 +118,10 @@ class Target:
             "fused_planted": found["planted"],
         }
 
-    def has_every_arm(self, objects):
+    def has_every_arm(self, text):
         for arm in ARMS:
-            if not any(arm in file.parts for file in objects):
-                raise Failed(f"disassembling {self.name}: none of {len(objects)} objects is of the {arm} arm")
+            if f"5liana{len(arm)}{arm}" not in text:
+                raise Failed(f"disassembling {self.name}: no function is of the {arm} arm")
 
     def play(self, folder, tape, program="bits_ticks"):
         """Plays a tape and compares; what the Cortex-M7 counted comes along."""

@@ -1,5 +1,5 @@
 """./dev test counts a skip that is not in its list as a failure, whoever skips: ctest, GoogleTest, or a part of a test
-of Python's."""
+of Python's. Of a program that runs whole each case is counted."""
 
 import contextlib
 import io
@@ -22,6 +22,19 @@ add_test("system.runs" "/bin/sh" "-c" "yes line | head -n 900; echo 'OK (skipped
 add_test("system.part" "/bin/sh" "-c" "yes line | head -n 900; echo 'OK (skipped=2, expected failures=1)'")
 add_test("system.whole" "/bin/echo" "OK")
 """
+PROGRAMS = """
+add_test("good_tests" "/bin/true")
+add_test("bad_tests" "/bin/sh" "-c" "echo as a whole; exit 1")
+add_test("dying_tests" "/bin/sh" "-c" "echo where it died; exit 1")
+add_test("silent_tests" "/bin/sh" "-c" "echo before any case; exit 1")
+"""
+CASE = '<testcase classname="Suite" name="{}" result="{}">{}</testcase>'
+FAILURE = '<failure message="short">what is wrong</failure>'
+CASES = {
+    "good_tests": [("One", "completed", ""), ("Two", "completed", ""), ("Off", "suppressed", "")],
+    "bad_tests": [("Three", "completed", ""), ("Four", "completed", FAILURE), ("Five", "skipped", "<skipped/>")],
+    "dying_tests": [("Six", "completed", "")],
+}
 
 
 class Skips(unittest.TestCase):
@@ -42,6 +55,23 @@ class Skips(unittest.TestCase):
         self.assertEqual(tally.skipped, ["FullDisk.Any", "system.runs", f"{tiers.BARE_ROOT}: no root"])
         self.assertEqual(tally.ends, ["--- Bad.One, its last lines:\nwhat is wrong"])
         self.assertIn("skipped: FullDisk.Any (planned: a small disk is mounted", told.getvalue())
+
+    def test_of_a_program_that_runs_whole_each_case_is_counted_and_its_death_is_a_failure(self):
+        tally, told = tiers.Tally(), io.StringIO()
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stderr(told):
+            home = pathlib.Path(folder)
+            (home / "CTestTestfile.cmake").write_text(PROGRAMS)
+            for program, cases in CASES.items():
+                text = "".join(CASE.format(*case) for case in cases)
+                (home / f"{program}.xml").write_text(f"<testsuites><testsuite>{text}</testsuite></testsuites>")
+            report = home / "report.xml"
+            ctest = ["ctest", "--test-dir", folder, "--output-junit", report]
+            subprocess.run(ctest, stdout=subprocess.DEVNULL, check=False)
+            tally.add_report(report, home)
+        self.assertEqual(tally.passed, 4)
+        skipped = "Suite.Five: skipped, which nobody planned"
+        self.assertEqual(tally.failed, ["Suite.Four", skipped, "dying_tests", "silent_tests"])
+        self.assertEqual(tally.ends[0], "--- Suite.Four, its last lines:\nwhat is wrong")
 
 
 if __name__ == "__main__":
