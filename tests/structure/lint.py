@@ -76,7 +76,8 @@ def check_shell():
 
 
 def batches(files, folder):
-    """Writes sources that include these, up to 20 that are compiled alike in each, and their commands; returns them."""
+    """Writes sources that include these, up to 20 that are compiled alike in each, and their commands; returns them. What
+    no target compiles is left out."""
     commands = {}
     for entry in json.loads((ROOT / "build/tidy/compile_commands.json").read_text()):
         words = iter(shlex.split(entry["command"])[1:])
@@ -84,9 +85,8 @@ def batches(files, folder):
         commands[os.path.relpath(entry["file"], ROOT)] = tuple(options)
     alike = collections.defaultdict(list)
     for file in files:
-        if file not in commands:
-            raise ValueError(f"{file}: no target compiles it")
-        alike[commands[file]].append(file)
+        if file in commands:
+            alike[commands[file]].append(file)
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     entries = []
@@ -97,7 +97,7 @@ def batches(files, folder):
             arguments = ["clang++", *options, "-c", str(batch)]
             entries.append({"directory": str(ROOT / "build/tidy"), "file": str(batch), "arguments": arguments})
     (folder / "compile_commands.json").write_text(json.dumps(entries))
-    return [entry["file"] for entry in entries]
+    return [entry["file"] for entry in entries], [file for file in files if file not in commands]
 
 
 def tidy(files):
@@ -106,15 +106,13 @@ def tidy(files):
     if not configure("tidy"):
         return False
     folder = ROOT / "build/tidy/batches"
-    try:
-        told = batches(files, folder)
-    except ValueError as error:
-        print(f"tidy: {error}", file=sys.stderr, flush=True)
-        return False
+    together, alone = batches(files, folder)
     # On standard error it only counts warnings of headers that are not ours.
-    tool = ["clang-tidy", "-p", str(folder), f"--config-file={ROOT / '.clang-tidy'}", "--quiet"]
-    tool += [f"--header-filter=^{ROOT}/.*[.]cpp$", "--warnings-as-errors=*"]
-    return each(tool, told, 1, stderr=subprocess.DEVNULL)
+    tool = ["clang-tidy", f"--config-file={ROOT / '.clang-tidy'}", "--quiet", "--warnings-as-errors=*"]
+    in_batch = [*tool, f"--header-filter=^{ROOT}/.*[.]cpp$", "-p", str(folder)]
+    good = each(in_batch, together, 1, stderr=subprocess.DEVNULL)
+    # Of what no target compiles it guesses the command.
+    return each([*tool, "-p", "build/tidy"], alone, 6, stderr=subprocess.DEVNULL) and good
 
 
 def runs(*command):
