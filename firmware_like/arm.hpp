@@ -29,7 +29,7 @@ concept Arm = std::is_trivially_copyable_v<A> && ArmTable<typename A::Table> &&
     std::is_trivially_copyable_v<typename A::Report> && std::is_trivially_copyable_v<typename A::Sensors> &&
     std::is_constructible_v<A, const typename A::Table&> &&
     requires(A arm, const A& seen, const typename A::Table& table, const typename A::Setpoint& setpoint,
-             const typename A::Report& report, typename A::Report& told, const typename A::Sensors& sensors,
+             const typename A::Report& report, typename A::Report& told, const typename A::Sensors& sensors, typename A::Sensors& next,
              const DriveFeedbacks& feedback, const DriveCommands& sent, DriveProposals& proposals, const Orders& orders,
              WatchScope scope, Watch& out, FaultList& faults, std::int32_t drive, std::uint64_t tick, bool flag,
              Request request) {
@@ -65,7 +65,7 @@ concept Arm = std::is_trivially_copyable_v<A> && ArmTable<typename A::Table> &&
   { A::planned_permille(table, report, drive) } -> std::same_as<std::int16_t>;
   // Whether the drives follow torques; and the sensors of the next tick, when nothing happens to them.
   { A::is_torque_controlled(table) } -> std::same_as<bool>;
-  { A::imagined(table, report, sensors) } -> std::same_as<typename A::Sensors>;
+  { A::imagine(table, report, next) } -> std::same_as<void>;
 };
 
 }  // namespace liana

@@ -419,13 +419,12 @@ std::int16_t CableArm::planned_permille(const RobotParams& table, const Report& 
   return narrow<std::int16_t>(to_counts(report.tension_plan_N[i] / table.drive[i].newtons_per_permille).value);
 }
 
-LoadCells CableArm::imagined(const RobotParams& table, const Report& report, const LoadCells& last) noexcept {
-  LoadCells next = last;
-  for (Index c = 0; c < as_index(table.cable_count()); ++c) {
-    if (has_load_cell(table, c) && last.age_ticks[c] <= kLoadCellAgeTicks)
-      next.steps[c] = steps_of(table, c, report.tension_plan_N[c]), next.age_ticks[c] = 0;
+void CableArm::imagine(const RobotParams& table, const Report& report, LoadCells& cells) noexcept {
+  const Index count = as_index(table.cable_count());
+  for (Index c = 0; c < count; ++c) {
+    if (has_load_cell(table, c) && cells.age_ticks[c] <= kLoadCellAgeTicks)
+      cells.steps[c] = steps_of(table, c, report.tension_plan_N[c]), cells.age_ticks[c] = 0;
   }
-  return next;
 }
 
 }  // namespace liana::cable

@@ -89,8 +89,9 @@ class CableArm {
   static std::int16_t planned_permille(const RobotParams& table, const Report& report, std::int32_t drive) noexcept;
 
   static bool is_torque_controlled(const RobotParams&) noexcept { return false; }
-  // And their load cells: what was usable says the planned tension, what was not goes on being none.
-  static LoadCells imagined(const RobotParams& table, const Report& report, const LoadCells& last) noexcept;
+  // And their load cells, from the last tick's: what was usable says the planned tension, what was not goes on being
+  // none.
+  static void imagine(const RobotParams& table, const Report& report, LoadCells& cells) noexcept;
 
   // Motion stage, for the verifier's predictions and for tests.
   const MotionState& motion() const noexcept { return motion_; }

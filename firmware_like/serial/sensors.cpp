@@ -10,18 +10,16 @@ constexpr double kFlicker_Nm = 1e-9;  // to and fro: one that always says the ve
 
 }  // namespace
 
-Sensors imagined(const Sensors& last) noexcept {
-  Sensors next = last;
-  if (last.wrist.age_ticks < kWristSilentTicks) {
-    ++next.wrist.sequence;
-    next.wrist.age_ticks = 0;
-    next.wrist.on_arm.torque_Nm[2] += next.wrist.sequence % 2 == 0 ? kFlicker_Nm : -kFlicker_Nm;
+void imagine(Sensors& sensors) noexcept {
+  if (sensors.wrist.age_ticks < kWristSilentTicks) {
+    ++sensors.wrist.sequence;
+    sensors.wrist.age_ticks = 0;
+    sensors.wrist.on_arm.torque_Nm[2] += sensors.wrist.sequence % 2 == 0 ? kFlicker_Nm : -kFlicker_Nm;
   }
-  if (last.adapter.age_ticks < kAdapterSilentTicks) {
-    ++next.adapter.sequence;
-    next.adapter.age_ticks = 0;
+  if (sensors.adapter.age_ticks < kAdapterSilentTicks) {
+    ++sensors.adapter.sequence;
+    sensors.adapter.age_ticks = 0;
   }
-  return next;
 }
 
 }  // namespace liana::serial

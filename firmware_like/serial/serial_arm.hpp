@@ -54,10 +54,8 @@ class SerialArm {
   static std::int16_t planned_permille(const RobotParams&, const Report&, std::int32_t) noexcept { return 0; }
 
   static bool is_torque_controlled(const RobotParams& table) noexcept { return table.torque.is_torque_controlled != 0; }
-  // The sensors that the twin imagines for the next tick.
-  static Sensors imagined(const RobotParams&, const Report&, const Sensors& last) noexcept {
-    return serial::imagined(last);
-  }
+  // The sensors that the twin imagines for the next tick, from the last one's.
+  static void imagine(const RobotParams&, const Report&, Sensors& sensors) noexcept { serial::imagine(sensors); }
 
   // Motion stage, for the verifier's predictions and for tests.
   const MotionState& motion() const noexcept { return motion_; }

@@ -37,7 +37,8 @@ void follow_acceleration(const RobotParams& table, const ThetaVector& theta_rad,
     state.slow_rad_s[k] += share * (rate_rad_s - state.slow_rad_s[k]);
     state.accel_rad_s2[k] = kPerSecond * (rate_rad_s - state.slow_rad_s[k]);
   }
-  for (Index c = 0; c < static_cast<Index>(table.cable_count()); ++c) {
+  const Index cables = static_cast<Index>(table.cable_count());
+  for (Index c = 0; c < cables; ++c) {
     state.slow_N[c] += share * (tension_N[c] - state.slow_N[c]);
     state.tension_N[c] += share * (state.slow_N[c] - state.tension_N[c]);
   }

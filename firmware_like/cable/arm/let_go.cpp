@@ -20,7 +20,8 @@ void answer_loss(const RobotParams& table, const CableLayout& layout, Request re
 
 bool is_planned_released(const RobotParams& table, const CableVector& plan_N, std::size_t cable) noexcept {
   if (plan_N[cable] != 0.0) return false;
-  for (std::size_t c = as_index(table.feed_count()); c < as_index(table.cable_count()); ++c)
+  const std::size_t cables = as_index(table.cable_count());
+  for (std::size_t c = as_index(table.feed_count()); c < cables; ++c)
     if (plan_N[c] > 0.0) return static_cast<std::int32_t>(cable) >= table.feed_count();
   return false;
 }

@@ -73,12 +73,10 @@ Shifts shifts_for(const AnchoredVector& t, const AnchoredVector& null, const dou
 // What the cables from `first` on, those of later segments, turn segment j's angles by.
 std::array<double, 2> torque_beyond(const RobotParams& table, const TensionSolver& solver, const CableVector& tension_N,
                                     Index first, Index j) noexcept {
-  double pitch = 0.0, yaw = 0.0;
-  for (Index c = first; c < static_cast<Index>(table.cable_count()); ++c) {
-    pitch += solver.pull_m[c][2 * j] * tension_N[c];
-    yaw += solver.pull_m[c][2 * j + 1] * tension_N[c];
-  }
-  return {pitch, yaw};
+  const Index cables = static_cast<Index>(table.cable_count());
+  Pair torque{};
+  for (Index c = first; c < cables; ++c) torque += load_pair(&solver.pull_m[c][2 * j]) * tension_N[c];
+  return {torque[0], torque[1]};
 }
 
 // What is pulled beyond the plan grows with what is missing, and is let go again.
@@ -186,7 +184,8 @@ void keep_min_tension(const RobotParams& table, const CableVector& tension_N, Se
 void wind_in(const RobotParams& table, const CableVector& tension_N, CableVector& taut_N) noexcept {
   const double limit_N = kTautLimit_N * table.tension.scale();
   const double enough_N = table.tension.floor_motor_N + kTautBelow_N * table.tension.scale();
-  for (Index c = static_cast<Index>(table.feed_count()); c < static_cast<Index>(table.cable_count()); ++c) {
+  const Index cables = static_cast<Index>(table.cable_count());
+  for (Index c = static_cast<Index>(table.feed_count()); c < cables; ++c) {
     const double missing_N = larger(0.0, enough_N - tension_N[c]);
     taut_N[c] = one_tick_tighter(table, taut_N[c], kTautRate_1_s * missing_N, kTautLeak_s, limit_N);
   }

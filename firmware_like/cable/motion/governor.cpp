@@ -20,9 +20,10 @@ Index theta_total(const RobotParams& table) noexcept { return static_cast<Index>
 
 void update_pulls(const RobotParams& table, const TensionSolver& solver, Index first, Index last,
                   GovernorState& state) noexcept {
+  const Index cables = static_cast<Index>(table.cable_count());
   for (Index k = first; k < last; ++k) {
     const CableVector pull_N = pulls_for(table, solver, state.mass_kg_m2[k]);
-    for (Index c = 0; c < static_cast<Index>(table.cable_count()); ++c) state.pull_N_s2[c][k] = pull_N[c];
+    for (Index c = 0; c < cables; ++c) state.pull_N_s2[c][k] = pull_N[c];
   }
 }
 

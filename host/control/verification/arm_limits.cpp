@@ -14,7 +14,8 @@ namespace {
 constexpr double kPushBeyond_m = 0.001;  // a push that ends at its bound has stopped within this
 
 void judge_tension(const cable::RobotParams& table, const cable::Outputs& outputs, Judge& judge) {
-  for (auto i = static_cast<std::size_t>(table.feed_count()); i < static_cast<std::size_t>(table.cable_count()); ++i) {
+  const auto cables = static_cast<std::size_t>(table.cable_count());
+  for (auto i = static_cast<std::size_t>(table.feed_count()); i < cables; ++i) {
     const double tension_N = outputs.tension_plan_N[i];
     if (cable::is_planned_released(table, outputs.tension_plan_N, i)) continue;
     judge.check(Refusal::kTension, "planned tension of cable", kNewtons, static_cast<int>(i), tension_N,
@@ -52,7 +53,8 @@ void judge_targets(const cable::RobotParams& table, const cable::Outputs* before
   judge_tension(table, after, judge);
   if (before == nullptr) return;
   const double way_m = kTargetSpeedMargin * table.limits.cable_speed_m_s * table.tick_s;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(table.cable_count()); ++i) {
+  const auto cables = static_cast<std::size_t>(table.cable_count());
+  for (std::size_t i = 0; i < cables; ++i) {
     judge.check(Refusal::kCableSpeed, "travel per tick of cable", kMillimetres, static_cast<int>(i),
                 after.payout_command_m[i] - before->payout_command_m[i], way_m);
   }

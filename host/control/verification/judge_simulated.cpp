@@ -155,7 +155,8 @@ class MomentJudge {
               const cable::CableVector& passed_share) {
     const cable::TensionLimits& limits = table_.tension;
     const double unsure_N = kSwingTension_N * limits.scale();
-    for (Index c = static_cast<Index>(table_.feed_count()); c < static_cast<Index>(table_.cable_count()); ++c) {
+    const auto cables = static_cast<Index>(table_.cable_count());
+    for (Index c = static_cast<Index>(table_.feed_count()); c < cables; ++c) {
       if (cable::is_planned_released(table_, plan_N, c)) continue;
       const double tension_N = moment.tension_N[c];
       const double left_N = (tension_N - unsure_N) * passed_share[c] - limits.floor_anywhere_N;

@@ -15,21 +15,25 @@ class NominalDrives {
  public:
   // Starts from what the real drives and sensors reported last. `table` must outlive this.
   NominalDrives(const typename Arm::Table& table, const liana::Inputs<Arm>& last)
-      : table_(table), last_(last.drive), sensors_(last.sensors) {}
+      : table_(table), drives_(table.drive_count()) {
+    inputs_.drive = last.drive;
+    inputs_.sensors = last.sensors;
+  }
 
-  // The inputs of the next tick: the state, position and torque that the last commands, `told`, asked for.
-  liana::Inputs<Arm> next_inputs(std::uint64_t tick, const liana::Outputs<Arm>& told) {
-    for (std::int32_t drive = 0; drive < table_.drive_count(); ++drive) {
+  // The inputs of the next tick: the state, position and torque that the last commands, `told`, asked for. There is no
+  // telecommand among them; they are valid until the next call.
+  liana::Inputs<Arm>& next_inputs(std::uint64_t tick, const liana::Outputs<Arm>& told) {
+    for (std::int32_t drive = 0; drive < drives_; ++drive) {
       const std::size_t i = as_index(drive);
-      last_[i] = next_feedback(last_[i], told.drive[i], i, Arm::planned_permille(table_, told, drive));
+      DriveFeedback& feedback = inputs_.drive[i];
+      feedback = next_feedback(feedback, told.drive[i], i, Arm::planned_permille(table_, told, drive));
       target_before_[i] = told.drive[i].target_counts;
     }
     has_told_ = true;
-    liana::Inputs<Arm> inputs;
-    inputs.tick = tick;
-    inputs.drive = last_;
-    inputs.sensors = sensors_ = Arm::imagined(table_, told, sensors_);
-    return inputs;
+    inputs_.tick = tick;
+    if (inputs_.telecommand.kind() != CommandKind::kNone) inputs_.telecommand = {};
+    Arm::imagine(table_, told, inputs_.sensors);
+    return inputs_;
   }
 
  private:
@@ -42,10 +46,10 @@ class NominalDrives {
   }
 
   const typename Arm::Table& table_;
-  DriveFeedbacks last_;
+  std::int32_t drives_;
+  liana::Inputs<Arm> inputs_{};
   std::array<std::int32_t, kMaxDrives> target_before_{};
   bool has_told_ = false;
-  [[no_unique_address]] typename Arm::Sensors sensors_;
 };
 
 }  // namespace liana::verification

@@ -14,9 +14,10 @@ struct Copy {
   explicit Copy(const TwinSnapshot<Arm>& start)
       : controller(start.controller), drives(controller.table(), start.last_inputs), tick(start.next_tick) {}
 
-  Outputs<Arm> step(const Outputs<Arm>& told, const Command& command) {
-    Inputs<Arm> inputs = drives.next_inputs(tick++, told);
-    inputs.telecommand = command;
+  // `command`: what the tick hears; nullptr: nothing.
+  Outputs<Arm> step(const Outputs<Arm>& told, const Command* command) {
+    Inputs<Arm>& inputs = drives.next_inputs(tick++, told);
+    if (command != nullptr) inputs.telecommand = *command;
     return controller.tick(inputs);
   }
 
@@ -26,11 +27,11 @@ struct Copy {
 };
 
 template <class Command>
-Command command_at(std::span<const Command> released, std::uint64_t tick) {
+const Command* command_at(std::span<const Command> released, std::uint64_t tick) {
   for (const Command& command : released) {
-    if (command.first_tick() == tick) return command;
+    if (command.first_tick() == tick) return &command;
   }
-  return {};
+  return nullptr;
 }
 
 // `next`: in force from `first_tick` to `expiry_tick`.
@@ -47,11 +48,11 @@ void predict(const TwinSnapshot<Arm>& start, std::span<const Command> released, 
   ticks.push_back(last);
   while (copy.tick < first_tick) ticks.back() = copy.step(ticks.back(), command_at(released, copy.tick));
   // What was told before the candidate is no part of the prediction: its first tick takes that place.
-  ticks.back() = copy.step(ticks.back(), next);
-  while (copy.tick < expiry_tick) ticks.push_back(copy.step(ticks.back(), Command{}));
+  ticks.back() = copy.step(ticks.back(), &next);
+  while (copy.tick < expiry_tick) ticks.push_back(copy.step(ticks.back(), nullptr));
   prediction.command_ticks = ticks.size();
   for (std::size_t i = 0; i < max_stop_ticks && !prediction.comes_to_rest; ++i) {
-    ticks.push_back(copy.step(ticks.back(), Command{}));
+    ticks.push_back(copy.step(ticks.back(), nullptr));
     prediction.comes_to_rest = ticks.back().at_rest != 0;
   }
 }

@@ -33,8 +33,8 @@ void LinearArm::step(const ThetaColumn& drums_rad, const ThetaColumn& told_rad, 
   const ThetaColumn push = swing.rate_rad_s + 0.5 * damping_1_s_ * told_rad;
   const ThetaColumn pull = 0.5 * (drums_rad + swing.drums_rad) - swing.theta_rad;
   ThetaColumn middle(push.size());
-  middle.noalias() = keep_ * push;
-  middle.noalias() += follow_ * pull;
+  middle.noalias() = keep_.lazyProduct(push);
+  middle.noalias() += follow_.lazyProduct(pull);
   swing.theta_rad += step_s_ * middle;
   swing.rate_rad_s = 2.0 * middle - swing.rate_rad_s;
   swing.drums_rad = drums_rad;
