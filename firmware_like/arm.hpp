@@ -29,10 +29,10 @@ concept Arm = std::is_trivially_copyable_v<A> && ArmTable<typename A::Table> &&
     std::is_trivially_copyable_v<typename A::Report> && std::is_trivially_copyable_v<typename A::Sensors> &&
     std::is_constructible_v<A, const typename A::Table&> &&
     requires(A arm, const A& seen, const typename A::Table& table, const typename A::Setpoint& setpoint,
-             const typename A::Report& report, typename A::Report& told, const typename A::Sensors& sensors, typename A::Sensors& next,
-             const DriveFeedbacks& feedback, const DriveCommands& sent, DriveProposals& proposals, const Orders& orders,
-             WatchScope scope, Watch& out, FaultList& faults, std::int32_t drive, std::uint64_t tick, bool flag,
-             Request request) {
+             const typename A::Report& report, typename A::Report& told, const typename A::Sensors& sensors,
+             typename A::Sensors& next, const DriveFeedbacks& feedback, const DriveCommands& sent,
+             DriveProposals& proposals, const Orders& orders, WatchScope scope, Watch& out, FaultList& faults,
+             std::int32_t drive, std::uint64_t tick, bool flag, Request request) {
   { setpoint.kind } -> std::convertible_to<CommandKind>;
   // Once: the table again, and what the drives may be told, in their units.
   { seen.table() } -> std::same_as<const typename A::Table&>;

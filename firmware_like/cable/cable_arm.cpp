@@ -308,7 +308,7 @@ void CableArm::dither(bool tensions_valid) noexcept {
 void CableArm::wind_beyond_ceiling(CableVector& wanted_m) const noexcept {
   for (Index c = 0; c < cables(); ++c) {
     const double beyond_N = tension_.motor_N[c] + taut_N_[c] - table_.tension.ceiling_free_N;
-    wanted_m[c] -= larger(0.0, beyond_N) / table_.cable_EA_N * wanted_m[c];
+    if (!(beyond_N <= 0.0)) wanted_m[c] -= beyond_N / table_.cable_EA_N * wanted_m[c];
   }
 }
 
@@ -412,11 +412,6 @@ void CableArm::report(Report& out) const noexcept {
   out.ik_attitude_error_rad = motion_.ik.attitude_error_rad;
   out.ik_outcome = motion_.ik.outcome;
   out.ik_residual = motion_.ik.residual;
-}
-
-std::int16_t CableArm::planned_permille(const RobotParams& table, const Report& report, std::int32_t drive) noexcept {
-  const Index i = as_index(drive);
-  return narrow<std::int16_t>(to_counts(report.tension_plan_N[i] / table.drive[i].newtons_per_permille).value);
 }
 
 void CableArm::imagine(const RobotParams& table, const Report& report, LoadCells& cells) noexcept {

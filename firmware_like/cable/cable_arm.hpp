@@ -86,7 +86,10 @@ class CableArm {
   void report(Report& out) const noexcept;
 
   // What the twin's drives show beside what they are told: the planned tension.
-  static std::int16_t planned_permille(const RobotParams& table, const Report& report, std::int32_t drive) noexcept;
+  static std::int16_t planned_permille(const RobotParams& table, const Report& report, std::int32_t drive) noexcept {
+    const Index i = as_index(drive);
+    return narrow<std::int16_t>(to_counts(report.tension_plan_N[i] / table.drive[i].newtons_per_permille).value);
+  }
 
   static bool is_torque_controlled(const RobotParams&) noexcept { return false; }
   // And their load cells, from the last tick's: what was usable says the planned tension, what was not goes on being

@@ -24,19 +24,6 @@ constexpr std::array<StatusRow, 8> kStatusTable{{
     {0x004F, 0x0008, DriveState::kFault},                // x0xx 1000
 }};
 
-// The table looked up once for every value of the bits that it reads: decoding is asked several times per drive and
-// tick.
-constexpr std::array<DriveState, 128> kStateOfBits = [] {
-  std::array<DriveState, 128> states{};
-  for (std::size_t bits = 0; bits < states.size(); ++bits) {
-    states[bits] = DriveState::kUnknown;
-    for (const StatusRow& row : kStatusTable) {
-      if ((bits & row.mask) == row.value) states[bits] = row.state;  // rows exclude each other
-    }
-  }
-  return states;
-}();
-
 using GoalRow = std::array<std::uint16_t, kDriveGoalCount>;
 
 // Rows as in the figure of CiA 402, one column per goal; (n) is the transition the command asks for, (-) none.
@@ -70,7 +57,16 @@ constexpr std::size_t row_of(DriveState state) noexcept {
 
 }  // namespace
 
-DriveState decode(std::uint16_t statusword) noexcept { return kStateOfBits[statusword & 0x7F]; }
+constinit const std::array<DriveState, 128> kStateOfBits = [] {
+  std::array<DriveState, 128> states{};
+  for (std::size_t bits = 0; bits < states.size(); ++bits) {
+    states[bits] = DriveState::kUnknown;
+    for (const StatusRow& row : kStatusTable) {
+      if ((bits & row.mask) == row.value) states[bits] = row.state;  // rows exclude each other
+    }
+  }
+  return states;
+}();
 
 std::uint16_t controlword_for(DriveState state, DriveGoal goal, std::uint16_t previous_controlword) noexcept {
   const auto column = static_cast<std::size_t>(goal);

@@ -1,6 +1,7 @@
 // The CiA 402 drive state machine as seen by the master: what a statusword means, and which controlword leads on.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace liana {
@@ -37,8 +38,11 @@ constexpr std::uint16_t kSwitchOn = 0x0007;
 constexpr std::uint16_t kEnableOperation = 0x000F;
 constexpr std::uint16_t kFaultResetBit = 0x0080;
 
+// The state for every value of the bits that decide it: decoding is asked several times per drive and tick.
+extern const std::array<DriveState, 128> kStateOfBits;
+
 // State that a statusword (6041) shows; exactly one for each of the 65 536 values, kUnknown where CiA 402 defines none.
-DriveState decode(std::uint16_t statusword) noexcept;
+inline DriveState decode(std::uint16_t statusword) noexcept { return kStateOfBits[statusword & 0x7F]; }
 
 // Controlword that takes a drive in `state` one transition towards `goal`. Fault reset acts on the rising edge of bit
 // 7, so while the drive stays in Fault the bit alternates with what was sent before: `previous_controlword`.

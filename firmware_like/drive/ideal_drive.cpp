@@ -4,8 +4,6 @@
 #include <array>
 #include <limits>
 
-#include "firmware_like/drive/cia402.hpp"
-
 namespace liana {
 namespace {
 
@@ -22,27 +20,13 @@ constexpr std::array kAnswers{Answer{kEnableOperation, DriveState::kOperationEna
                               Answer{kQuickStopCommand, DriveState::kQuickStopActive, 0x0217},
                               Answer{kDisableVoltage, DriveState::kSwitchOnDisabled, 0x0250}};
 
-// A drive that is already in the state keeps the word it reported.
-std::uint16_t statusword_for(std::uint16_t controlword, std::uint16_t reported) noexcept {
+}  // namespace
+
+std::uint16_t statusword_after(std::uint16_t controlword, std::uint16_t reported) noexcept {
   for (const Answer& row : kAnswers) {
     if ((controlword & 0x0F) == row.controlword) return decode(reported) == row.state ? reported : row.statusword;
   }
   return reported;
-}
-
-}  // namespace
-
-DriveFeedback ideal_feedback(const DriveFeedback& last, const DriveCommand& told,
-                             std::int16_t torque_permille) noexcept {
-  DriveFeedback feedback = last;
-  feedback.statusword = statusword_for(told.controlword, feedback.statusword);
-  if (decode(feedback.statusword) == DriveState::kOperationEnabled) {
-    feedback.position_counts = told.target_counts;
-    feedback.torque_permille = torque_permille;
-  }
-  feedback.feedback_age_ticks = 1;
-  feedback.heartbeat_age_ticks = feedback.emergency_code = 0;
-  return feedback;
 }
 
 DriveFeedback ideal_torque_feedback(const DriveFeedback& last, const DriveCommand& told, std::int32_t target_before,

@@ -1,7 +1,5 @@
 #include "firmware_like/safety/drive_link_monitor.hpp"
 
-#include "firmware_like/drive/cia402.hpp"
-
 namespace liana {
 namespace {
 
@@ -65,8 +63,8 @@ void watch_cycle(WatchScope scope, const CycleInputs& inputs, Watch& out) noexce
   }
 }
 
-void watch_drive(const LinkLimits& limits, WatchScope scope, const DriveFeedback& drive, std::int32_t index,
-                 DriveLinkMonitorState& state, Watch& out) noexcept {
+void watch_doubtful_drive(const LinkLimits& limits, WatchScope scope, const DriveFeedback& drive, std::int32_t index,
+                          DriveLinkMonitorState& state, Watch& out) noexcept {
   watch_link(limits, drive, index, state, out);
   watch_state(scope, drive, index, state, out);
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "firmware_like/drive/cia402.hpp"
 #include "firmware_like/drive/drive_io.hpp"
 #include "firmware_like/math/convert.hpp"
 #include "firmware_like/safety/cycle_inputs.hpp"
@@ -86,8 +87,19 @@ inline void watch_from_start(const LinkLimits& limits, DriveLinkMonitorState& st
 }
 
 // Heartbeat, NMT state, age of feedback, fault and operation state of one drive that has been alive, or should have.
-void watch_drive(const LinkLimits& limits, WatchScope scope, const DriveFeedback& drive, std::int32_t index,
-                 DriveLinkMonitorState& state, Watch& out) noexcept;
+void watch_doubtful_drive(const LinkLimits& limits, WatchScope scope, const DriveFeedback& drive, std::int32_t index,
+                          DriveLinkMonitorState& state, Watch& out) noexcept;
+inline void watch_drive(const LinkLimits& limits, WatchScope scope, const DriveFeedback& drive, std::int32_t index,
+                        DriveLinkMonitorState& state, Watch& out) noexcept {
+  if (drive.feedback_age_ticks <= kFeedbackAgeTicks && drive.heartbeat_age_ticks <= limits.heartbeat_age_ticks &&
+      drive.operational == 1 && drive.emergency_code == 0 &&
+      decode(drive.statusword) == DriveState::kOperationEnabled) {  // in which nothing can be wrong
+    state.seen_mask |= 1U << static_cast<std::uint32_t>(index);
+    state.emergency_code[as_index(index)] = 0;
+  } else {
+    watch_doubtful_drive(limits, scope, drive, index, state, out);
+  }
+}
 
 // Whether one drive follows what was `sent` to it in the last tick.
 inline void watch_following(const LinkLimits& limits, WatchScope scope, const DriveFeedback& drive,

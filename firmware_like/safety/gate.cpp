@@ -83,19 +83,24 @@ GateCheck judge(const DriveLimits& limits, const DriveProposal& proposal, const 
 GateResult gate(const GateLimits& limits, DriveGoal goal, bool live_targets, const DriveProposals& proposal,
                 const DriveCommands& previous, const DriveFeedbacks& feedback) noexcept {
   GateResult result{};
-  DriveCommands judged{};
+  for (std::int32_t drive = 0; live_targets && drive < limits.drive_count; ++drive) {
+    const std::size_t i = as_index(drive);
+    const DriveState state = decode(feedback[i].statusword);
+    result.command[i].controlword = controlword_for(state, goal, previous[i].controlword);
+    result.check =
+        judge(limits.drive[i], proposal[i], previous[i], state, feedback[i].position_counts, result.command[i]);
+    if (result.check == GateCheck::kPassed) continue;
+    result.drive = narrow<std::int16_t>(drive);
+    result.command = DriveCommands{};
+    break;
+  }
+  if (live_targets && result.check == GateCheck::kPassed) return result;
   for (std::int32_t drive = 0; drive < limits.drive_count; ++drive) {
     const std::size_t i = as_index(drive);
     const DriveState state = decode(feedback[i].statusword);
     result.command[i].controlword = controlword_for(state, goal, previous[i].controlword);
     result.command[i].target_counts = safe_target(state, previous[i], feedback[i]);
-    if (!live_targets || result.check != GateCheck::kPassed) continue;
-    judged[i].controlword = result.command[i].controlword;
-    result.check = judge(limits.drive[i], proposal[i], previous[i], state, feedback[i].position_counts, judged[i]);
-    if (result.check != GateCheck::kPassed) result.drive = narrow<std::int16_t>(drive);
   }
-  if (!live_targets || result.check != GateCheck::kPassed) return result;
-  result.command = judged;
   return result;
 }
 

@@ -97,6 +97,18 @@ constexpr std::array kTransitions{
     Transition{Phase::kResetting, kBudgetSpent, 0, Phase::kFault},
 };
 
+// Where the rows of a phase begin: they stand together, in the order of the phases.
+constexpr std::array<std::size_t, kPhaseCount> kFirstRow = [] {
+  std::array<std::size_t, kPhaseCount> first{};
+  for (std::size_t i = kTransitions.size(); i-- > 0;) first[static_cast<std::size_t>(kTransitions[i].from)] = i;
+  return first;
+}();
+static_assert([] {
+  for (std::size_t i = 1; i < kTransitions.size(); ++i)
+    if (kTransitions[i].from < kTransitions[i - 1].from) return false;
+  return kFirstRow.back() + 3 == kTransitions.size() && kFirstRow.front() == 0;
+}());
+
 const PhaseTraits& traits_of(Phase phase) noexcept { return kPhaseTable[static_cast<std::size_t>(phase)]; }
 
 std::uint32_t request_conditions(Request request, CommandKind in_force) noexcept {
@@ -163,8 +175,10 @@ void count(bool holds, std::uint32_t most, std::uint32_t& ticks) noexcept {
 }
 
 Phase next_phase(Phase phase, std::uint32_t now) noexcept {
-  for (const Transition& row : kTransitions) {
-    if (row.from == phase && (now & row.all_of) == row.all_of && (now & row.none_of) == 0) return row.to;
+  for (std::size_t i = kFirstRow[static_cast<std::size_t>(phase)]; i < kTransitions.size(); ++i) {
+    const Transition& row = kTransitions[i];
+    if (row.from != phase) break;
+    if ((now & row.all_of) == row.all_of && (now & row.none_of) == 0) return row.to;
   }
   return phase;
 }

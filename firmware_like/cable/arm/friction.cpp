@@ -15,8 +15,10 @@ using Index = std::size_t;
 constexpr Series<7> kBriefExponential{both(1.0 / 720.0), both(1.0 / 120.0), both(1.0 / 24.0), both(1.0 / 6.0),
                                       both(1.0 / 2.0),   both(1.0),         both(1.0)};
 
+constexpr double kBriefly = 0.25;
+
 Pair friction_exponential(const Pair& x) noexcept {
-  return within(x, 0.25) ? evaluate(kBriefExponential, x) : exponential(x);
+  return within(x, kBriefly) ? evaluate(kBriefExponential, x) : exponential(x);
 }
 
 }  // namespace
@@ -50,17 +52,27 @@ void fade_slip(const CableLayout& layout, double share, SlipState& slip) noexcep
 void update_tension_ratio(const RobotParams& table, const CableLayout& layout, const SegmentVector& wrap_rad,
                           const SlipState& slip, TensionRatio& ratio) noexcept {
   SegmentVector half_rate = wrap_rad;
-  for (double& rate : half_rate) rate *= -0.5 * table.friction_mu;
-  for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
-    double at_entry = 1.0;
-    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]);
-         j += 2) {  // two segments at a time; nothing slips beyond the cable's own
-      const Pair half = friction_exponential(load_pair(&half_rate[j]) * load_pair(&slip.sigma[c][j]));
-      const double at_next = at_entry * (half[0] * half[0]);
-      store_pair(Pair{at_entry, at_next} * half, &ratio[c][j]);
-      at_entry = at_next * (half[1] * half[1]);
-    }
+  double largest = 0.0;
+  for (double& rate : half_rate) {
+    rate *= -0.5 * table.friction_mu;
+    largest = larger(largest, std::fabs(rate));
   }
+  const auto fill = [&](auto power) noexcept {
+    for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
+      double at_entry = 1.0;
+      for (Index j = 0; j <= static_cast<Index>(layout.segment[c]);
+           j += 2) {  // two segments at a time; nothing slips beyond the cable's own
+        const Pair half = power(load_pair(&half_rate[j]) * load_pair(&slip.sigma[c][j]));
+        const double at_next = at_entry * (half[0] * half[0]);
+        store_pair(Pair{at_entry, at_next} * half, &ratio[c][j]);
+        at_entry = at_next * (half[1] * half[1]);
+      }
+    }
+  };
+  if (largest <= kBriefly)  // no sigma is beyond 1
+    fill([](const Pair& x) noexcept { return evaluate(kBriefExponential, x); });
+  else
+    fill([](const Pair& x) noexcept { return friction_exponential(x); });
 }
 
 TensionRatio tension_ratio(const RobotParams& table, const CableLayout& layout, const ArmTrig& trig,

@@ -186,6 +186,7 @@ void wind_in(const RobotParams& table, const CableVector& tension_N, CableVector
   const double enough_N = table.tension.floor_motor_N + kTautBelow_N * table.tension.scale();
   const Index cables = static_cast<Index>(table.cable_count());
   for (Index c = static_cast<Index>(table.feed_count()); c < cables; ++c) {
+    if (taut_N[c] == 0.0 && tension_N[c] >= enough_N) continue;
     const double missing_N = larger(0.0, enough_N - tension_N[c]);
     taut_N[c] = one_tick_tighter(table, taut_N[c], kTautRate_1_s * missing_N, kTautLeak_s, limit_N);
   }
