@@ -99,9 +99,10 @@ class MomentJudge {
 
   void simulated(const simulation::JointSequence& sequence, const simulation::Motion& motion) {
     const cable::CableVector plan_N = sequence.tensions_N.empty() ? cable::CableVector{} : sequence.tensions_N.front();
+    const cable::ThetaVector most_rad = allowed_rad(sequence, motion);
     for (const Moment& moment : motion.moments) {
       const Moment& anyway = stop_.from(moment.time_s);
-      joints(sequence, motion, moment, anyway);
+      joints(most_rad, motion.friction_band_rad, moment, anyway);
       nodes(moment, anyway);
       cables(plan_N, moment, anyway, motion.min_passed_share);
     }
@@ -119,14 +120,21 @@ class MomentJudge {
     return std::fmax(table_.segment[k / 2].theta_limit_rad, std::fabs(sequence.rows_rad.front()[k]));
   }
 
-  void joints(const simulation::JointSequence& sequence, const simulation::Motion& motion, const Moment& moment,
+  // Friction may hold an angle as far out from the beginning.
+  cable::ThetaVector allowed_rad(const simulation::JointSequence& sequence, const simulation::Motion& motion) const {
+    cable::ThetaVector allowed{};
+    for (Index k = 0; k < thetas(); ++k) {
+      const double stands_rad = std::fabs(motion.moments.front().theta_rad[k]) + motion.friction_band_rad[k];
+      allowed[k] = std::fmax(max_rad(sequence, k), stands_rad) + kSwingAngle_rad;
+    }
+    return allowed;
+  }
+
+  void joints(const cable::ThetaVector& allowed_rad, const cable::ThetaVector& friction_band_rad, const Moment& moment,
               const Moment& anyway) {
     for (Index k = 0; k < thetas(); ++k) {
-      // Friction may hold it as far out from the beginning.
-      const double stands_rad = std::fabs(motion.moments.front().theta_rad[k]) + motion.friction_band_rad[k];
       judge_.check(Refusal::kJointAngle, "simulated theta", kDegrees, static_cast<int>(k),
-                   std::fabs(moment.theta_rad[k]) + motion.friction_band_rad[k],
-                   std::fmax(max_rad(sequence, k), stands_rad) + kSwingAngle_rad);
+                   std::fabs(moment.theta_rad[k]) + friction_band_rad[k], allowed_rad[k]);
       judge_.check(Refusal::kJointRate, "simulated rate of theta", kDegreesPerSecond, static_cast<int>(k),
                    moment.rate_rad_s[k],
                    std::fmax(kSwingRate * table_.limits.theta_rate_rad_s, kNoFaster * std::fabs(anyway.rate_rad_s[k])));
