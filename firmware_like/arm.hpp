@@ -65,7 +65,7 @@ concept Arm = std::is_trivially_copyable_v<A> && ArmTable<typename A::Table> &&
   { A::planned_permille(table, report, drive) } -> std::same_as<std::int16_t>;
   // Whether the drives follow torques; and the sensors of the next tick, when nothing happens to them.
   { A::is_torque_controlled(table) } -> std::same_as<bool>;
-  { A::imagine(table, report, next) } -> std::same_as<void>;
+  { A::predict_sensors(table, report, next) } -> std::same_as<void>;
 };
 
 }  // namespace liana

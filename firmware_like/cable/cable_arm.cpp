@@ -414,7 +414,7 @@ void CableArm::report(Report& out) const noexcept {
   out.ik_residual = motion_.ik.residual;
 }
 
-void CableArm::imagine(const RobotParams& table, const Report& report, LoadCells& cells) noexcept {
+void CableArm::predict_sensors(const RobotParams& table, const Report& report, LoadCells& cells) noexcept {
   const Index count = as_index(table.cable_count());
   for (Index c = 0; c < count; ++c) {
     if (has_load_cell(table, c) && cells.age_ticks[c] <= kLoadCellAgeTicks)

@@ -94,7 +94,7 @@ class CableArm {
   static bool is_torque_controlled(const RobotParams&) noexcept { return false; }
   // And their load cells, from the last tick's: what was usable says the planned tension, what was not goes on being
   // none.
-  static void imagine(const RobotParams& table, const Report& report, LoadCells& cells) noexcept;
+  static void predict_sensors(const RobotParams& table, const Report& report, LoadCells& cells) noexcept;
 
   // Motion stage, for the verifier's predictions and for tests.
   const MotionState& motion() const noexcept { return motion_; }

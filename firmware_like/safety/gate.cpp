@@ -91,13 +91,13 @@ GateResult gate(const GateLimits& limits, DriveGoal goal, bool live_targets, con
         judge(limits.drive[i], proposal[i], previous[i], state, feedback[i].position_counts, result.command[i]);
     if (result.check == GateCheck::kPassed) continue;
     result.drive = narrow<std::int16_t>(drive);
-    result.command = DriveCommands{};
     break;
   }
   if (live_targets && result.check == GateCheck::kPassed) return result;
   for (std::int32_t drive = 0; drive < limits.drive_count; ++drive) {
     const std::size_t i = as_index(drive);
     const DriveState state = decode(feedback[i].statusword);
+    result.command[i] = {};
     result.command[i].controlword = controlword_for(state, goal, previous[i].controlword);
     result.command[i].target_counts = safe_target(state, previous[i], feedback[i]);
   }

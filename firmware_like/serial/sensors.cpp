@@ -10,7 +10,7 @@ constexpr double kFlicker_Nm = 1e-9;  // to and fro: one that always says the ve
 
 }  // namespace
 
-void imagine(Sensors& sensors) noexcept {
+void predict_sensors(Sensors& sensors) noexcept {
   if (sensors.wrist.age_ticks < kWristSilentTicks) {
     ++sensors.wrist.sequence;
     sensors.wrist.age_ticks = 0;

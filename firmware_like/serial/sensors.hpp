@@ -42,6 +42,6 @@ static_assert(std::is_trivially_copyable_v<Sensors>);
 
 // The sensors of the next tick as the twin imagines them: what is heard goes on saying what it says, and what is silent
 // stays silent.
-void imagine(Sensors& sensors) noexcept;
+void predict_sensors(Sensors& sensors) noexcept;
 
 }  // namespace liana::serial

@@ -55,7 +55,9 @@ class SerialArm {
 
   static bool is_torque_controlled(const RobotParams& table) noexcept { return table.torque.is_torque_controlled != 0; }
   // The sensors that the twin imagines for the next tick, from the last one's.
-  static void imagine(const RobotParams&, const Report&, Sensors& sensors) noexcept { serial::imagine(sensors); }
+  static void predict_sensors(const RobotParams&, const Report&, Sensors& sensors) noexcept {
+    serial::predict_sensors(sensors);
+  }
 
   // Motion stage, for the verifier's predictions and for tests.
   const MotionState& motion() const noexcept { return motion_; }

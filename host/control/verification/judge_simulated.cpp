@@ -99,10 +99,10 @@ class MomentJudge {
 
   void simulated(const simulation::JointSequence& sequence, const simulation::Motion& motion) {
     const cable::CableVector plan_N = sequence.tensions_N.empty() ? cable::CableVector{} : sequence.tensions_N.front();
-    const cable::ThetaVector most_rad = allowed_rad(sequence, motion);
+    const cable::ThetaVector bounds_rad = allowed_rad(sequence, motion);
     for (const Moment& moment : motion.moments) {
       const Moment& anyway = stop_.from(moment.time_s);
-      joints(most_rad, motion.friction_band_rad, moment, anyway);
+      joints(bounds_rad, motion.friction_band_rad, moment, anyway);
       nodes(moment, anyway);
       cables(plan_N, moment, anyway, motion.min_passed_share);
     }

@@ -32,7 +32,7 @@ class NominalDrives {
     has_told_ = true;
     inputs_.tick = tick;
     if (inputs_.telecommand.kind() != CommandKind::kNone) inputs_.telecommand = {};
-    Arm::imagine(table_, told, inputs_.sensors);
+    Arm::predict_sensors(table_, told, inputs_.sensors);
     return inputs_;
   }
 

@@ -28,7 +28,9 @@ class LinearArm {
   void step(const eigen::ThetaColumn& drums_rad, const eigen::ThetaColumn& told_rad, Swing& swing) const;
 
   // By how much the drums want the angles beyond where they are to be, for cables that give this torque there.
-  eigen::ThetaColumn beyond_rad(const eigen::ThetaColumn& load_Nm) const { return by_torque_rad_Nm_.lazyProduct(load_Nm); }
+  eigen::ThetaColumn beyond_rad(const eigen::ThetaColumn& load_Nm) const {
+    return by_torque_rad_Nm_.lazyProduct(load_Nm);
+  }
   // How much tighter every cable is [N] when the arm is that far from where they were planned for.
   CableColumn stretch_N(const eigen::ThetaColumn& off_rad) const { return pull_N_rad_.lazyProduct(off_rad); }
   // By how much torques that do not tell their sign may turn every angle.
