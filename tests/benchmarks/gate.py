@@ -16,11 +16,11 @@ LIMITS = {
     "cable_jacobian": 6_000,
     "arm_clearance": 28_000,
     "self_clearance": 36_000,
-    "tick": 41_100,  # median; 41 000 before an arm may do without a cable or a torque reading, 36 000 without mass
-    "tick_worst": 70_000,  # 68 000 before the governor knew which directions of the tip are lost
-    "verify": 6_400_000,  # median over the motions of tests/benchmarks/verify.cpp that move the tip or a joint
-    "verify_worst": 9_800_000,  # a tip at full speed takes 0.85 s to brake
-    "simulate": 2_000_000,  # the simulation end on the same commands, median
+    "tick": 39_600,  # median; 36 000 without mass
+    "tick_worst": 69_600,  # the stored cases
+    "verify": 4_888_000,  # median over the motions of tests/benchmarks/verify.cpp that move the tip or a joint
+    "verify_worst": 6_490_000,  # a tip at full speed takes 0.85 s to brake
+    "simulate": 1_440_000,  # the simulation end on the same commands, median
 }
 RANDOM_CASES = (3, 1)  # how many, and their seed
 LEAST_OWN_80 = {"fk_jacobian": 2.5, "ik_near": 5.0}  # own_80 over ours
