@@ -34,10 +34,8 @@ void ApiClient::send(const Json& request) {
 }
 
 bool ApiClient::receive_bytes(std::string& packet, double timeout_s) {
-  SocketResult result = receive_packet(fd_.get(), packet);
-  if (result == SocketResult::kWouldBlock && timeout_s > 0.0 && wait_readable(fd_.get(), timeout_s)) {
-    result = receive_packet(fd_.get(), packet);
-  }
+  if (timeout_s > 0.0 && timeout_s != limit_s_) limit_wait(fd_.get(), limit_s_ = timeout_s);
+  const SocketResult result = timeout_s > 0.0 ? await_packet(fd_.get(), packet) : receive_packet(fd_.get(), packet);
   if (result == SocketResult::kClosed) throw_gone();
   return result == SocketResult::kDone;
 }

@@ -29,6 +29,7 @@ class ApiClient {
  private:
   explicit ApiClient(UniqueFd fd) : fd_(std::move(fd)) {}
   UniqueFd fd_;
+  double limit_s_ = 0.0;  // of a wait for a packet
 };
 
 }  // namespace liana::api

@@ -27,6 +27,8 @@ constexpr double kMuch = 16384;                   // bytes lately, of clients th
 constexpr std::size_t kLongestHeard = 16u << 20;  // of a packet that is too long a request; it may be a stop
 // So late a lockstep client may be in every interval; what goes beyond it adds up.
 constexpr double kFreeLateness_s = 0.5;
+// After so long without a word of a client it is asked whether it reads.
+constexpr double kQuiet_s = 0.03;
 // Bytes that the other end has not read yet.
 int unread_bytes(int fd) {
   int bytes = 0;
@@ -246,11 +248,12 @@ void ApiServer::feed_events(Client& client) {
 // wait for the next interval, whatever the moment at which a packet to it fails.
 void ApiServer::flush(Client& client) {
   for (feed_events(client); !client.outbox.empty() && client.why_closed.empty(); feed_events(client)) {
-    if (unread_bytes(client.fd.get()) < client.unread_bytes) client.alive_at = Clock::now();  // it has read since
+    const bool is_quiet = seconds_since(client.alive_at) > kQuiet_s;
+    if (is_quiet && unread_bytes(client.fd.get()) < client.unread_bytes) client.alive_at = Clock::now();  // it has read
     const SocketResult result = send_packet(client.fd.get(), client.outbox.front());
     if (result == SocketResult::kWouldBlock) return;
     if (result == SocketResult::kClosed) return client.outbox.clear();
-    client.unread_bytes = unread_bytes(client.fd.get());
+    client.unread_bytes = is_quiet ? unread_bytes(client.fd.get()) : 0;
     client.outbox.pop();
   }
 }

@@ -37,7 +37,7 @@ struct ApiServer::Client {
   bool only_stops = false;  // said hello when no place was left
   Clock::time_point since = Clock::now();
   Clock::time_point alive_at = since;  // it has sent or read something
-  int unread_bytes = 0;                // by it, right after the last packet to it
+  int unread_bytes = 0;                // by it, right after the last packet to it; 0 where nobody asked
   double load = 0.0;                   // bytes read lately: who sends little is read first
   std::string why_closed;              // not empty: to be buried
   std::array<bool, kTopicNames.size()> subscribed{};

@@ -8,7 +8,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -42,19 +44,56 @@ SocketResult send_packet(int fd, std::string_view packet) {
   }
 }
 
+namespace {
+
+// With one call, into a buffer for the largest packet of the API.
+ssize_t receive_at_once(int fd, std::string& packet, std::size_t most_bytes, int flags) {
+  std::array<char, kMaxPacketBytes + 1> bytes;
+  const ssize_t size = ::recv(fd, bytes.data(), most_bytes + 1, flags);
+  if (size > 0) packet.assign(bytes.data(), static_cast<std::size_t>(size));
+  return size;
+}
+
+// The size first: a buffer for the largest packet would have to be made anew for each small one.
+ssize_t receive_by_size(int fd, std::string& packet, std::size_t most_bytes) {
+  const ssize_t size = ::recv(fd, nullptr, 0, MSG_DONTWAIT | MSG_PEEK | MSG_TRUNC);
+  if (size <= 0) return size;
+  packet.resize(std::min(static_cast<std::size_t>(size), most_bytes + 1));
+  return ::recv(fd, packet.data(), packet.size(), MSG_DONTWAIT);
+}
+
+SocketResult result_of(ssize_t size, int reason) {
+  if (size > 0) return SocketResult::kDone;
+  const bool nothing = size < 0 && (reason == EAGAIN || reason == EWOULDBLOCK || reason == EINTR);
+  return nothing ? SocketResult::kWouldBlock : SocketResult::kClosed;
+}
+
+}  // namespace
+
 SocketResult receive_packet(int fd, std::string& packet, std::size_t most_bytes) {
   for (;;) {
-    // The size first: a buffer for the largest packet would have to be made anew for each small one.
-    const ssize_t size = ::recv(fd, nullptr, 0, MSG_DONTWAIT | MSG_PEEK | MSG_TRUNC);
+    const ssize_t size = most_bytes <= kMaxPacketBytes ? receive_at_once(fd, packet, most_bytes, MSG_DONTWAIT)
+                                                       : receive_by_size(fd, packet, most_bytes);
     // A peer that left without reading everything is reported once as a reset; what it sent before is still there.
     if (size < 0 && (errno == EINTR || errno == ECONNRESET)) continue;
-    packet.resize(size > 0 ? std::min(static_cast<std::size_t>(size), most_bytes + 1) : 0);
-    if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return SocketResult::kWouldBlock;
-    if (size <= 0) return SocketResult::kClosed;
-    const ssize_t n = ::recv(fd, packet.data(), packet.size(), MSG_DONTWAIT);
-    if (n < 0 && errno == EINTR) continue;
-    packet.resize(n > 0 ? static_cast<std::size_t>(n) : 0);
-    return n > 0 ? SocketResult::kDone : SocketResult::kClosed;
+    if (size <= 0) packet.clear();
+    return result_of(size, errno);
+  }
+}
+
+void limit_wait(int fd, double timeout_s) {
+  ::fcntl(fd, F_SETFL, ::fcntl(fd, F_GETFL) & ~O_NONBLOCK);
+  const long timeout_us = std::lround(timeout_s * 1e6);
+  const timeval limit{timeout_us / 1'000'000, std::max(1000L, timeout_us % 1'000'000)};
+  ::setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
+}
+
+SocketResult await_packet(int fd, std::string& packet) {
+  for (;;) {
+    const ssize_t size = receive_at_once(fd, packet, kMaxPacketBytes, 0);
+    if (size < 0 && errno == ECONNRESET) continue;
+    if (size <= 0) packet.clear();
+    return result_of(size, errno);
   }
 }
 

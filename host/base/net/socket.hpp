@@ -40,6 +40,11 @@ SocketResult send_packet(int fd, std::string_view packet);
 // plus one. The text is only as large as the packet.
 SocketResult receive_packet(int fd, std::string& packet, std::size_t most_bytes = kMaxPacketBytes);
 
+// The most that await_packet waits at `fd` from now on: `timeout_s` over 0.
+void limit_wait(int fd, double timeout_s);
+// Reads one packet of at most kMaxPacketBytes, waiting for it; kWouldBlock when none came, or a signal did.
+SocketResult await_packet(int fd, std::string& packet);
+
 // Waits until `fd` is readable (or writable), at most `timeout_s`; true when it is.
 bool wait_readable(int fd, double timeout_s);
 bool wait_writable(int fd, double timeout_s);
