@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -30,6 +31,18 @@ namespace {
 constexpr int kExecFailed = 127;
 constexpr rlim_t kMaxAddressSpace = rlim_t{8} << 30;  // of a program that liana starts
 constexpr double kStartTimeout_s = 30.0;
+
+std::atomic<unsigned> ends = 0;  // SIGCHLDs: whether a child has ended costs no call
+static_assert(std::atomic<unsigned>::is_always_lock_free);
+
+void count_end(int) { ++ends; }
+
+void listen_for_ends() {
+  struct sigaction action {};
+  action.sa_handler = count_end;
+  action.sa_flags = SA_RESTART | SA_NOCLDSTOP;
+  ::sigaction(SIGCHLD, &action, nullptr);
+}
 
 std::vector<char*> exec_arguments(const std::vector<std::string>& argv) {
   std::vector<char*> pointers;
@@ -57,6 +70,7 @@ std::vector<char*> exec_arguments(const std::vector<std::string>& argv) {
 
 pid_t start(const std::vector<std::string>& argv, int out_fd, int error_fd, int realtime_priority) {
   auto arguments = exec_arguments(argv);
+  listen_for_ends();
   const pid_t pid = fork();
   if (pid < 0) throw std::runtime_error(argv[0] + ": cannot be started: " + strerror(errno));
   if (pid == 0) become(arguments, out_fd, error_fd, realtime_priority);
@@ -131,7 +145,8 @@ void ChildProcess::take_end(int flags) {
 }
 
 std::optional<ExitStatus> ChildProcess::poll() {
-  take_end(WNOHANG);
+  const unsigned now = ends;
+  if (std::exchange(ends_seen_, now) != now) take_end(WNOHANG);
   return end_;
 }
 

@@ -60,6 +60,7 @@ class ChildProcess {
   std::string log_path_;
   pid_t pid_ = -1;
   std::optional<ExitStatus> end_;
+  unsigned ends_seen_ = 0;  // of all children, when this one was looked at
   double cpu_s_ = 0.0;
 };
 
