@@ -37,20 +37,24 @@ wire::Welcome welcome_of(const BusHubOptions& options) {
 
 void BusHub::wait_readable(std::uint64_t timeout_ns) {
   std::array<pollfd, 2> watched{};
+  has_said_.fill(false);
   for (std::size_t i = 0; i < participants_.size(); ++i) watched[i] = {participants_[i].descriptor(), POLLIN, 0};
   const timespec timeout{static_cast<time_t>(timeout_ns / 1'000'000'000),
                          static_cast<long>(timeout_ns % 1'000'000'000)};
   const bool forever = timeout_ns == std::numeric_limits<std::uint64_t>::max();
-  ppoll(watched.data(), participants_.size(), forever ? nullptr : &timeout, nullptr);
+  if (ppoll(watched.data(), participants_.size(), forever ? nullptr : &timeout, nullptr) > 0)
+    for (std::size_t i = 0; i < participants_.size(); ++i) has_said_[i] = watched[i].revents != 0;
   if (bus_stop_requested()) end("stopped by a signal");
 }
 
 bool BusHub::read_yield(std::size_t index) {
+  if (!has_said_[index]) return false;
   Participant& participant = participants_[index];
   switch (participant.receive()) {
     case Participant::Received::kYield:
       return true;
     case Participant::Received::kNothing:
+      has_said_[index] = false;
       return false;
     case Participant::Received::kGone:
       end(participant.name() + " left");

@@ -2,6 +2,7 @@
 // run_real's business.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,8 @@ class BusHub final : private FrameSink {
 
   // Waits until somebody has said something, at most `timeout_ns`; UINT64_MAX waits without end.
   void wait_readable(std::uint64_t timeout_ns);
-  // Reads one packet of participant `index`; true when it is a YIELD. Ends the bus when it has left or talks nonsense.
+  // Reads one packet of participant `index` that was there then; true when it is a YIELD. Ends the bus when it has left
+  // or talks nonsense.
   bool read_yield(std::size_t index);
   // Puts the frames of the YIELD just read into the queues; those that do not fit go back to their sender with its next
   // WAKE.
@@ -59,6 +61,7 @@ class BusHub final : private FrameSink {
   void link_changed(int bus, bool is_up) override;
 
   std::vector<Participant> participants_;
+  std::array<bool, 2> has_said_{};
   BusSim sim_;
   std::vector<CandumpLog> logs_;
   std::uint32_t period_us_;

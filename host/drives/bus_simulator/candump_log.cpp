@@ -49,12 +49,14 @@ std::size_t format_candump(const std::string& interface, const bus::CanFrame& fr
 }
 
 CandumpLog::CandumpLog(const std::string& directory, const std::string& interface)
-    : interface_(interface), file_(std::fopen((directory + "/" + interface + ".log").c_str(), "we")) {
+    : interface_(interface),
+      buffer_(std::make_unique<char[]>(kBufferBytes)),
+      file_(std::fopen((directory + "/" + interface + ".log").c_str(), "we")) {
   if (!file_) {
     throw std::runtime_error(directory + "/" + interface + ".log: cannot be written: " + std::strerror(errno) +
                              "; give --log a directory that exists and may be written");
   }
-  std::setvbuf(file_.get(), nullptr, _IOFBF, kBufferBytes);
+  std::setvbuf(file_.get(), buffer_.get(), _IOFBF, kBufferBytes);
 }
 
 void CandumpLog::write(const bus::CanFrame& frame) {

@@ -32,6 +32,7 @@ class CandumpLog {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   std::string interface_;
+  std::unique_ptr<char[]> buffer_;  // of file_
   std::unique_ptr<std::FILE, Closer> file_;
   std::uint64_t lost_ = 0;
 };
