@@ -6,12 +6,15 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
 
 namespace liana::event {
 namespace {
+
+constexpr std::chrono::milliseconds kGather{20};
 
 std::uint64_t lines_of_events(std::string_view text) {
   std::uint64_t lines = 0;
@@ -70,8 +73,10 @@ LineFile::~LineFile() {
 
 void LineFile::append(std::string line) {
   line += "\n";
+  bool is_first = false;
   {
     const std::lock_guard lock(mutex_);
+    is_first = waiting_.empty();
     if (waiting_.size() + line.size() > kMaxWaitingBytes) {
       ++missing_;
       failing_ = true;
@@ -81,7 +86,7 @@ void LineFile::append(std::string line) {
     say_missing();
     waiting_ += line;
   }
-  wake_.notify_one();
+  if (is_first) wake_.notify_one();
 }
 
 void LineFile::repeat(std::string line) {
@@ -111,6 +116,7 @@ void LineFile::work() {
   std::unique_lock lock(mutex_);
   for (;;) {
     wake_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
+    wake_.wait_for(lock, kGather, [this] { return ending_; });  // lines that follow go with it
     if (waiting_.empty()) return;
     const std::string text = next_lines();
     lock.unlock();

@@ -59,17 +59,16 @@ class Books {
     ticks_.emplace(record, info_);
     states_.emplace(record, info_.period_s);
   }
-  void take(const Inbox::Letter& letter) {
+  void take(Inbox::Letter letter) {
     if (letter.message.is_null()) {
       if (ticks_) ticks_->take(letter.packet);
       return;
     }
-    recorder_.take(letter.message);
     const std::string op = letter.message.value("op", "");
-    if (op == "gap") recorder_.note_gap(liana::archive::gap_from(letter.message));
-    if (!states_) return;
-    if (op == "event" || op == "events_lost") states_->take_event(letter.packet, letter.message);
-    if (op == "state") states_->take(letter.packet, letter.message);
+    if (op == "gap") return recorder_.note_gap(liana::archive::gap_from(letter.message));
+    if (states_ && (op == "event" || op == "events_lost")) states_->take_event(letter.packet, letter.message);
+    if (states_ && op == "state") states_->take(letter.packet, letter.message);
+    recorder_.take(std::move(letter.message));
   }
   void finish() {
     recorder_.finish();
@@ -117,7 +116,7 @@ void read_until_end(liana::api::ApiClient& client, Inbox& inbox, liana::archive:
 // Writes until the inbox is closed and empty; what goes wrong closes it.
 std::exception_ptr write_until_closed(Books& books, Inbox& inbox) {
   try {
-    while (const auto letter = inbox.take()) books.take(*letter);
+    while (auto letter = inbox.take()) books.take(std::move(*letter));
     return nullptr;
   } catch (...) {
     inbox.close();

@@ -1,5 +1,6 @@
 #include "host/storage/archive/chunk.hpp"
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -23,10 +24,9 @@ std::uint32_t folded(std::uint32_t word) { return (word << 1) ^ ((word >> 31) !=
 std::uint32_t unfolded(std::uint32_t number) { return (number >> 1) ^ ((number & 1u) != 0 ? ~0u : 0u); }
 
 // From the word before, the first from 0.
-Words differences(const Words& words) {
-  Words out = words;
+void subtract_before(const Words& words, Words& out) {
+  out = words;
   for (std::size_t i = 1; i < words.size(); ++i) out[i] = words[i] - words[i - 1];
-  return out;
 }
 
 void sum_up(Words& words) {
@@ -39,19 +39,18 @@ std::size_t bits_of(const Words& words) {
   return bits;
 }
 
-struct Column {
-  Words words;
-  std::uint8_t order = 0;
-};
+// A column of words and its differences, order by order; kept from one column to the next.
+using Orders = std::array<Words, kMaxOrder + 1>;
 
-Column least(Words words) {
-  Column best{words, 0};
-  std::size_t min_bits = bits_of(words);
+// The order whose words are the smallest.
+std::uint8_t least_order(Orders& orders) {
+  std::uint8_t best = 0;
+  std::size_t min_bits = bits_of(orders[0]);
   for (std::uint8_t order = 1; order <= kMaxOrder; ++order) {
-    words = differences(words);
-    const std::size_t bits = bits_of(words);
+    subtract_before(orders[order - 1u], orders[order]);
+    const std::size_t bits = bits_of(orders[order]);
     if (bits >= min_bits) continue;
-    best = {words, order};
+    best = order;
     min_bits = bits;
   }
   return best;
@@ -61,19 +60,21 @@ Column least(Words words) {
 
 std::string packed(std::string_view records, std::size_t record_bytes) {
   const std::size_t count = records.size() / record_bytes, places = record_bytes / kWord;
-  std::string orders, planes;
-  planes.reserve(places + records.size());
+  std::string planes(places + count * places * kWord, '\0');
+  Orders orders;
+  orders[0].resize(count);
+  char* plane = planes.data() + places;
   for (std::size_t place = 0; place < places; ++place) {
-    Words words(count);
     for (std::size_t row = 0; row < count; ++row)
-      std::memcpy(&words[row], records.data() + row * record_bytes + place * kWord, kWord);
-    const Column column = least(std::move(words));
-    orders += static_cast<char>(column.order);
-    for (unsigned shift = 0; shift < 32; shift += 8) {
-      for (const std::uint32_t word : column.words) planes += static_cast<char>(folded(word) >> shift);
+      std::memcpy(&orders[0][row], records.data() + row * record_bytes + place * kWord, kWord);
+    const std::uint8_t order = least_order(orders);
+    planes[place] = static_cast<char>(order);
+    for (std::size_t row = 0; row < count; ++row) {
+      const std::uint32_t word = folded(orders[order][row]);
+      for (std::size_t n = 0; n < kWord; ++n) plane[n * count + row] = static_cast<char>(word >> (8 * n));
     }
+    plane += kWord * count;
   }
-  planes.insert(0, orders);
   std::string smaller = recording::compress(planes, kLevel);
   return smaller.size() < planes.size() ? smaller : planes;
 }

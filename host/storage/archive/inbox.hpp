@@ -2,6 +2,8 @@
 // and lianad is answered meanwhile.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -29,13 +31,18 @@ class Inbox {
   void put(Letter letter);
   // Does not wait: false where it is full, and the letter is thrown away.
   bool try_put(Letter letter);
-  // Waits for one; nothing after close(), when all have been taken.
+  // Waits for one, and a moment for those that follow it; nothing after close(), when all have been taken.
   std::optional<Letter> take();
   // Nobody waits any more.
   void close();
   bool is_closed();
 
  private:
+  static constexpr std::chrono::milliseconds kGather{20};
+  std::size_t enough() const { return std::min<std::size_t>(most_, 64); }
+  void add(Letter letter);
+  void gather(std::unique_lock<std::mutex>& lock);
+
   const std::size_t most_;
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -54,9 +54,9 @@ void Recorder::go_on_after_cut() {
   why_missing_ = "the recorder was not there";
 }
 
-void Recorder::take(const Json& message) {
+void Recorder::take(Json message) {
   const std::string op = message.value("op", "");
-  if (op == "state") take_state(message);
+  if (op == "state") return take_state(std::move(message));
   if (op == "event") {
     ledger_.add(event::event_from_json(message));
     must_commit_ = true;
@@ -67,7 +67,7 @@ void Recorder::take(const Json& message) {
   if (must_commit_) commit();
 }
 
-void Recorder::take_state(const Json& state) {
+void Recorder::take_state(Json state) {
   const std::uint64_t tick = state.at("tick");
   if (!layout_) {
     layout_ = telemetry::layout_of(state);
@@ -80,18 +80,21 @@ void Recorder::take_state(const Json& state) {
   }
   if (state.contains("verdict")) take_verdict(tick, state.at("verdict"));
   if (records_ == 0 || tick >= last_record_ + min_ticks_) {
-    take_facts(tick, state);
-    telemetry_.add(tick, telemetry::encode(*layout_, state, ++records_, facts_number_));
+    std::string record = telemetry::encode(*layout_, state, ++records_, facts_number_);
+    take_facts(tick, std::move(state));
+    telemetry::set_facts(record, facts_number_);
+    telemetry_.add(tick, record);
     last_record_ = tick;
   }
   ++states_;
   last_tick_ = tick;
   why_missing_ = "read too slowly";
   if (tick >= last_commit_ + ticks_of(kCommit_s, period_s_)) must_commit_ = true;
+  if (must_commit_) commit();
 }
 
-void Recorder::take_facts(std::uint64_t tick, const Json& state) {
-  Json facts = telemetry::facts_of(state);
+void Recorder::take_facts(std::uint64_t tick, Json state) {
+  Json facts = telemetry::facts_of(std::move(state));
   if (!facts_.is_null() && facts == facts_) return;
   facts_ = std::move(facts);
   telemetry_.set_facts({tick, ++facts_number_, facts_});

@@ -28,7 +28,7 @@ class Recorder {
   // One message of lianad: `state`, `event` or `events_lost`; others are ignored. Throws JsonError for one that is not
   // as docs/reference/api.md says, DatabaseError when the archive cannot be written for another reason than a full
   // disk.
-  void take(const Json& message);
+  void take(Json message);
   // Something else of the run that is not there (host/storage/archive/ring.hpp): said on standard error, and kept.
   void note_gap(const Gap& gap);
   // Writes what waits and leaves plain files.
@@ -43,9 +43,9 @@ class Recorder {
   bool was_disk_full() const { return was_disk_full_; }
 
  private:
-  void take_state(const Json& state);
+  void take_state(Json state);
   void take_verdict(std::uint64_t tick, const Json& verdict);
-  void take_facts(std::uint64_t tick, const Json& state);
+  void take_facts(std::uint64_t tick, Json state);
   void commit();
 
   void go_on_after_cut();
