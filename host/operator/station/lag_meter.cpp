@@ -47,9 +47,13 @@ void LagMeter::close_window(double t_s) {
   window_from_s_ = t_s;
 }
 
+LagMeter::Way::const_iterator LagMeter::first_from(const Way& way, double t_s) {
+  return std::lower_bound(way.begin(), way.end(), t_s, [](const Place& p, double t) { return p.t_s < t; });
+}
+
 // Nothing was asked for before the grip.
 Vec3 LagMeter::way_at(const Way& way, double t_s) {
-  const auto after = std::lower_bound(way.begin(), way.end(), t_s, [](const Place& p, double t) { return p.t_s < t; });
+  const auto after = first_from(way, t_s);
   if (after == way.end()) return way.empty() ? Vec3{} : way.back().way_m;
   if (after == way.begin()) return {};
   const Place& before = *(after - 1);
@@ -59,12 +63,13 @@ Vec3 LagMeter::way_at(const Way& way, double t_s) {
 
 std::optional<double> LagMeter::lag_of(const Way& tip, double from_s) const {
   double least = 1e9, best_s = 0.0, moved = 0.0;
+  const auto first = first_from(tip, from_s);
   for (double lag_s = 0.0; lag_s <= kMost_s; lag_s += kStep_s) {
     double sum = 0.0, way = 0.0;
-    for (const Place& place : tip) {
-      if (place.t_s < from_s) continue;
-      const Vec3 asked = way_at(hand_, place.t_s - lag_s), off = subtract(place.way_m, asked);
-      const Vec3 gone = subtract(asked, way_at(hand_, from_s - lag_s));
+    const Vec3 begin = way_at(hand_, from_s - lag_s);
+    for (auto place = first; place != tip.end(); ++place) {
+      const Vec3 asked = way_at(hand_, place->t_s - lag_s), off = subtract(place->way_m, asked);
+      const Vec3 gone = subtract(asked, begin);
       sum += dot(off, off);
       way += dot(gone, gone);
     }

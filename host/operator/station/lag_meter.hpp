@@ -38,6 +38,7 @@ class LagMeter {
   using Way = std::vector<Place>;
 
   static LagStatistics figures_of(std::vector<double> lags_s);
+  static Way::const_iterator first_from(const Way& way, double t_s);
   static Vec3 way_at(const Way& way, double t_s);
   std::optional<double> lag_of(const Way& tip, double from_s) const;
   void close_window(double t_s);
