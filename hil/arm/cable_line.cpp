@@ -58,10 +58,16 @@ void CableLine::spread_evenly() {
 // Moves just enough material through a lump that the larger tension is `ratio` times the smaller; false when the lump
 // held.
 bool CableLine::slip(std::size_t lump) {
+  if (held_[lump]) return false;
   const double near = tension_N_[lump];
   const double far = tension_N_[lump + 1];
   const bool towards_near = near > ratio_[lump] * far + kToleranceN;
-  if (!towards_near && far <= ratio_[lump] * near + kToleranceN) return false;
+  if (!towards_near && far <= ratio_[lump] * near + kToleranceN) {
+    held_[lump] = true;
+    return false;
+  }
+  if (lump > 0) held_[lump - 1] = false;
+  if (lump + 1 < lumps_) held_[lump + 1] = false;
   const std::size_t tight = towards_near ? lump : lump + 1;
   const std::size_t loose = towards_near ? lump + 1 : lump;
   const double stretch_tight = length_m_[tight] - material_m_[tight];
@@ -85,6 +91,7 @@ int CableLine::settle(const CablePaths& paths, double payout_m) {
   if (mu_ == 0.0) spread_evenly();
   for (std::size_t i = 0; i <= lumps_; ++i) tension_N_[i] = span_tension(i);
   if (mu_ == 0.0) return 0;
+  held_.fill(false);
   for (int sweep = 1; sweep <= kMaxSweeps; ++sweep) {
     bool moved = false;
     for (std::size_t j = 0; j < lumps_; ++j) moved |= slip(j);

@@ -51,6 +51,7 @@ class CableLine {
   std::array<double, kMaxSegments + 1> material_m_{};  // unstretched, per span
   std::array<double, kMaxSegments + 1> tension_N_{};
   std::array<double, kMaxSegments> ratio_{};  // largest tension ratio over a lump, >= 1
+  std::array<bool, kMaxSegments> held_{};     // found so, with the tensions beside it as they are
 };
 
 }  // namespace liana::bench

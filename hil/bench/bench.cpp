@@ -64,8 +64,10 @@ void Bench::begin_slot(std::uint32_t slot, double now_s) {
   record(slot);
   equipment_->suffer(camera_defects(), tool_defects());
   equipment_->look(now_s);
-  while (const auto picture = equipment_->picture(now_s)) camera_link_.send(*picture);
-  camera_link_.receive([](const std::string&) {});  // answers
+  while (const auto picture = equipment_->picture(now_s)) {
+    camera_link_.send(*picture);
+    camera_link_.receive([](const std::string&) {});  // answers to those before
+  }
   use_tool(now_s);
   begun_ = slot + 1;
 }

@@ -31,9 +31,9 @@ EmbeddedBus::EmbeddedBus(const std::string& socket_path, std::uint32_t period_us
 bool EmbeddedBus::read(Packet& packet, int timeout_ms) {
   packet.clear();
   pollfd ready{socket_.descriptor(), POLLIN, 0};
-  const int count = ::poll(&ready, 1, timeout_ms);
-  if (count == 0) return true;  // nothing in time: an empty packet
-  if (count < 0) return false;  // a signal
+  const int count = timeout_ms < 0 ? 1 : ::poll(&ready, 1, timeout_ms);  // without an end the read itself waits
+  if (count == 0) return true;                                           // nothing in time: an empty packet
+  if (count < 0) return false;                                           // a signal
   packet.resize(kMaxPacketBytes);
   const ssize_t size = ::recv(socket_.descriptor(), packet.data(), packet.size(), 0);
   if (size <= 0) return false;

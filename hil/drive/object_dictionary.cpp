@@ -1,12 +1,17 @@
 #include "hil/drive/object_dictionary.hpp"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 #include "hil/drive/can_frame.hpp"
 
 namespace liana::bench {
+
+namespace {
+
+std::uint32_t key_of(std::uint16_t index, std::uint8_t sub) { return std::uint32_t{index} << 8 | sub; }
+
+}  // namespace
 
 std::size_t size_of(ObjectType type) {
   switch (type) {
@@ -41,14 +46,14 @@ std::int64_t decode(ObjectType type, const std::uint8_t* bytes) {
 
 ObjectDictionary::ObjectDictionary(std::vector<Object> objects) : objects_(std::move(objects)) {
   std::sort(objects_.begin(), objects_.end(),
-            [](const Object& a, const Object& b) { return std::tie(a.index, a.sub) < std::tie(b.index, b.sub); });
+            [](const Object& a, const Object& b) { return key_of(a.index, a.sub) < key_of(b.index, b.sub); });
+  for (const Object& object : objects_) keys_.push_back(key_of(object.index, object.sub));
 }
 
 const Object* ObjectDictionary::find(std::uint16_t index, std::uint8_t sub) const {
-  const auto found =
-      std::lower_bound(objects_.begin(), objects_.end(), std::pair(index, sub),
-                       [](const Object& object, const auto& key) { return std::pair(object.index, object.sub) < key; });
-  return found != objects_.end() && found->index == index && found->sub == sub ? &*found : nullptr;
+  const std::uint32_t key = key_of(index, sub);
+  const auto found = std::lower_bound(keys_.begin(), keys_.end(), key);
+  return found != keys_.end() && *found == key ? &objects_[static_cast<std::size_t>(found - keys_.begin())] : nullptr;
 }
 
 Object* ObjectDictionary::find(std::uint16_t index, std::uint8_t sub) {

@@ -71,7 +71,8 @@ class ObjectDictionary {
 
  private:
   std::uint32_t missing(std::uint16_t index) const;
-  std::vector<Object> objects_;  // by index, then sub
+  std::vector<Object> objects_;      // by index, then sub
+  std::vector<std::uint32_t> keys_;  // of the objects, both in one
 };
 
 }  // namespace liana::bench
