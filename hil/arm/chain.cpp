@@ -1,5 +1,7 @@
 #include "hil/arm/chain.hpp"
 
+#include <array>
+
 #include "hil/arm/mjcf.hpp"
 #include "hil/arm/mujoco_model.hpp"
 
@@ -13,6 +15,22 @@ struct Chain::Engine : MujocoModel {
 namespace {
 
 Vec3 row_of(const mjtNum* values, std::size_t i) { return {values[3 * i], values[3 * i + 1], values[3 * i + 2]}; }
+
+using Motion = std::array<double, 6>;  // rotation, then translation
+
+// Of a body with inertia `i` (MuJoCo's ten numbers) that moves as `v`. Sums in MuJoCo's order, as below: same bits.
+Motion momentum_of(const mjtNum* i, const mjtNum* v) {
+  return {i[0] * v[0] + i[3] * v[1] + i[4] * v[2] - i[8] * v[4] + i[7] * v[5],
+          i[3] * v[0] + i[1] * v[1] + i[5] * v[2] + i[8] * v[3] - i[6] * v[5],
+          i[4] * v[0] + i[5] * v[1] + i[2] * v[2] - i[7] * v[3] + i[6] * v[4],
+          i[8] * v[1] - i[7] * v[2] + i[9] * v[3],
+          i[6] * v[2] - i[8] * v[0] + i[9] * v[4],
+          i[7] * v[0] - i[6] * v[1] + i[9] * v[5]};
+}
+
+double dot(const mjtNum* a, const Motion& b) {
+  return ((a[0] * b[0] + a[2] * b[2]) + (a[1] * b[1] + a[3] * b[3])) + (a[4] * b[4] + a[5] * b[5]);
+}
 
 }  // namespace
 
@@ -63,16 +81,25 @@ void Chain::place(const Theta& theta_rad) {
   mj_comPos(engine_->model, engine_->data);
 }
 
+// As mj_crb, whose full matrix nobody needs: each of its terms goes to the angles that its hinges belong to.
 void Chain::inertia(ThetaMatrix& mass) {
-  mj_crb(engine_->model, engine_->data);
+  const mjModel* model = engine_->model;
+  mjData* data = engine_->data;
+  mju_copy(data->crb, data->cinert, 10 * model->nbody);
+  for (int i = model->nbody - 1; i > 1; --i)
+    mju_addTo(data->crb + 10 * model->body_parentid[i], data->crb + 10 * i, 10);
   mass = {};
-  // Row i of the sparse matrix holds (i,i), (i,parent of i), ... down to the base: for a chain i, i-1, ... 0.
   for (std::size_t i = 0; i < theta_of_hinge_.size(); ++i) {
-    const mjtNum* row = engine_->data->qM + engine_->model->dof_Madr[i];
+    const mjtNum* axes = data->cdof + 6 * i;
+    const Motion momentum = momentum_of(data->crb + 10 * model->dof_bodyid[i], axes);
     Theta& to = mass[theta_of_hinge_[i]];
     const double share = share_of_hinge_[i];
-    for (std::size_t k = 0; k <= i; ++k) to[theta_of_hinge_[i - k]] += share * share_of_hinge_[i - k] * row[k];
-    to[theta_of_hinge_[i]] -= 0.5 * share * share * row[0];  // the diagonal must count once when the transpose is added
+    const double own = model->dof_armature[i] + dot(axes, momentum);
+    // The diagonal must count once when the transpose is added.
+    to[theta_of_hinge_[i]] += share * share * own;
+    for (std::size_t j = i; j-- > 0;)
+      to[theta_of_hinge_[j]] += share * share_of_hinge_[j] * dot(data->cdof + 6 * j, momentum);
+    to[theta_of_hinge_[i]] -= 0.5 * share * share * own;
   }
   for (std::size_t a = 0; a < thetas_; ++a) {
     for (std::size_t b = 0; b <= a; ++b) {
