@@ -6,7 +6,6 @@
 #include <array>
 #include <cstring>
 #include <ctime>
-#include <limits>
 #include <utility>
 
 #include "firmware_like/drive/pdo.hpp"
@@ -37,24 +36,19 @@ wire::Welcome welcome_of(const BusHubOptions& options) {
 
 void BusHub::wait_readable(std::uint64_t timeout_ns) {
   std::array<pollfd, 2> watched{};
-  has_said_.fill(false);
   for (std::size_t i = 0; i < participants_.size(); ++i) watched[i] = {participants_[i].descriptor(), POLLIN, 0};
   const timespec timeout{static_cast<time_t>(timeout_ns / 1'000'000'000),
                          static_cast<long>(timeout_ns % 1'000'000'000)};
-  const bool forever = timeout_ns == std::numeric_limits<std::uint64_t>::max();
-  if (ppoll(watched.data(), participants_.size(), forever ? nullptr : &timeout, nullptr) > 0)
-    for (std::size_t i = 0; i < participants_.size(); ++i) has_said_[i] = watched[i].revents != 0;
+  ppoll(watched.data(), participants_.size(), &timeout, nullptr);
   if (bus_stop_requested()) end("stopped by a signal");
 }
 
-bool BusHub::read_yield(std::size_t index) {
-  if (!has_said_[index]) return false;
+bool BusHub::read_yield(std::size_t index, bool block) {
   Participant& participant = participants_[index];
-  switch (participant.receive()) {
+  switch (participant.receive(block)) {
     case Participant::Received::kYield:
       return true;
     case Participant::Received::kNothing:
-      has_said_[index] = false;
       return false;
     case Participant::Received::kGone:
       end(participant.name() + " left");

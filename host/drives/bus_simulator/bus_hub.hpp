@@ -2,7 +2,6 @@
 // run_real's business.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -38,11 +37,11 @@ class BusHub final : private FrameSink {
   std::uint32_t slot() const { return static_cast<std::uint32_t>(now_ns / 1000 / period_us_); }
   bool at_slot_start() const { return now_ns % (std::uint64_t{period_us_} * 1000) == 0; }
 
-  // Waits until somebody has said something, at most `timeout_ns`; UINT64_MAX waits without end.
+  // Waits until somebody has said something, at most `timeout_ns`.
   void wait_readable(std::uint64_t timeout_ns);
-  // Reads one packet of participant `index` that was there then; true when it is a YIELD. Ends the bus when it has left
-  // or talks nonsense.
-  bool read_yield(std::size_t index);
+  // Reads one packet of participant `index`; true when it is a YIELD. Ends the bus when it has left or talks nonsense.
+  // `block`: waits for the packet, or for a signal.
+  bool read_yield(std::size_t index, bool block);
   // Puts the frames of the YIELD just read into the queues; those that do not fit go back to their sender with its next
   // WAKE.
   void queue_yield(std::size_t index);
@@ -61,7 +60,6 @@ class BusHub final : private FrameSink {
   void link_changed(int bus, bool is_up) override;
 
   std::vector<Participant> participants_;
-  std::array<bool, 2> has_said_{};
   BusSim sim_;
   std::vector<CandumpLog> logs_;
   std::uint32_t period_us_;

@@ -33,8 +33,8 @@ bool Participant::wake(std::uint8_t flags, std::uint32_t slot, std::uint64_t now
   return true;
 }
 
-Participant::Received Participant::receive() {
-  const ssize_t size = recv(socket_.get(), yield_.get(), sizeof *yield_, MSG_DONTWAIT);
+Participant::Received Participant::receive(bool block) {
+  const ssize_t size = recv(socket_.get(), yield_.get(), sizeof *yield_, block ? 0 : MSG_DONTWAIT);
   if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) return Received::kNothing;
   if (size <= 0) return Received::kGone;
   const bool whole = size >= static_cast<ssize_t>(wire::kHeaderBytes) && yield_->type == wire::Type::kYield &&

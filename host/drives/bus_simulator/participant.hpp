@@ -34,8 +34,8 @@ class Participant {
   bool wake(std::uint8_t flags, std::uint32_t slot, std::uint64_t now_us, bool block);
 
   enum class Received { kYield, kNothing, kGone, kMalformed };
-  // Reads one YIELD, if there is one; yield() then holds it.
-  Received receive();
+  // Reads one YIELD, if there is one; yield() then holds it. `block`: waits for it, or for a signal.
+  Received receive(bool block);
   const wire::Yield& yield() const { return *yield_; }
   // Sends ERROR.
   void refuse(const std::string& reason);

@@ -1,7 +1,9 @@
+#include <array>
 #include <ctime>
 #include <limits>
 
 #include "host/drives/bus_simulator/bus_hub.hpp"
+#include "host/drives/bus_simulator/bus_listener.hpp"
 
 namespace liana::bus_simulator {
 namespace {
@@ -42,12 +44,14 @@ class Pacer {
   timespec start_{};  // of slot_
 };
 
-// Reads what participant `index` has to say, if it is awake.
-void take_yield(BusHub& hub, std::size_t index) {
+// Waits until participant `index`, which is awake, has yielded.
+void await_yield(BusHub& hub, std::size_t index) {
   Participant& participant = hub.participants()[index];
-  if (!hub.read_yield(index)) return;
+  do {
+    if (bus_stop_requested()) hub.end("stopped by a signal");
+    if (hub.ended()) return;
+  } while (!hub.read_yield(index, true));
   const wire::Yield& yield = participant.yield();
-  if (!participant.awake) return hub.end(participant.name() + " yielded without having been woken");
   if (yield.until_us <= hub.now_ns / 1000) {
     participant.refuse("until_us " + std::to_string(yield.until_us) + " is not later than now, " +
                        std::to_string(hub.now_ns / 1000));
@@ -58,21 +62,13 @@ void take_yield(BusHub& hub, std::size_t index) {
   participant.wake_on_sync = (yield.flags & wire::kYieldWakeOnSync) != 0;
 }
 
-bool somebody_awake(BusHub& hub) {
-  for (const Participant& each : hub.participants()) {
-    if (each.awake) return true;
-  }
-  return false;
-}
-
 // Waits until everybody woken has yielded, then queues their frames in the order of the participants, not of their
 // arrival.
 void collect(BusHub& hub) {
   std::array<bool, 2> was_awake{};
-  for (std::size_t i = 0; i < hub.participants().size(); ++i) was_awake[i] = hub.participants()[i].awake;
-  while (!hub.ended() && somebody_awake(hub)) {
-    hub.wait_readable(kForeverNs);
-    for (std::size_t i = 0; i < hub.participants().size() && !hub.ended(); ++i) take_yield(hub, i);
+  for (std::size_t i = 0; i < hub.participants().size(); ++i) {
+    was_awake[i] = hub.participants()[i].awake;
+    if (was_awake[i] && !hub.ended()) await_yield(hub, i);
   }
   for (std::size_t i = 0; i < hub.participants().size() && !hub.ended(); ++i) {
     if (was_awake[i]) hub.queue_yield(i);

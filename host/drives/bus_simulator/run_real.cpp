@@ -24,7 +24,7 @@ void run_wires(BusHub& hub, std::uint64_t until_ns) {
 
 void take_frames(BusHub& hub) {
   for (std::size_t i = 0; i < hub.participants().size(); ++i) {
-    while (!hub.ended() && hub.read_yield(i)) hub.queue_yield(i);
+    while (!hub.ended() && hub.read_yield(i, false)) hub.queue_yield(i);
   }
 }
 
