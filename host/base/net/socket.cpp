@@ -46,9 +46,9 @@ SocketResult send_packet(int fd, std::string_view packet) {
 
 namespace {
 
-// With one call, into a buffer for the largest packet of the API.
+// With one call, into a buffer for the largest packet of the API; on the stack each of its pages would be touched.
 ssize_t receive_at_once(int fd, std::string& packet, std::size_t most_bytes, int flags) {
-  std::array<char, kMaxPacketBytes + 1> bytes;
+  static thread_local std::array<char, kMaxPacketBytes + 1> bytes;
   const ssize_t size = ::recv(fd, bytes.data(), most_bytes + 1, flags);
   if (size > 0) packet.assign(bytes.data(), static_cast<std::size_t>(size));
   return size;
