@@ -29,14 +29,15 @@ ContactStatus contact_report(const ContactDetectorState& contact) noexcept {
   return out;
 }
 
-// The cables from the first slack one on, beside those that the arm does without; rare, and no part of a normal tick.
-[[gnu::noinline]] bool are_others_taut(const CableVector& tension_N, double enough_N, const CableLayout& layout,
-                                       const SegmentReleaseState& lost, std::size_t from) noexcept {
+// The first slack cable from `from` on, beside those that the arm does without; -1: none. Rare, and no part of a normal
+// tick.
+[[gnu::noinline]] std::int16_t slack_from(const CableVector& tension_N, double enough_N, const CableLayout& layout,
+                                          const SegmentReleaseState& lost, std::size_t from) noexcept {
   for (std::size_t c = from; c < as_index(layout.cable_count); ++c) {
     const bool is_missed = !does_without(lost) || !is_released(lost, layout, c);
-    if (!(tension_N[c] >= enough_N) && is_missed) return false;
+    if (!(tension_N[c] >= enough_N) && is_missed) return narrow<std::int16_t>(c);
   }
-  return true;
+  return -1;
 }
 
 }  // namespace
@@ -108,17 +109,18 @@ void CableArm::count_homing() noexcept {
   if (!all_fresh || residual_m > 4.0 * kHomingResidual_m) homing_ticks_ = 0;
 }
 
-bool CableArm::are_cables_taut() const noexcept {
+std::int16_t CableArm::slack_cable() const noexcept {
   const double enough_N = kSlackCheckShare * table_.tension.floor_motor_N;
   for (Index c = first_cable(); c < cables(); ++c) {
-    if (!(estimator_.tension_N[c] >= enough_N))
-      return are_others_taut(estimator_.tension_N, enough_N, layout_, let_go_, c);
+    if (!(estimator_.tension_N[c] >= enough_N)) return slack_from(estimator_.tension_N, enough_N, layout_, let_go_, c);
   }
-  return true;
+  return -1;
 }
 
 ArmStatus CableArm::status() const noexcept {
-  return {is_homed(), at_rest(table_, motion_) && !lets_out_, ramp_ >= 1.0 && are_cables_taut(), does_without(let_go_)};
+  const bool is_ramped = ramp_ >= 1.0;
+  const std::int16_t slack = is_ramped ? slack_cable() : std::int16_t{-1};
+  return {is_homed(), at_rest(table_, motion_) && !lets_out_, is_ramped && slack < 0, does_without(let_go_), slack};
 }
 
 // --- to commanded angles ---

@@ -165,7 +165,7 @@ class CableArm {
   void balance_next_axis(std::uint64_t tick) noexcept;
   void watch_body(WatchScope scope, Watch& out) const noexcept;
   bool is_homed() const noexcept { return homing_ticks_ >= kHomingTicks; }
-  bool are_cables_taut() const noexcept;
+  std::int16_t slack_cable() const noexcept;
   void read_cells(const LoadCells& cells) noexcept;
   void count_homing() noexcept;
   void take_geometry() noexcept;

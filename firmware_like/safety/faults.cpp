@@ -50,8 +50,9 @@ constexpr std::array<FaultInfo, count_enumerators<FaultNumber, 1000>()> kFaultTa
      "A drive left Operation enabled by itself; the detail is its statusword.",
      "Check STO line, supply and the drive's log, then clear and enable again."},
     {kDriveEnableTimeout, "drive_enable_timeout", kStop, true, false,
-     "A drive or the pretension ramp did not finish the enable sequence in time.",
-     "Look at the drive's state (detail is its statusword), supply and STO line, then clear and enable again."},
+     "A drive, or the tension of its cable, did not finish the enable sequence in time.",
+     "Look at the drive's state (detail is its statusword), supply and STO line. Where the drive is "
+     "enabled, its cable took no tension: look at the cable on its drum. Then clear and enable again."},
     {kFollowingError, "following_error", kStop, true, false,
      "A motor does not follow its target within the allowed lag.",
      "Check brake, and drum and cable or gear, for blockage; compare the servo time constant with the robot table, "

@@ -142,8 +142,8 @@ void name_late_drives(const LinkLimits& limits, const CycleInputs& inputs, Fault
   }
 }
 
-void latch_timeouts(const LinkLimits& limits, const CycleInputs& inputs, Phase phase, std::uint32_t now,
-                    FaultList& faults) noexcept {
+void latch_timeouts(const LinkLimits& limits, const CycleInputs& inputs, const ArmStatus& arm, Phase phase,
+                    std::uint32_t now, FaultList& faults) noexcept {
   if ((now & kBudgetSpent) == 0) return;
   if (phase == Phase::kSwitchingOn)
     name_late_drives(limits, inputs, FaultNumber::kDriveEnableTimeout, kAllSwitchedOn, faults);
@@ -151,7 +151,8 @@ void latch_timeouts(const LinkLimits& limits, const CycleInputs& inputs, Phase p
     name_late_drives(limits, inputs, FaultNumber::kDriveEnableTimeout, kAllEnabled, faults);
   if (phase == Phase::kPowerDown) name_late_drives(limits, inputs, FaultNumber::kDriveStopTimeout, kAllOff, faults);
   if (phase == Phase::kPreparing && (now & kPrepared) == 0) {
-    latch(faults, {FaultNumber::kDriveEnableTimeout, -1, 0, inputs.tick});
+    const std::uint16_t status = arm.slack < 0 ? std::uint16_t{0} : inputs.drive[as_index(arm.slack)].statusword;
+    latch(faults, {FaultNumber::kDriveEnableTimeout, arm.slack, status, inputs.tick});
   }
 }
 
@@ -236,7 +237,7 @@ Orders supervise(const LinkLimits& limits, const CycleInputs& inputs, const ArmS
   const bool retracts = in_force == CommandKind::kRetract && !arm.at_rest;
   count(active_faults != 0 && !retracts, limits.patience.persist, state.wrong_ticks);
   std::uint32_t now = conditions_now(limits, inputs, arm, in_force, active_faults, state);
-  latch_timeouts(limits, inputs, state.phase, now, faults);
+  latch_timeouts(limits, inputs, arm, state.phase, now, faults);
   if (is_clear_due(state.phase, now)) judge_clear(inputs.tick, now, state, faults);
   now |= fault_conditions(faults);
   enter(next_phase(state.phase, now), state);

@@ -54,10 +54,11 @@ static_assert(std::is_trivially_copyable_v<SupervisorState>);
 
 // What the arm tells the supervisor.
 struct ArmStatus {
-  bool homed = false;     // the measured pose is trusted
-  bool at_rest = false;   // commanded motion has ended in this tick
-  bool prepared = false;  // ready for motion: a cable arm has its ramp at its end and no cable slack
-  bool recovers = false;  // without a cable that is lost: only a retract may move it
+  bool homed = false;       // the measured pose is trusted
+  bool at_rest = false;     // commanded motion has ended in this tick
+  bool prepared = false;    // ready for motion: a cable arm has its ramp at its end and no cable slack
+  bool recovers = false;    // without a cable that is lost: only a retract may move it
+  std::int16_t slack = -1;  // drive of the first cable that keeps it from being prepared; -1: none does
 };
 
 // What telecommands may move.

@@ -9,7 +9,7 @@
 
 namespace liana::verification {
 
-// The costliest tick that the gate on instructions allows (tests/benchmarks/gate.py: 68,000 for 15 drives), which
+// The costliest tick that the gate on instructions allows (tests/benchmarks/gate.py: 68,250 for 15 drives), which
 // grows with the drives.
 constexpr double kTickInstructionsPerDrive = 4550.0;
 
