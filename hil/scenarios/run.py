@@ -34,7 +34,7 @@ def arguments():
     )
     parser.add_argument("--json", metavar="FILE", type=pathlib.Path, help="write the results here")
     parser.add_argument(
-        "--reduced", action="store_true", help="only the scenarios marked reduced (what ./dev test runs)"
+        "--reduced", action="store_true", help="only the scenarios marked reduced (what ./dev test deep runs)"
     )
     parser.add_argument(
         "--part",

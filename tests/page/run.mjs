@@ -1,6 +1,6 @@
 // Runs the tests of the page: types, style, plain modules, and end to end in Chromium against the real system.
-//   node tests/page/run.mjs [unit|console|run_page|try|frames|vr ...] [--judge-times]; all without a name. Needs `npm ci` in
-//   host/apps/web. --judge-times: frames must hold their figures, not only their ratio
+//   node tests/page/run.mjs [SUITE ...] [--judge-times]; SUITE: unit, or a file of e2e/ without _test.mjs; all without one.
+//   Needs `npm ci` in host/apps/web. --judge-times: frames must hold their figures, not only their ratio
 // (docs/getting-started/tour-of-the-console.md).
 import { spawnSync } from 'node:child_process';
 import { existsSync, readdirSync } from 'node:fs';
