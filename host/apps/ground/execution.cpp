@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "host/api/server/request_table.hpp"
 #include "host/base/event/event.hpp"
@@ -12,9 +13,17 @@ namespace {
 constexpr unsigned kSettled = 2;  // states after the answer, from which on `is_busy` is about this request
 constexpr double kNear_deg = 0.01, kNear_m = 1e-3;
 
-std::uint16_t code_of(const Json& value) {
+std::uint32_t whole_of(const Json& value, double most) {
   const double number = value.is_number() ? value.get<double>() : 0.0;
-  return static_cast<std::uint16_t>(std::clamp(number, 0.0, 65534.0));
+  return static_cast<std::uint32_t>(std::clamp(number, 0.0, most));
+}
+
+// The ending that a code of lianad's tells; without one it is no success for that.
+Ending caused_by(const Json& code, const Json& detail, std::string text) {
+  constexpr double kMaxCode = 65534.0, kMaxDetail = 4294967294.0;
+  const auto number = static_cast<std::uint16_t>(whole_of(code, kMaxCode));
+  if (number == 0) return failed(Failure::kNotReached);
+  return {number, whole_of(detail, kMaxDetail), std::move(text)};
 }
 
 std::string text_of(const Json& object, const char* key) {
@@ -48,7 +57,7 @@ std::optional<Ending> when(bool done) { return done ? std::optional(Ending()) : 
 std::optional<Ending> fault_in(const Json& state) {
   const Json& faults = state.member_or_null("faults");
   if (!faults.is_array() || faults.empty()) return std::nullopt;
-  return Ending{code_of(faults[0].member_or_null("number")), 0, text_of(faults[0], "text")};
+  return caused_by(faults[0].member_or_null("number"), Json(), text_of(faults[0], "text"));
 }
 
 // What ends every motion, its own goal apart.
@@ -56,8 +65,7 @@ std::optional<Ending> broken_off(const Execution& execution, const Json& state) 
   const Json& refused = state.member_or_null("refused_motions");
   const Json& verdict = state.member_or_null("verdict");
   if (refused.is_number() && refused.get<double>() > static_cast<double>(execution.refused_motions))
-    return Ending{code_of(verdict.member_or_null("code")),
-                  static_cast<std::uint32_t>(code_of(verdict.member_or_null("sequence"))), text_of(verdict, "text")};
+    return caused_by(verdict.member_or_null("code"), verdict.member_or_null("sequence"), text_of(verdict, "text"));
   if (!state.member_or_null("stop").is_null()) return failed(Failure::kStopped);
   if (text_of(state, "state") == "FAULT") return fault_in(state).value_or(failed(Failure::kNotReached));
   if (text_of(state, "owner") != kClientName) return failed(Failure::kNotOwner);

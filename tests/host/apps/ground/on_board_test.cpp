@@ -151,6 +151,28 @@ TEST(Judge, TakesTheCodeFromWhatBrokeTheMotionOff) {
   EXPECT_EQ(code_with("is_busy", true), 0);
 }
 
+TEST(Judge, TakesNoSuccessFromARefusalOrAFaultWithoutACode) {
+  Execution execution;
+  execution.row = find_command(8, 1, 7);
+  execution.request = {{"goal_deg", {1.0}}};
+  Json state{{"state", "ENABLED"},
+             {"owner", "ground"},
+             {"is_busy", true},
+             {"at_rest", false},
+             {"refused_motions", 1},
+             {"stop", nullptr},
+             {"verdict", {{"code", 0}, {"sequence", 70000}}}};
+  ASSERT_TRUE(judge(execution, state));
+  EXPECT_EQ(judge(execution, state)->code, 31);
+  state["verdict"] = {{"code", 208}, {"sequence", 70000}};
+  EXPECT_EQ(judge(execution, state)->code, 208);
+  EXPECT_EQ(judge(execution, state)->detail, 70000u);
+  state["refused_motions"] = 0;
+  state["state"] = "FAULT";
+  state["faults"] = Json::array({Json{{"text", "no number"}}});
+  EXPECT_EQ(judge(execution, state)->code, 31);
+}
+
 TEST(Judge, ReadsTheAnswersCode) {
   EXPECT_EQ(refused({{"code", "not_owner"}}).code, 2);
   EXPECT_EQ(refused({{"code", "no_device"}}).code, 8);
