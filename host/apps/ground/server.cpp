@@ -135,7 +135,10 @@ void Server::flush(Peer& peer) {
 }
 
 void Server::connect() {
-  if (leaves_) lianad_.reset();
+  if (leaves_) {
+    lianad_.reset();
+    on_board_.controller_gone();  // nothing new where it has left lianad itself
+  }
   leaves_ = false;
   if (lianad_ || now_s_ - tried_s_ < kRetry_s) return;
   tried_s_ = now_s_;
@@ -167,9 +170,12 @@ void Server::take(const Json& message) {
   const std::string op = message.value("op", "");
   is_welcome_ = op == "welcome";
   asks_for_events_ = is_welcome_ || !asks_for_events_;
-  if (is_welcome_) return on_board_.welcome(message);
-  std::fprintf(stderr, "liana: ground: lianad: %s\n", message.value("message", "").c_str());
-  leaves_ = true;
+  leaves_ = !is_welcome_;
+  const std::string refusal = is_welcome_ ? "" : message.value("message", "");
+  if (!refusal.empty() && refusal != told_refusal_)
+    std::fprintf(stderr, "liana: ground: lianad: %s\n", refusal.c_str());
+  told_refusal_ = refusal;
+  if (is_welcome_) on_board_.welcome(message);
 }
 
 bool Server::request(const Json& request) {

@@ -59,6 +59,7 @@ class Server {
   std::vector<Peer> readers_, commanders_;
   std::optional<api::ApiClient> lianad_;
   bool is_welcome_ = false, leaves_ = false, asks_for_events_ = true;
+  std::string told_refusal_;  // of hello, on standard error: it is tried again every second
   double now_s_ = 0.0, tried_s_ = -1e9, ticked_s_ = -1e9;
   OnBoard on_board_;
 };
