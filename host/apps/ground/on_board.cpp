@@ -66,10 +66,12 @@ void OnBoard::receive(std::string_view packet) {
   route(telecommand);
 }
 
+// Each source counts for itself: a store that fills its gaps does not make a station's counts jump.
 void OnBoard::count(const Telecommand& telecommand) {
-  const std::int32_t expected = (last_count_ + 1) % kCountModulus;
-  if (last_count_ >= 0 && telecommand.primary.count != expected) ++count_jumps_;
-  last_count_ = telecommand.primary.count;
+  const auto [last, is_first] = last_counts_.try_emplace(telecommand.source, telecommand.primary.count);
+  const unsigned expected = (last->second + 1u) % kCountModulus;
+  if (!is_first && telecommand.primary.count != expected) ++count_jumps_;
+  last->second = telecommand.primary.count;
 }
 
 void OnBoard::route(const Telecommand& telecommand) {

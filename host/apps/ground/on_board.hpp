@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <list>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -95,7 +96,7 @@ class OnBoard {
   double now_s_ = 0.0, heard_s_ = 0.0, time_sent_s_ = -1e9;
   std::uint64_t time_us_ = 0, next_id_ = 1, last_event_ = 0;
   std::uint8_t time_exponent_ = 3;
-  std::int32_t last_count_ = -1;
+  std::map<std::uint16_t, std::uint16_t> last_counts_;  // by source
   std::uint64_t received_ = 0, rejected_ = 0, unreadable_ = 0, count_jumps_ = 0, links_lost_ = 0;
 };
 

@@ -21,8 +21,10 @@ class Bench {
     on_board.set_time(0.0, 1000000);
   }
 
-  void send(std::uint8_t service, std::uint8_t subtype, std::string data = "", std::uint8_t acknowledge = 15) {
+  void send(std::uint8_t service, std::uint8_t subtype, std::string data = "", std::uint8_t acknowledge = 15,
+            std::uint16_t source = 0) {
     Telecommand out;
+    out.source = source;
     out.primary = {0, true, true, kArmApid, 3, count++, 1};
     out.acknowledge = acknowledge;
     out.service = service;
@@ -92,6 +94,22 @@ TEST(OnBoard, CountsTelecommandsOutOfSequenceAndTakesThemAllTheSame) {
     bench.send(17, 1);
   }
   EXPECT_EQ(bench.verified().size(), 21u);
+}
+
+TEST(OnBoard, CountsTheSequenceOfEachSourceForItself) {
+  Bench bench;
+  bench.on_board.take({{"op", "state"}});
+  for (unsigned i = 0; i < 4; ++i) {
+    bench.count = static_cast<std::uint16_t>(i);
+    bench.send(17, 1, "", 15, 1);
+    bench.count = static_cast<std::uint16_t>(16382 + i) % kCountModulus;
+    bench.send(17, 1, "", 15, 2);
+  }
+  bench.count = 9;
+  bench.send(17, 1, "", 15, 1);
+  bench.send(3, 27, "\x01\x05", 0, 1);
+  const Json report = report_json(*read_telemetry(bench.packets.back()), Sizes());
+  EXPECT_EQ(report.at("values").value("count_jumps", std::uint64_t{0}), 1u);
 }
 
 TEST(OnBoard, SurvivesEveryLengthOfEveryTelecommand) {
