@@ -1,6 +1,8 @@
 #include "host/base/net/internet_address.hpp"
 
 #include <arpa/inet.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <sys/socket.h>
 
 #include <array>
@@ -42,9 +44,20 @@ Place place_of(const InternetAddress& address) {
   return out;
 }
 
+// Who only listens to a connection hears nothing of another end that lost its power. What is accepted inherits it.
+void find_dead_ends(int fd) {
+  constexpr int kYes = 1, kQuiet_s = 30, kAgain_s = 10, kTries = 6;
+  ::setsockopt(fd, SOL_SOCKET, SO_KEEPALIVE, &kYes, sizeof kYes);
+  ::setsockopt(fd, IPPROTO_TCP, TCP_KEEPIDLE, &kQuiet_s, sizeof kQuiet_s);
+  ::setsockopt(fd, IPPROTO_TCP, TCP_KEEPINTVL, &kAgain_s, sizeof kAgain_s);
+  ::setsockopt(fd, IPPROTO_TCP, TCP_KEEPCNT, &kTries, sizeof kTries);
+}
+
 UniqueFd socket_for(Transport transport, const Place& place) {
   const int type = transport == Transport::kTcp ? SOCK_STREAM : SOCK_DGRAM;
-  return UniqueFd(::socket(place.storage.ss_family, type | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  UniqueFd fd(::socket(place.storage.ss_family, type | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (fd.get() >= 0 && transport == Transport::kTcp) find_dead_ends(fd.get());
+  return fd;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "host/base/net/internet_address.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 
 #include <stdexcept>
 
@@ -24,6 +25,14 @@ TEST(InternetAddress, IsRefusedWhenItIsNone) {
   for (const char* text : {"", ":", ":80", "127.0.0.1", "127.0.0.1:", "127.0.0.1:65536", "127.0.0.1:-1",
                            "127.0.0.1:80x", "here:80", "::1:80", "[127.0.0.1]:80", "127.0.0.1:8 0"})
     EXPECT_THROW(parse_internet_address("--listen", text), std::runtime_error) << text;
+}
+
+TEST(InternetAddress, ListensWhereDeadEndsAreFound) {
+  const UniqueFd listener = bind_at(Transport::kTcp, {"127.0.0.1", 0});
+  int is_on = 0;
+  socklen_t size = sizeof is_on;
+  ASSERT_EQ(::getsockopt(listener.get(), SOL_SOCKET, SO_KEEPALIVE, &is_on, &size), 0);
+  EXPECT_NE(is_on, 0);
 }
 
 }  // namespace
