@@ -41,7 +41,6 @@ class Keeper {
   Keeper(const StoreConfig& config, const std::function<void(const std::string&)>& news)
       : config_(config), news_(news), file_(config.file, archive::Database::Open::kQuick) {
     file_.begin(gaps_);
-    asks_ = api::connect_at(api::Transport::kUdp, config.telecommand);
   }
 
   void step() {
@@ -90,7 +89,10 @@ class Keeper {
     gaps_.take(telemetry->primary.apid, telemetry->primary.count, time_of(*telemetry), now_s_);
   }
 
+  // Where no network leads there yet nothing counts as asked for.
   void ask() {
+    if (asks_.get() < 0) asks_ = api::connect_at(api::Transport::kUdp, config_.telecommand);
+    if (asks_.get() < 0) return;
     const auto span = gaps_.ask(now_s_);
     if (!span) return;
     const std::string packet = question(static_cast<std::uint16_t>(counts_.questions++ % kCountModulus), *span);
