@@ -37,11 +37,16 @@ static_assert(std::atomic<unsigned>::is_always_lock_free);
 
 void count_end(int) { ++ends; }
 
+// Whoever started this program may have blocked the signal.
 void listen_for_ends() {
   struct sigaction action {};
   action.sa_handler = count_end;
   action.sa_flags = SA_RESTART | SA_NOCLDSTOP;
   ::sigaction(SIGCHLD, &action, nullptr);
+  sigset_t ends_only;
+  sigemptyset(&ends_only);
+  sigaddset(&ends_only, SIGCHLD);
+  ::pthread_sigmask(SIG_UNBLOCK, &ends_only, nullptr);
 }
 
 std::vector<char*> exec_arguments(const std::vector<std::string>& argv) {
