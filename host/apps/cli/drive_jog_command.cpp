@@ -114,8 +114,9 @@ std::uint32_t counts_per_turn(DriveSession& session, commissioning::Place at, co
   if (!options.jog.counts_per_turn.empty())
     return static_cast<std::uint32_t>(parse_whole("--counts-per-turn", options.jog.counts_per_turn, 1, kMost));
   const commissioning::Answer counts = session.desk.read(at, 0x608F, 1), turns = session.desk.read(at, 0x608F, 2);
-  const bool is_known = counts.is_done() && counts.value() > 0 && !drive_type_of(options).units.encoder;
-  if (is_known) return counts.value() / std::max(1U, turns.is_done() ? turns.value() : 1U);
+  const std::uint32_t in_turn = counts.value() / std::max(1U, turns.is_done() ? turns.value() : 1U);
+  const bool is_known = counts.is_done() && in_turn >= 1 && in_turn <= kMost;
+  if (is_known && !drive_type_of(options).units.encoder) return in_turn;
   throw launcher::BadInput("--counts-per-turn: not given, and the drive has no 608F that says it: allowed 1 to " +
                            std::to_string(kMost) + ", from the motor's data sheet");
 }
@@ -132,7 +133,10 @@ Prepared prepare(DriveSession& session, commissioning::Place at, const DriveOpti
   out.drive = expected_drive(session, at, options);
   const std::uint32_t counts = counts_per_turn(session, at, options);
   const double window = counts * (kWindowTurns + kWindow_s * way.turns_per_s);
-  const double here = static_cast<std::int32_t>(session.desk.read(at, 0x6064, 0).value());
+  const commissioning::Answer position = session.desk.read(at, 0x6064, 0);
+  if (!position.is_done())
+    throw std::runtime_error("drive jog: reading 6064, where the motor is: " + failure_text(position));
+  const double here = static_cast<std::int32_t>(position.value());
   const double there = here + counts * way.by_turns;
   if (std::fabs(there) > 2147483647.0) {
     throw std::runtime_error("drive jog: from " + std::to_string(std::lround(here)) +
@@ -142,7 +146,7 @@ Prepared prepare(DriveSession& session, commissioning::Place at, const DriveOpti
   out.drive.type.max_torque_permille =
       static_cast<std::uint16_t>(parse_whole("--torque", options.jog.torque, 10, 1000, " permille of rated torque"));
   out.drive.demand = {std::min(here, there), std::max(here, there), counts * way.turns_per_s};
-  out.drive.following_window_counts = static_cast<std::uint32_t>(std::ceil(window));
+  out.drive.following_window_counts = static_cast<std::uint32_t>(std::min(std::ceil(window), 4294967295.0));
   out.drive.rpdo_deadline_ms = std::max(out.drive.rpdo_deadline_ms, kDeadline_ms);
   out.request.by_counts = counts * way.by_turns;
   out.request.counts_per_s = counts * way.turns_per_s;
