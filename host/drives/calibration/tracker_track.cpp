@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "host/base/file/in_file.hpp"
 #include "host/drives/calibration/text.hpp"
 #include "host/model/config/field.hpp"
 
@@ -31,7 +32,9 @@ constexpr double kStill_m = 3e-3;  // most that a marker at rest is off its mean
 
 class Table {
  public:
-  explicit Table(const std::string& path) : path_(path), in_(path) {
+  explicit Table(const std::string& path) : path_(path) {
+    file::require_ordinary(path);
+    in_.open(path);
     std::error_code none;
     const std::uintmax_t bytes = std::filesystem::file_size(path, none);
     if (!in_ || none) throw std::runtime_error(path + ": cannot be read: give a CSV file of tracker poses");

@@ -2,6 +2,7 @@
 #include "host/drives/calibration/tracker_track.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -73,6 +74,10 @@ TEST(TrackerTrack, EveryBadFileIsRefusedWithLineColumnAndValue) {
   EXPECT_EQ(refusal(kHeader + good + "2,0,0,0,1,0,0,0\n"), "");
   EXPECT_THROW(read_tracker("/nowhere/poses.csv"), std::runtime_error);
   EXPECT_THROW(read_tracker(std::filesystem::temp_directory_path()), std::runtime_error);
+  const File pipe("");
+  std::filesystem::remove(pipe.path);
+  ASSERT_EQ(::mkfifo(pipe.path.c_str(), 0600), 0);
+  EXPECT_THROW(read_tracker(pipe.path), std::runtime_error);  // nobody will ever write to it
 }
 
 // A tip that rests and moves by turns for some minutes, and its marker as a tracker far away sees it.
