@@ -16,6 +16,7 @@
 
 #include "host/apps/gateway/http_handler.hpp"
 #include "host/base/net/socket.hpp"
+#include "host/base/text/printable.hpp"
 
 namespace liana::gateway {
 namespace {
@@ -100,9 +101,9 @@ void WebServerInside::open(lws* wsi, Connection& connection) {
 }
 
 int WebServerInside::end(lws* wsi, const Session& session) {
-  std::string text = session.end().text.substr(0, 120);  // RFC 6455, section 5.5: at most 123 bytes
+  std::string reason(text::whole_characters(session.end().text, 120));  // RFC 6455, section 5.5: at most 123 bytes
   lws_close_reason(wsi, static_cast<lws_close_status>(session.end().code),
-                   reinterpret_cast<unsigned char*>(text.data()), text.size());
+                   reinterpret_cast<unsigned char*>(reason.data()), reason.size());
   return -1;
 }
 
