@@ -41,6 +41,7 @@ void Feed::take(const std::string& packet) {
   if (is_state(packet)) {
     newest_state_ = packet;
     is_recorded_ = false;
+    is_new_ = true;
   } else {
     take_other(packet);
   }
@@ -82,6 +83,7 @@ void Feed::begin_life(const Json& state) {
 }
 
 void Feed::publish(double now_s, bool wanted) {
+  if (std::exchange(is_new_, false)) heard_s_ = now_s;
   if (newest_state_.empty() || is_recorded_ || !wanted || now_s - published_s_ < kMinBetween_s) return;
   Json state = Json::parse(newest_state_);
   is_recorded_ = true;

@@ -35,6 +35,8 @@ class Feed {
   const Json& welcome() const { return welcome_; }
   // The newest state as lianad sent it; empty while there is none.
   const std::string& state() const { return newest_state_; }
+  // When it came, by the clock of publish().
+  double heard_s() const { return heard_s_; }
   // The newest record and its sequence (0: none of this life yet).
   const std::string& record() const { return record_; }
   std::uint32_t sequence() const { return record_.empty() ? 0 : sequence_; }
@@ -62,6 +64,8 @@ class Feed {
   std::optional<telemetry::Layout> layout_;
   std::string newest_state_;
   bool is_recorded_ = false;  // the newest state
+  bool is_new_ = false;       // it has come since the last publish()
+  double heard_s_ = -1e9;
   double published_s_ = -1.0;
   std::string record_;
   std::uint32_t sequence_ = 0;

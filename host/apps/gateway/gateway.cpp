@@ -10,6 +10,7 @@ namespace liana::gateway {
 
 namespace {
 constexpr std::uint16_t kTryAgainLater = 1013;  // of the IANA registry of WebSocket close codes
+constexpr double kOld_s = 5.0;                  // a state that nothing followed: lianad stands still
 }  // namespace
 
 Gateway::Gateway(const std::string& api, const std::string& devices, const Tokens* tokens, bool is_loopback,
@@ -53,7 +54,10 @@ bool Gateway::lets_in(std::string_view ticket, std::string_view run) const {
          });
 }
 
-std::string Gateway::metrics() const { return metrics_text(Json::parse_or_null(feed_.state()), greeted()); }
+std::string Gateway::metrics() const {
+  const bool is_old = now_s_() - feed_.heard_s() > kOld_s;
+  return metrics_text(is_old ? Json() : Json::parse_or_null(feed_.state()), greeted());
+}
 
 Session& Gateway::open(const std::string& address, std::function<void()> something_to_send) {
   if (clients_.size() - greeted() >= kMaxStrangers) drop_oldest_stranger();
