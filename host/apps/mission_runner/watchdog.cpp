@@ -96,6 +96,7 @@ Activity& shared_activity() {
 
 WatchedEnd run_watched(Activity& activity, const ScriptTimeLimits& limits, const std::function<int()>& body) {
   std::fflush(stdout);
+  std::signal(SIGCHLD, SIG_DFL);  // where whoever started us ignores it, nobody learns how the child ended
   const pid_t parent = getpid();
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error(std::string("cannot start the script's process: ") + std::strerror(errno));
