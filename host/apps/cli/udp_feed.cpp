@@ -19,6 +19,12 @@ namespace {
   throw launcher::BadInput("--udp: '" + address + "': " + why + ": allowed HOST:PORT, like 127.0.0.1:9870: name one");
 }
 
+// Nobody hears it now; another state may be heard.
+bool is_of_the_network(int reason) {
+  return reason == ECONNREFUSED || reason == ENETUNREACH || reason == ENETDOWN || reason == EHOSTUNREACH ||
+         reason == EHOSTDOWN || reason == ENOBUFS;
+}
+
 }  // namespace
 
 UdpFeed::UdpFeed(const std::string& address) : address_(address) {
@@ -43,7 +49,7 @@ void UdpFeed::send(const Json& state) {
   told["timestamp"] = state.value("time_s", 0.0);
   const std::string text = told.dump(-1, Json::BadUtf8::kReplace);
   const bool is_unheard = ::send(fd_.get(), text.data(), text.size(), 0) < 0;
-  if (is_unheard && errno != ECONNREFUSED)
+  if (is_unheard && !is_of_the_network(errno))
     throw std::runtime_error("--udp: " + address_ + ": a state of " + std::to_string(text.size()) +
                              " bytes cannot be sent: " + std::strerror(errno));
   ++sent_;
