@@ -43,8 +43,12 @@ bool ConsoleSession::go_on(double look_s) {
 
 // Nobody has to stop working because the flight recorder died: a new one goes on where the old one left off.
 void ConsoleSession::revive_recorder() {
-  if (recorders_ >= kMaxRecorders) return;
-  ++recorders_;
+  if (recorders_ > kMaxRecorders) return;
+  if (++recorders_ > kMaxRecorders) {
+    std::fprintf(stderr, "liana: %s has ended again and is not started any more: nothing is recorded from now on\n",
+                 kRecorder);
+    return;
+  }
   std::fprintf(stderr, "liana: %s has ended; it is started again, what it missed is a gap in the archive\n", kRecorder);
   system_.start_again(kRecorder);
 }
