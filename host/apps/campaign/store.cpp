@@ -44,13 +44,16 @@ api::UniqueFd lock_for(const std::string& path) {
 
 // Other files are left as they are.
 Database open_checked(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::exists(path, error) && std::filesystem::file_size(path, error) != 0) {
+  const auto is_database = [&path] {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) return false;  // a pipe would be waited for
     std::string begin(kMagic.size(), ' ');
     std::ifstream file(path, std::ios::binary);
-    if (!file.read(begin.data(), static_cast<std::streamsize>(begin.size())) || begin != kMagic)
-      throw BadInput("--out: '" + path + "': is there, and no database of a campaign; give another file");
-  }
+    return file.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == kMagic;
+  };
+  std::error_code error;
+  if (std::filesystem::exists(path, error) && std::filesystem::file_size(path, error) != 0 && !is_database())
+    throw BadInput("--out: '" + path + "': is there, and no database of a campaign; give another file");
   return Database(path, Database::Open::kDurable);
 }
 

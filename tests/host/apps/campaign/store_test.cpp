@@ -2,6 +2,7 @@
 #include "host/apps/campaign/store.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -48,6 +49,11 @@ class Stores : public testing::Test {
 
   const std::string path_;
 };
+
+TEST_F(Stores, RefuseAPipe) {
+  ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
+  EXPECT_THROW(Store(path_, campaign()), launcher::BadInput);
+}
 
 TEST_F(Stores, GiveBackWhatWasPutInWhateverTheOrder) {
   {
