@@ -106,7 +106,9 @@ class Connection:
     def receive(self) -> Message:
         """The next packet; TimedOut when none comes, ConnectionClosed when none will."""
         deadline = time.monotonic() + PATIENCE_S
-        while not select.select([self.socket], [], [], 1.0)[0]:
+        readable = select.poll()  # select() takes no descriptor over 1023
+        readable.register(self.socket, select.POLLIN)
+        while not readable.poll(1000):
             self.check()
             if time.monotonic() > deadline:
                 raise TimedOut(f"lianad sent nothing for {PATIENCE_S:g} s")

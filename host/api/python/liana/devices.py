@@ -5,7 +5,6 @@ Sizes and offsets are those of liana_device.h; a device with two hands, or one t
 from __future__ import annotations
 
 import os
-import select
 import socket
 import struct
 from typing import NamedTuple, Optional, Sequence
@@ -53,11 +52,15 @@ class Device:
         self.problem = ""  # why lianad let it go
         self._sequence = 0
         self._echo = (0, 0)
-        self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        wait_until(lambda: self.socket.connect_ex(os.fspath(path)) == 0, f"{path} to listen")
         hand = HAND.pack(ALL_AXES, 0, 0, 0, -1, -1, -1, 1, 1, 1, 0, 0)
         body = HELLO_BODY.pack(name.encode(), KINDS[kind], 1, t_us, rate_hz, 0.1) + hand + bytes(HAND.size)
-        self.socket.send(_packet(HELLO, body))
+        self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        try:
+            wait_until(lambda: self.socket.connect_ex(os.fspath(path)) == 0, f"{path} to listen")
+            self.socket.send(_packet(HELLO, body))
+        except BaseException:
+            self.close()
+            raise
 
     def send(
         self, t_us: int, pose: Sequence[float], deadman: bool = False, valid: bool = True, stale: bool = False
@@ -75,9 +78,11 @@ class Device:
 
     def receive(self, t_us: int) -> Optional[ArmState]:
         """Takes all that has come; the newest state, None before the first. Does not wait."""
-        while not self.problem and select.select([self.socket], [], [], 0.0)[0]:
+        while not self.problem:
             try:
-                packet = self.socket.recv(PACKET_BYTES)
+                packet = self.socket.recv(PACKET_BYTES, socket.MSG_DONTWAIT)
+            except BlockingIOError:
+                break
             except ConnectionResetError:
                 continue  # said once; what lianad said before is still there
             if not packet:
