@@ -158,10 +158,19 @@ void Server::read_lianad() {
       if (!message) return;
       take(*message);
     }
+  } catch (const JsonError& error) {
+    tell(error.what());
+    leaves_ = true;
   } catch (const std::runtime_error&) {
     lianad_.reset();
     on_board_.controller_gone();
   }
+}
+
+// What stands is said once: lianad is tried again every second.
+void Server::tell(const std::string& problem) {
+  if (!problem.empty() && problem != told_) std::fprintf(stderr, "liana: ground: lianad: %s\n", problem.c_str());
+  told_ = problem;
 }
 
 // A lianad that was started anew does not have the events that are asked for.
@@ -171,11 +180,8 @@ void Server::take(const Json& message) {
   is_welcome_ = op == "welcome";
   asks_for_events_ = is_welcome_ || !asks_for_events_;
   leaves_ = !is_welcome_;
-  const std::string refusal = is_welcome_ ? "" : message.value("message", "");
-  if (!refusal.empty() && refusal != told_refusal_)
-    std::fprintf(stderr, "liana: ground: lianad: %s\n", refusal.c_str());
-  told_refusal_ = refusal;
   if (is_welcome_) on_board_.welcome(message);
+  tell(is_welcome_ ? "" : message.value("message", ""));
 }
 
 bool Server::request(const Json& request) {

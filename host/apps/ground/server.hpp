@@ -51,6 +51,7 @@ class Server {
   void flush(Peer& peer);
   void connect();
   void read_lianad();
+  void tell(const std::string& problem);
   void take(const Json& message);
   bool request(const Json& request);
 
@@ -59,7 +60,7 @@ class Server {
   std::vector<Peer> readers_, commanders_;
   std::optional<api::ApiClient> lianad_;
   bool is_welcome_ = false, leaves_ = false, asks_for_events_ = true;
-  std::string told_refusal_;  // of hello, on standard error: it is tried again every second
+  std::string told_;  // what keeps it from lianad
   double now_s_ = 0.0, tried_s_ = -1e9, ticked_s_ = -1e9;
   OnBoard on_board_;
 };
