@@ -14,9 +14,11 @@ namespace fs = std::filesystem;
 
 constexpr std::array<const char*, 3> kNames{"outputs", "kept", "inputs"};  // in the order of RingKind
 
-void remove(const RingFile& file) {
-  std::error_code none;
-  fs::remove(file.path, none);
+// False: it is still there.
+bool remove(const RingFile& file) {
+  std::error_code failed;
+  fs::remove(file.path, failed);
+  return !failed;
 }
 
 // The newest of a kind may be being written.
@@ -70,9 +72,7 @@ std::uint64_t bytes_of(const RingFile& file) {
 bool drop_oldest_ring_file(const std::string& folder, bool is_open) {
   std::vector<RingFile> files = ring_files(folder);
   const auto goes = is_open ? oldest(files) : files.begin();
-  if (goes == files.end()) return false;
-  remove(*goes);
-  return true;
+  return goes != files.end() && remove(*goes);
 }
 
 void keep_to_limits(const std::string& folder, const RingLimits& limits, double period_s, std::uint64_t life,
@@ -84,12 +84,14 @@ void keep_to_limits(const std::string& folder, const RingLimits& limits, double 
     return !is_newest(files, file) && (is_thinned || age_s > limits.most_s + limits.inputs_file_s);
   };
   std::vector<RingFile> stay;
-  for (const RingFile& file : files) is_over(file) ? remove(file) : stay.push_back(file);
+  for (const RingFile& file : files) {
+    if (!is_over(file) || !remove(file)) stay.push_back(file);
+  }
   std::uint64_t bytes = 0;
   for (const RingFile& file : stay) bytes += bytes_of(file);
   for (auto goes = oldest(stay); bytes > limits.bytes && goes != stay.end(); goes = oldest(stay)) {
-    bytes -= bytes_of(*goes);
-    remove(*goes);
+    const std::uint64_t freed = bytes_of(*goes);
+    if (remove(*goes)) bytes -= freed;
     stay.erase(goes);
   }
 }

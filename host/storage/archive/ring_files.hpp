@@ -28,7 +28,7 @@ std::vector<RingFile> ring_files(const std::string& folder);
 std::uint64_t bytes_of(const RingFile& file);
 
 // Makes room on a full disk: takes away the oldest file; while `is_open` neither the newest Inputs nor the newest
-// Outputs, which may be being written. False: there is none. From any thread or process.
+// Outputs, which may be being written. False: there is none, or it cannot be removed. From any thread or process.
 bool drop_oldest_ring_file(const std::string& folder, bool is_open = true);
 
 struct RingLimits {

@@ -51,11 +51,14 @@ std::uint64_t bytes_of(const std::vector<Segment>& segments) {
   return sum;
 }
 
-void remove_segment(const Segment& segment) {
+bool remove_segment(const Segment& segment) {
+  bool is_gone = true;
   for (const char* part : kParts) {
-    std::error_code none;
-    fs::remove(segment.path + part, none);
+    std::error_code failed;
+    fs::remove(segment.path + part, failed);
+    is_gone = is_gone && !failed;
   }
+  return is_gone;
 }
 
 }  // namespace liana::archive

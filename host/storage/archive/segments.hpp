@@ -22,7 +22,7 @@ std::vector<Segment> segments_in(const std::string& folder);
 // Of all of them, with what SQLite keeps beside them.
 std::uint64_t bytes_of(const std::vector<Segment>& segments);
 
-// Takes the file away, with what SQLite keeps beside it.
-void remove_segment(const Segment& segment);
+// Takes the file away, with what SQLite keeps beside it; false: something of it is still there.
+bool remove_segment(const Segment& segment);
 
 }  // namespace liana::archive

@@ -136,14 +136,14 @@ void TelemetryFiles::end_of_loss() {
 
 bool TelemetryFiles::make_room() { return drop_oldest(kRoomForRows, true); }
 
-// Of the file that is written only when `also_newest`; false: there is none to drop.
+// Of the file that is written only when `also_newest`; false: there is none that can be dropped.
 bool TelemetryFiles::drop_oldest(const std::string& why, bool also_newest) {
   const std::vector<Segment> files = segments_in(folder_);
   if (files.empty() || (files.size() == 1 && file_ && !also_newest)) return false;
   const bool has_next = files.size() > 1 && files[1].life == files[0].life;
   const std::uint64_t last = has_next ? files[1].first_tick - 1 : std::max(files[0].first_tick, last_tick_);
   if (files.size() == 1) file_.reset();
-  remove_segment(files[0]);
+  if (!remove_segment(files[0])) return false;
   on_gap_({files[0].first_tick, last, "telemetry", 0, why});
   return true;
 }

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <map>
 
+#include "host/storage/archive/ring_files.hpp"
 #include "host/storage/archive/ring_reader.hpp"
 #include "tests/host/storage/archive/archive_folder.hpp"
 #include "tests/host/storage/archive/ring_ticks.hpp"
@@ -120,6 +121,12 @@ TEST_F(RingOfARun, KeepsNothingLongerThanItsTime) {
   const Span there = RingReader(folder_, kLife).recorded().value();
   EXPECT_GE(there.last - there.first, 40 * kSecond);
   EXPECT_LE(there.last - there.first, 60 * kSecond);
+}
+
+// Who asks again and again would never end.
+TEST_F(RingOfARun, SaysThatAFileCannotBeRemoved) {
+  std::filesystem::create_directories(ring_path(folder_, RingKind::kInputs, 1, 0) + "/inside");
+  EXPECT_FALSE(drop_oldest_ring_file(folder_, false));
 }
 
 TEST_F(RingOfARun, CountsAndMarksTicksThatNeverCame) {
