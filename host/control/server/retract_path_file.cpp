@@ -66,6 +66,19 @@ std::string why_unused(const Header& header, std::size_t joints, const std::arra
   return other.empty() ? "" : "it was verified with another " + other;
 }
 
+// A whole header says that no point follows it.
+bool is_empty(const Header& header) {
+  return header.format == kFormat && header.crc == crc_of(header) && header.first == header.end;
+}
+
+// Where nothing is put aside yet; the last one is replaced when all are taken.
+std::string name_aside(const std::string& path) {
+  constexpr int kMost = 9;
+  std::string name = path + ".unused";
+  for (int i = 2; i <= kMost && ::access(name.c_str(), F_OK) == 0; ++i) name = path + ".unused-" + std::to_string(i);
+  return name;
+}
+
 bool write_at(int fd, const void* bytes, std::size_t count, std::uint64_t offset) {
   const ssize_t done = ::pwrite(fd, bytes, count, static_cast<off_t>(offset));
   if (done >= 0 && static_cast<std::size_t>(done) != count) errno = ENOSPC;
@@ -120,7 +133,7 @@ void RetractPathFile::open() {
 
 // Its points may be the only way out for whoever starts again with what they were verified with.
 void RetractPathFile::put_aside(const std::string& why) {
-  const std::string aside = path_ + ".unused";
+  const std::string aside = name_aside(path_);
   unused_ = "the retract path in " + path_ + " is not used: " + why + "; it is kept in " + aside +
             ": start with what it was made with and --retract-path " + aside + ", or move the arm out yourself";
   if (::rename(path_.c_str(), aside.c_str()) != 0)
@@ -142,7 +155,7 @@ void RetractPathFile::read() {
                              "; give another file, or one that does not exist yet");
   }
   if (const std::string why = has_header ? why_unused(header, joints_, basis_) : ""; !why.empty()) {
-    put_aside(why);
+    if (!is_empty(header)) put_aside(why);
     header.first = header.end = 0;
   }
   end_ = header.end;

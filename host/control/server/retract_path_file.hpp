@@ -26,7 +26,7 @@ class RetractPathFile {
  public:
   // Of an arm with so many joints. Makes the file, or reads it. Throws std::runtime_error when it cannot be opened,
   // another lianad has it, or it is no such file. The path of another basis is not taken over: it stays in
-  // PATH.unused, and trouble() says so.
+  // PATH.unused (PATH.unused-2 and so on where there is one already), and trouble() says so.
   RetractPathFile(const std::string& path, const PathBasis& basis, std::size_t joints);
   // Writes what waits.
   ~RetractPathFile();

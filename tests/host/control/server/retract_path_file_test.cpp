@@ -115,6 +115,24 @@ TEST_F(FileOfTheWay, VerifiedWithAnotherTableCalibrationOrSceneIsPutAsideAndSays
   }
 }
 
+// A start with the wrong table, and another one with the right table again.
+TEST_F(FileOfTheWay, ThatIsEmptyDoesNotTakeThePlaceOfOneThatWasPutAside) {
+  const std::string aside = path_ + ".unused", second = path_ + ".unused-2";
+  PathBasis other = kArm;
+  other.scene = "another one";
+  write({{0, 0, {point(0), point(1)}}});
+  EXPECT_TRUE(kept(other).empty());
+  EXPECT_TRUE(kept().empty());
+  EXPECT_EQ(unused_, "");
+  write({{0, 0, {point(5)}}});
+  EXPECT_TRUE(kept(other).empty());
+  EXPECT_TRUE(names(unused_, {path_, "scene", second}));
+  std::filesystem::rename(second, path_);
+  EXPECT_EQ(kept(), (std::vector<double>{5}));
+  std::filesystem::rename(aside, path_);
+  EXPECT_EQ(kept(), (std::vector<double>{0, 1}));
+}
+
 TEST_F(FileOfTheWay, WithADamagedHeadingOrAnglesThatAreNoNumbersKeepsNothing) {
   for (const std::streamoff at : {8, 10, 12, 16, 24, 32, 40, 48, 63}) {
     write({{0, 0, {point(0), point(1)}}});
@@ -123,7 +141,8 @@ TEST_F(FileOfTheWay, WithADamagedHeadingOrAnglesThatAreNoNumbersKeepsNothing) {
   }
   write({{0, 0, {point(0), point(std::nan("")), point(2)}}});
   EXPECT_EQ(kept(), (std::vector<double>{2}));
-  std::filesystem::remove(path_ + ".unused");
+  for (const char* number : {"", "-2", "-3", "-4", "-5", "-6", "-7", "-8", "-9"})
+    std::filesystem::remove(path_ + ".unused" + number);
 }
 
 TEST_F(FileOfTheWay, ThatIsNoneOrCannotBeMadeOrIsInUseIsRefusedAndLeftAlone) {
