@@ -116,7 +116,8 @@ void Service::publish_state() {
     notes_.tick_us = tick_watch_.longest_us(desk_.link().timing.tick_us.counts()).value_or(0);
   const Json state = state_message(config_.buses, desk_, owner_, notes_, log_.shown());
   const char* name = state_name(desk_);
-  server_.publish(api::Topic::kState, state.dump(),
+  // Its events may name files, whose names are any bytes.
+  server_.publish(api::Topic::kState, state.dump(-1, Json::BadUtf8::kReplace),
                   name != published_);  // a slow reader may lose states, but no change of state
   published_ = name;
 }
