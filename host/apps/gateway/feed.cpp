@@ -51,8 +51,9 @@ void Feed::take_other(const std::string& packet) {
   const Json message = Json::parse_or_null(packet);
   const std::string op = message.value("op", "");
   if (op == "event") keep_event(packet);
-  if (op == "error") std::fprintf(stderr, "liana-gateway: lianad: %s\n", message.value("message", "").c_str());
+  if (op == "error") say(message.value("message", ""));
   if (op != "welcome") return;
+  said_.clear();
   lianad_says_ = message;
   welcome_ = Json();
   newest_state_.clear();
@@ -60,6 +61,12 @@ void Feed::take_other(const std::string& packet) {
   next_event_ = message.at("events").value("oldest", std::uint64_t{1});
   away_ = kNotYet;
   changed_();
+}
+
+// What stands is said once: after a refusal hello is said again and again.
+void Feed::say(const std::string& problem) {
+  if (problem != said_) std::fprintf(stderr, "liana-gateway: lianad: %s\n", problem.c_str());
+  said_ = problem;
 }
 
 // lianad sends them in order and each once; what it had lost itself leaves a gap, which clients are told of as such.

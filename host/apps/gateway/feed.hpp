@@ -51,13 +51,14 @@ class Feed {
  private:
   void take(const std::string& packet);
   void take_other(const std::string& packet);
+  void say(const std::string& problem);
   void begin_life(const Json& state);
   void keep_event(const std::string& packet);
   void lost();
 
   ApiConnection link_;
   std::function<void()> changed_;
-  std::string away_;
+  std::string away_, said_;
   std::uint32_t life_ = 0;
   Json lianad_says_;  // its welcome
   Json welcome_;
