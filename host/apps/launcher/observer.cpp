@@ -7,6 +7,7 @@
 #include "host/api/server/client.hpp"
 #include "host/api/server/registry.hpp"
 #include "host/apps/launcher/errors.hpp"
+#include "host/apps/launcher/process.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::launcher {
@@ -33,7 +34,9 @@ std::optional<Json> wait_for(api::ApiClient& client, const std::string& op, doub
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
   while (std::chrono::steady_clock::now() < deadline) {
     const auto left = std::chrono::duration<double>(deadline - std::chrono::steady_clock::now()).count();
+    const unsigned ends = child_ends();
     auto message = client.receive(left);
+    if (!message && child_ends() != ends) continue;  // a program of our own has ended, and nothing else
     if (!message) return std::nullopt;
     if (message->value("op", "") == op) return message;
     if (message->value("op", "") == "error")

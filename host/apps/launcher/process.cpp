@@ -125,6 +125,8 @@ bool stands_still(pid_t process) {
 
 }  // namespace
 
+unsigned child_ends() { return ends; }
+
 std::string how(const ExitStatus& end) {
   return end.signal != 0 ? "was killed by signal " + std::to_string(end.signal)
                          : "ended with code " + std::to_string(end.code);

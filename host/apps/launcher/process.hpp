@@ -12,6 +12,9 @@
 
 namespace liana::launcher {
 
+// How many SIGCHLDs have come: each may have cut a wait short, in a read with a time limit whatever SA_RESTART says.
+unsigned child_ends();
+
 // How a child ended: its exit code, or 128 + the signal that killed it.
 struct ExitStatus {
   int code = 0;
