@@ -115,8 +115,10 @@ export class Connection {
     if (!needsProof) return this.socket?.send(JSON.stringify({ op: 'hello', name: this.listener.name() }));
     const token = this.listener.token();
     if (!token) return this.askForToken('This gateway asks who you are.');
+    const { socket } = this;
     const proof = await proofOf(token.secret, nonce);
-    this.socket?.send(JSON.stringify({ op: 'hello', token_name: token.name, proof }));
+    if (socket !== this.socket) return; // another connection has another nonce
+    socket?.send(JSON.stringify({ op: 'hello', token_name: token.name, proof }));
   }
 
   private askForToken(why: string): void {
