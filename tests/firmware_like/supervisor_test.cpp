@@ -159,12 +159,12 @@ TEST_F(Operation, APretensionRampThatNeverEndsIsATimeout) {
 
 TEST_F(Operation, ACableThatTakesNoTensionIsNamedWithItsDrive) {
   arm_.prepared = false;
-  arm_.slack = 13;
+  arm_.slack = kDrives - 1;
   tick(Request::kEnable);
   const int limit = static_cast<int>(kTimeout_s.preparing) + 100;
   EXPECT_LE(ticks_until(OperatingState::kFault, limit), limit);
   ASSERT_EQ(faults_.count, 1);
-  EXPECT_EQ(faults_.fault[0].index, 13);
+  EXPECT_EQ(faults_.fault[0].index, kDrives - 1);
   EXPECT_EQ(decode(faults_.fault[0].detail), DriveState::kOperationEnabled) << "its statusword";
 }
 
