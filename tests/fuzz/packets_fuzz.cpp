@@ -28,7 +28,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const int kOurs = ends.ours.get();
   static bus_simulator::Participant participant(std::move(ends.theirs), wire::Hello{});
   if (size == 0 || ::send(kOurs, data, size, MSG_DONTWAIT) < 0) return 0;
-  if (participant.receive() == bus_simulator::Participant::Received::kYield) {
+  if (participant.receive(false) == bus_simulator::Participant::Received::kYield) {
     for (std::size_t i = 0; i < participant.yield().frame_count; ++i)
       wire::to_can_frame(participant.yield().frame.at(i));
   }
