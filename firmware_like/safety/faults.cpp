@@ -52,7 +52,8 @@ constexpr std::array<FaultInfo, count_enumerators<FaultNumber, 1000>()> kFaultTa
     {kDriveEnableTimeout, "drive_enable_timeout", kStop, true, false,
      "A drive, or the tension of its cable, did not finish the enable sequence in time.",
      "Look at the drive's state (detail is its statusword), supply and STO line. Where the drive is "
-     "enabled, its cable took no tension: look at the cable on its drum. Then clear and enable again."},
+     "enabled, its cable took no tension, as all do beside a broken one: look at the segment's cables on their drums. "
+     "Then clear and enable again."},
     {kFollowingError, "following_error", kStop, true, false,
      "A motor does not follow its target within the allowed lag.",
      "Check brake, and drum and cable or gear, for blockage; compare the servo time constant with the robot table, "

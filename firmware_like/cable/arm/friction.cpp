@@ -69,10 +69,11 @@ void update_tension_ratio(const RobotParams& table, const CableLayout& layout, c
       }
     }
   };
-  if (largest <= kBriefly)  // no sigma is beyond 1
+  if (largest <= kBriefly) {  // no sigma is beyond 1
     fill([](const Pair& x) noexcept { return evaluate(kBriefExponential, x); });
-  else
+  } else {
     fill([](const Pair& x) noexcept { return friction_exponential(x); });
+  }
 }
 
 TensionRatio tension_ratio(const RobotParams& table, const CableLayout& layout, const ArmTrig& trig,
