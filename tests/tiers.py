@@ -37,8 +37,7 @@ PROOF = (
 # malloc of its own, and so have sanitizers. socketcan_tests: a virtual machine runs them. closed_loop_tests,
 # workspace_tests: minutes of arithmetic, of which sanitizers see a part.
 UNSANITIZED = ["alloc_guard_tests", "socketcan_tests", "closed_loop_tests", "workspace_tests"]
-# What clang-tidy looks at on every run, a minute of one processor for the core and about as long for the others; all of
-# the host takes an hour (./dev tidy host).
+# What clang-tidy looks at on every run; of the rest it still has something to say (./dev tidy host hil).
 TIDIED = ["firmware_like", "host/base/net", "host/api/server", "host/control/realtime"]
 # What has threads of its own.
 THREADED = ["host/base/event", "host/storage/archive", "host/control/realtime", "host/control/server"]

@@ -7,7 +7,6 @@ import collections
 import json
 import os
 import pathlib
-import shlex
 import shutil
 import subprocess
 import sys
@@ -80,9 +79,8 @@ def batches(files, folder):
     no target compiles is left out."""
     commands = {}
     for entry in json.loads((ROOT / "build/tidy/compile_commands.json").read_text()):
-        words = iter(shlex.split(entry["command"])[1:])
-        options = [word for word in words if word not in ("-c", entry["file"]) and (word != "-o" or not next(words))]
-        commands[os.path.relpath(entry["file"], ROOT)] = tuple(options)
+        options, _, _ = entry["command"].rpartition(" -o ")  # which CMake writes last, with -c and the file
+        commands[os.path.relpath(entry["file"], ROOT)] = options
     alike = collections.defaultdict(list)
     for file in files:
         if file in commands:
@@ -94,8 +92,8 @@ def batches(files, folder):
         for first in range(0, len(members), 20):
             batch = folder / f"batch_{len(entries)}.cpp"
             batch.write_text("".join(INCLUDE.format(ROOT / file) for file in members[first : first + 20]))
-            arguments = ["clang++", *options, "-c", str(batch)]
-            entries.append({"directory": str(ROOT / "build/tidy"), "file": str(batch), "arguments": arguments})
+            command = f"{options} -c {batch}"
+            entries.append({"directory": str(ROOT / "build/tidy"), "file": str(batch), "command": command})
     (folder / "compile_commands.json").write_text(json.dumps(entries))
     return [entry["file"] for entry in entries], [file for file in files if file not in commands]
 
