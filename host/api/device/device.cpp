@@ -5,9 +5,9 @@
 namespace liana::device {
 
 std::optional<Capability> Device::hear(std::int64_t now_us) {
-  std::string packet;
+  std::string_view packet;
   while (end_.empty()) {
-    const api::SocketResult result = api::receive_packet(fd_.get(), packet, kMaxPacketBytes);
+    const api::SocketResult result = reader_.next(fd_.get(), packet);
     if (result == api::SocketResult::kWouldBlock) break;
     if (result == api::SocketResult::kClosed) {
       end_ = "connection closed";

@@ -68,6 +68,7 @@ class Device {
   void hear_echo(const liana_sample& packet, std::int64_t now_us);
 
   api::UniqueFd fd_;
+  api::PacketReader reader_{kMaxPacketBytes};
   std::uint32_t id_;
   std::int64_t since_us_;
   std::optional<Capability> known_;

@@ -16,20 +16,25 @@ Driver Driver::connect(const std::string& path, const Capability& capability, st
   return driver;
 }
 
-bool Driver::send(const Sample& sample) {
-  if (!is_open()) return false;
-  const liana_sample packet = packet_of(sample, ++sequence_, echo_);
-  const api::SocketResult result = api::send_packet(fd_.get(), bytes_of(packet));
-  if (result == api::SocketResult::kDone) return true;
-  ++lost_;
-  return false;  // that lianad has left is found by reading: why it refused is still there
+bool Driver::send(std::span<const Sample> samples) {
+  if (!is_open()) return samples.empty();
+  std::vector<liana_sample> packets;
+  packets.reserve(samples.size());
+  for (const Sample& sample : samples) packets.push_back(packet_of(sample, ++sequence_, echo_));
+  std::vector<std::string_view> bytes;
+  bytes.reserve(packets.size());
+  for (const liana_sample& packet : packets) bytes.push_back(bytes_of(packet));
+  std::span<const std::string_view> left(bytes);
+  api::send_packets(fd_.get(), left);
+  lost_ += left.size();
+  return left.empty();  // that lianad has left is found by reading: why it refused is still there
 }
 
 bool Driver::receive(std::optional<std::int64_t> now_us) {
   bool has_news = false;
-  std::string packet;
+  std::string_view packet;
   while (is_open()) {
-    const api::SocketResult result = api::receive_packet(fd_.get(), packet, kMaxPacketBytes);
+    const api::SocketResult result = reader_.next(fd_.get(), packet);
     if (result == api::SocketResult::kWouldBlock) break;
     if (result == api::SocketResult::kClosed) {
       close("lianad is gone: the socket of devices was closed by the other end");

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "host/api/device/packets.hpp"
@@ -21,9 +22,10 @@ class Driver {
   static Driver connect(const std::string& path, const Capability& capability, std::int64_t now_us,
                         double timeout_s = 5.0);
 
-  // Sends one sample, with the echo of the newest state; never waits. False when it is lost: lianad does not read
-  // quickly enough, or is gone (problem()).
-  bool send(const Sample& sample);
+  // Sends samples in their order, with the echo of the newest state; never waits. False when some are lost: lianad does
+  // not read quickly enough, or is gone (problem()).
+  bool send(std::span<const Sample> samples);
+  bool send(const Sample& sample) { return send(std::span<const Sample>(&sample, 1)); }
   // Reads all that has come; true when a newer state was among it. Never waits. Without `now_us`, for a driver to which
   // the device's clock is not known, states are not echoed, and none is fresh.
   bool receive(std::optional<std::int64_t> now_us);
@@ -52,6 +54,7 @@ class Driver {
   void close(const std::string& why);
 
   api::UniqueFd fd_;
+  api::PacketReader reader_{kMaxPacketBytes};
   double watchdog_s_;
   std::string problem_;
   std::optional<liana_welcome> welcome_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <string>
+#include <string_view>
 
 #include "host/api/server/topic.hpp"
 
@@ -23,8 +24,9 @@ class Outbox {
   // when kMaxDroppable wait; dropped() counts those.
   bool add(Topic topic, bool droppable, std::string packet);
   bool empty() const { return packets_.empty(); }
-  // The oldest; not of an empty one.
-  const std::string& front() const { return packets_.front().bytes; }
+  std::size_t size() const { return packets_.size(); }
+  // The packet that is `i` behind the oldest, below size().
+  std::string_view at(std::size_t i) const { return packets_[i].bytes; }
   // Takes the oldest away.
   void pop();
   void clear();

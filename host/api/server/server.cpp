@@ -7,7 +7,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "host/api/server/request_check.hpp"
 #include "host/api/server/request_error.hpp"
@@ -29,6 +31,7 @@ constexpr std::size_t kLongestHeard = 16u << 20;  // of a packet that is too lon
 constexpr double kFreeLateness_s = 0.5;
 // After so long without a word of a client it is asked whether it reads.
 constexpr double kQuiet_s = 0.03;
+constexpr std::size_t kSentAtOnce = 16;  // packets
 // Bytes that the other end has not read yet.
 int unread_bytes(int fd) {
   int bytes = 0;
@@ -250,11 +253,15 @@ void ApiServer::flush(Client& client) {
   for (feed_events(client); !client.outbox.empty() && client.why_closed.empty(); feed_events(client)) {
     const bool is_quiet = seconds_since(client.alive_at) > kQuiet_s;
     if (is_quiet && unread_bytes(client.fd.get()) < client.unread_bytes) client.alive_at = Clock::now();  // it has read
-    const SocketResult result = send_packet(client.fd.get(), client.outbox.front());
-    if (result == SocketResult::kWouldBlock) return;
+    std::array<std::string_view, kSentAtOnce> oldest;
+    const std::size_t count = std::min(client.outbox.size(), oldest.size());
+    for (std::size_t i = 0; i < count; ++i) oldest[i] = client.outbox.at(i);
+    std::span<const std::string_view> left(oldest.data(), count);
+    const SocketResult result = send_packets(client.fd.get(), left);
     if (result == SocketResult::kClosed) return client.outbox.clear();
-    client.unread_bytes = is_quiet ? unread_bytes(client.fd.get()) : 0;
-    client.outbox.pop();
+    if (left.size() < count) client.unread_bytes = is_quiet ? unread_bytes(client.fd.get()) : 0;
+    for (std::size_t i = left.size(); i < count; ++i) client.outbox.pop();
+    if (result == SocketResult::kWouldBlock) return;
   }
 }
 
@@ -262,7 +269,7 @@ void ApiServer::publish(Topic topic, const std::string& packet, bool keep) {
   for (auto& client : clients_) {
     if (!client->wants(topic)) continue;
     enqueue(*client, topic, topic != Topic::kTick && !keep, packet);
-    flush(*client);
+    if (topic != Topic::kTick || client->outbox.waiting(topic) >= kSentAtOnce) flush(*client);
   }
 }
 

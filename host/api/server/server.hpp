@@ -54,7 +54,8 @@ class ApiServer {
   // client, each in its own order. Clients outside lockstep share 2 ms; what is left waits for the next call.
   void dispatch();
   // Sends to every subscriber of the topic. Slow subscribers lose their oldest state and camera messages, and newest
-  // ticks (counted), but no message that was published as one to `keep`.
+  // ticks (counted), but no message that was published as one to `keep`. Ticks may wait for the next pump() or
+  // dispatch(), to go together.
   void publish(Topic topic, const std::string& packet, bool keep = false);
   // Sends the next event (1, 2, ...) to subscribers of `event`. Who reads too slowly gets it later, while it is among
   // the newest PacketHistory::kKept; after that a packet events_lost says which ones are gone.

@@ -35,13 +35,37 @@ UniqueFd::~UniqueFd() {
 
 int UniqueFd::release() { return std::exchange(fd_, -1); }
 
+namespace {
+
+SocketResult why_not_sent(int reason) {
+  const bool full = reason == EAGAIN || reason == EWOULDBLOCK || reason == ENOBUFS;
+  return full ? SocketResult::kWouldBlock : SocketResult::kClosed;
+}
+
+}  // namespace
+
 SocketResult send_packet(int fd, std::string_view packet) {
-  for (;;) {
-    if (::send(fd, packet.data(), packet.size(), MSG_NOSIGNAL | MSG_DONTWAIT) >= 0) return SocketResult::kDone;
-    if (errno == EINTR) continue;
-    const bool full = errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS;
-    return full ? SocketResult::kWouldBlock : SocketResult::kClosed;
+  while (::send(fd, packet.data(), packet.size(), MSG_NOSIGNAL | MSG_DONTWAIT) < 0) {
+    if (errno != EINTR) return why_not_sent(errno);
   }
+  return SocketResult::kDone;
+}
+
+SocketResult send_packets(int fd, std::span<const std::string_view>& packets) {
+  std::array<mmsghdr, 32> messages{};
+  std::array<iovec, messages.size()> parts{};
+  while (!packets.empty()) {
+    const std::size_t count = std::min(packets.size(), messages.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      parts[i] = {const_cast<char*>(packets[i].data()), packets[i].size()};  // only read
+      messages[i].msg_hdr.msg_iov = &parts[i];
+      messages[i].msg_hdr.msg_iovlen = 1;
+    }
+    const int sent = ::sendmmsg(fd, messages.data(), static_cast<unsigned>(count), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (sent < 0 && errno != EINTR) return why_not_sent(errno);
+    packets = packets.subspan(static_cast<std::size_t>(std::max(sent, 0)));
+  }
+  return SocketResult::kDone;
 }
 
 namespace {
@@ -79,6 +103,41 @@ SocketResult receive_packet(int fd, std::string& packet, std::size_t most_bytes)
     if (size <= 0) packet.clear();
     return result_of(size, errno);
   }
+}
+
+PacketReader::PacketReader(std::size_t most_bytes) : room_bytes_(most_bytes + 1) {}
+
+SocketResult PacketReader::next(int fd, std::string_view& packet) {
+  if (next_ == sizes_.size()) {
+    const bool is_drained = std::exchange(is_drained_, false);
+    const SocketResult result = is_drained ? SocketResult::kWouldBlock : read(fd);
+    if (result != SocketResult::kDone) return result;
+  }
+  if (sizes_[next_] == 0) return SocketResult::kClosed;  // packets of no bytes are not sent
+  packet = {&bytes_[next_ * room_bytes_], sizes_[next_]};
+  ++next_;
+  return SocketResult::kDone;
+}
+
+SocketResult PacketReader::read(int fd) {
+  bytes_.resize(kAtOnce * room_bytes_);
+  std::array<mmsghdr, kAtOnce> messages{};
+  std::array<iovec, kAtOnce> rooms{};
+  for (std::size_t i = 0; i < kAtOnce; ++i) {
+    rooms[i] = {&bytes_[i * room_bytes_], room_bytes_};
+    messages[i].msg_hdr.msg_iov = &rooms[i];
+    messages[i].msg_hdr.msg_iovlen = 1;
+  }
+  int count = -1;
+  do {
+    count = ::recvmmsg(fd, messages.data(), kAtOnce, MSG_DONTWAIT, nullptr);
+  } while (count < 0 && (errno == EINTR || errno == ECONNRESET));
+  sizes_.clear();
+  next_ = 0;
+  if (count <= 0) return result_of(count, errno);
+  for (int i = 0; i < count; ++i) sizes_.push_back(messages[static_cast<std::size_t>(i)].msg_len);
+  is_drained_ = sizes_.size() < kAtOnce && sizes_.back() != 0;
+  return SocketResult::kDone;
 }
 
 void limit_wait(int fd, double timeout_s) {

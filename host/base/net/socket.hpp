@@ -6,8 +6,10 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace liana::api {
 
@@ -36,9 +38,32 @@ enum class SocketResult { kDone, kWouldBlock, kClosed };
 // Writes one packet without waiting; kClosed when the peer is gone.
 SocketResult send_packet(int fd, std::string_view packet);
 
+// Writes packets in their order with as few calls as there can be, without waiting; says why it ended, and takes those
+// that were written away from the front of `packets`.
+SocketResult send_packets(int fd, std::span<const std::string_view>& packets);
+
 // Reads one packet without waiting; kClosed when the peer is gone. Packets over `most_bytes` arrive cut to that size
 // plus one. The text is only as large as the packet.
 SocketResult receive_packet(int fd, std::string& packet, std::size_t most_bytes = kMaxPacketBytes);
+
+// The packets of one socket, read many with one call. Those over `most_bytes` arrive cut to that size plus one.
+class PacketReader {
+ public:
+  explicit PacketReader(std::size_t most_bytes);
+  // The next packet, without waiting; its bytes are good until the next call. kClosed when the peer is gone.
+  SocketResult next(int fd, std::string_view& packet);
+
+ private:
+  static constexpr std::size_t kAtOnce = 32;
+
+  SocketResult read(int fd);
+
+  std::size_t room_bytes_;  // of one packet
+  std::vector<char> bytes_;
+  std::vector<std::size_t> sizes_;  // of the packets read last
+  std::size_t next_ = 0;            // of them
+  bool is_drained_ = false;         // that was all there was
+};
 
 // The most that await_packet waits at `fd` from now on: `timeout_s` over 0.
 void limit_wait(int fd, double timeout_s);

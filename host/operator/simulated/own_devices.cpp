@@ -1,5 +1,6 @@
 #include "host/operator/simulated/own_devices.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -42,7 +43,9 @@ OwnDevices::OwnDevices(const std::string& path, double timeout_s)
 
 void OwnDevices::send(device::Kind kind, const std::vector<device::Sample>& samples) {
   device::Driver& driver = kind == device::Kind::kVrControllers ? handles_ : controller_;
-  for (const device::Sample& sample : samples) driver.send(resolved(sample));
+  std::vector<device::Sample> out(samples.size());
+  std::transform(samples.begin(), samples.end(), out.begin(), resolved);
+  driver.send(out);
   require_open(driver);
 }
 

@@ -25,14 +25,14 @@ RelayLine::RelayLine(const haptics::LinkTable& table, std::uint64_t seed, std::u
     : table_(table), hurried_(table, seed, purpose), sure_(without_luck(table), seed, purpose + 1) {}
 
 void RelayLine::read(int from, std::int64_t now_us) {
-  std::string packet;
+  std::string_view packet;
   while (closed_us_ < 0) {
-    const api::SocketResult result = api::receive_packet(from, packet, device::kMaxPacketBytes);
+    const api::SocketResult result = reader_.next(from, packet);
     if (result == api::SocketResult::kWouldBlock) return;
     if (result == api::SocketResult::kClosed) {
       closed_us_ = now_us;
     } else {
-      take(std::exchange(packet, {}), now_us);
+      take(std::string(packet), now_us);
     }
   }
 }

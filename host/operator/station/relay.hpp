@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "host/api/device/packets.hpp"
 #include "host/base/net/socket.hpp"
 #include "host/operator/haptics/link.hpp"
 #include "host/operator/haptics/packets.hpp"
@@ -35,6 +36,7 @@ class RelayLine {
   void take(std::string packet, std::int64_t now_us);
 
   haptics::LinkTable table_;
+  api::PacketReader reader_{device::kMaxPacketBytes};
   haptics::Link<Parcel, kUnderWay> hurried_;  // samples and states
   haptics::Link<Parcel> sure_;
   haptics::Newest newest_;
