@@ -125,9 +125,8 @@ def judge_stop(run, truth, traffic, end, robot):
 
 def judge_wire(run, system):
     """As another decoder reads it."""
-    logs = system.bus_logs()
-    run.violations += wire_checks.malformed(logs)
-    if run.expect.get("boot_order"):
-        for bus, log in zip(system.json("buses.json")["buses"], logs):
-            frames = wire_checks.decoded(log)
+    for bus, log in zip(system.json("buses.json")["buses"], system.bus_logs()):
+        frames = wire_checks.decoded(log)
+        run.violations += wire_checks.malformed(log.name, frames)
+        if run.expect.get("boot_order"):
             run.violations += [complaint for node in bus["nodes"] for complaint in wire_checks.boot_order(frames, node)]

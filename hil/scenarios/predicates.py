@@ -4,6 +4,7 @@ empty when the rule held.
 import collections
 import math
 import re
+import struct
 
 from liana.drive_names import drive_text
 
@@ -17,14 +18,13 @@ LET_GO_M, JUMPS = 0.008, 6
 
 Command = collections.namedtuple("Command", "slot controlword target")
 Report = collections.namedtuple("Report", "slot position")
-
-
-def little_endian(text, first, count, signed=False):
-    return int.from_bytes(bytes.fromhex(text)[first : first + count], "little", signed=signed)
+REPORT_WORDS = struct.Struct("<2xi")
 
 
 class Traffic:
     """Commands to and reports of every drive, by node, in the order of the wire."""
+
+    COMMAND, COMMAND_WORDS = Command, struct.Struct("<Hi")
 
     def __init__(self, log_texts, period_s):
         self.commands, self.reports = collections.defaultdict(list), collections.defaultdict(list)
@@ -33,13 +33,13 @@ class Traffic:
                 self.take(int(float(time) / period_s + 1e-6), int(identifier, 16), data)
 
     def take(self, slot, identifier, data):
-        if identifier in TARGET_OF and len(data) >= 12:
-            self.take_command(identifier - 0x200, slot, data)
-        elif identifier in REPORT_OF and identifier - 0x180 < FIRST_SENSOR and len(data) >= 12:
-            self.reports[identifier - 0x180].append(Report(slot, little_endian(data, 2, 4, True)))
-
-    def take_command(self, node, slot, data):
-        self.commands[node].append(Command(slot, little_endian(data, 0, 2), little_endian(data, 2, 4, True)))
+        if len(data) < 12:
+            return
+        if identifier in TARGET_OF:
+            words = self.COMMAND_WORDS.unpack_from(bytes.fromhex(data))
+            self.commands[identifier - 0x200].append(self.COMMAND(slot, *words))
+        elif identifier in REPORT_OF and identifier - 0x180 < FIRST_SENSOR:
+            self.reports[identifier - 0x180].append(Report(slot, *REPORT_WORDS.unpack_from(bytes.fromhex(data))))
 
 
 def is_enabling(command):

@@ -2,6 +2,7 @@
 and rate [counts/s], in place of a target.
 """
 import collections
+import struct
 
 import predicates
 from liana.drive_names import drive_text
@@ -21,9 +22,7 @@ def gives_torque(robot):
 
 
 class TorqueTraffic(predicates.Traffic):
-    def take_command(self, node, slot, data):
-        words = (data, 0, 2), (data, 2, 2, True), (data, 4, 4, True)
-        self.commands[node].append(TorqueCommand(slot, *(predicates.little_endian(*word) for word in words)))
+    COMMAND, COMMAND_WORDS = TorqueCommand, struct.Struct("<Hhi")
 
 
 def swing_counts(robot):

@@ -2,24 +2,30 @@
 all is well.
 """
 import collections
+import pathlib
+import re
 import shutil
 import subprocess
+import tempfile
 
 from liana.drive_names import drive_text
 
+NMT, SYNC, PDOS = 0, 0x80, range(0x181, 0x580)  # identifiers
 RESETS, START = (129, 130), 1  # NMT commands: reset node, reset communication; start
 BOOT_UP, OPERATIONAL = 0, 5  # states in the heartbeat
 IDENTITY = 0x1018
 
-# One decoded frame: line of the log, CAN identifier, NMT command and its node, state in a heartbeat, object of an SDO.
-Frame = collections.namedtuple("Frame", "line identifier command node state object")
+FRAME = re.compile(r" ([0-9A-F]+)#([0-9A-F]*)$")
+# One decoded frame: line of the log, CAN identifier, NMT command and its node, state in a heartbeat, object of an SDO,
+# whether no such frame exists.
+Frame = collections.namedtuple("Frame", "line identifier command node state object malformed", defaults=[False])
 FIELDS = (
-    "frame.number",
     "can.id",
     "canopen.nmt_ctrl.cd",
     "canopen.nmt_ctrl.node_id",
     "canopen.nmt_guard.state",
     "canopen.sdo.main_idx",
+    "_ws.malformed",
 )
 
 
@@ -38,23 +44,45 @@ def tshark(log, *words):
     return done.stdout.splitlines()
 
 
-def malformed(logs):
-    """Every frame of every log is one that CANopen knows."""
-    complaints = []
-    for log in logs:
-        found = tshark(log, "-Y", "_ws.malformed", "-T", "fields", "-e", "frame.number")
-        if found:
-            complaints.append(f"{log.name}: {len(found)} malformed frames, the first in line {found[0]}")
-    return complaints
-
-
-def number(text):
-    return int(text, 0) if text else None
+def telling(lines):
+    """The lines of a log, with their numbers, that say something new to who decodes them: of SYNC and PDOs, which differ
+    in numbers alone, the first of each identifier and length after every NMT command.
+    """
+    seen = set()
+    for place, line in enumerate(lines, 1):
+        frame = FRAME.search(line)
+        identifier = int(frame[1], 16) if frame else None
+        if identifier == NMT:
+            seen.clear()
+        elif identifier == SYNC or identifier in PDOS:
+            if (identifier, len(frame[2])) in seen:
+                continue
+            seen.add((identifier, len(frame[2])))
+        yield place, line
 
 
 def decoded(log):
+    """The telling frames of a log."""
+    found = list(telling(log.read_text().splitlines()))
     words = [word for field in FIELDS for word in ("-e", field)]
-    return [Frame(*map(number, line.split(","))) for line in tshark(log, "-T", "fields", "-E", "separator=,", *words)]
+    with tempfile.TemporaryDirectory() as folder:
+        short = pathlib.Path(folder) / log.name
+        short.write_text("".join(f"{line}\n" for _, line in found))
+        rows = tshark(short, "-T", "fields", "-E", "separator=;", *words)
+    if len(rows) != len(found):
+        raise ValueError(f"tshark reads {len(rows)} frames of {len(found)} in {log.name}")
+    return [Frame(place, *fields_of(row)) for (place, _), row in zip(found, rows)]
+
+
+def fields_of(row):
+    *numbers, malformed = row.split(";")
+    return [int(text, 0) if text else None for text in numbers] + [malformed != ""]
+
+
+def malformed(name, frames):
+    """Every frame is one that CANopen knows."""
+    found = [frame.line for frame in frames if frame.malformed]
+    return [f"{name}: {len(found)} malformed frames, the first in line {found[0]}"] if found else []
 
 
 def of_node(frames, node):

@@ -197,10 +197,19 @@ class Wire(unittest.TestCase):
             "(0000000001.000000) can0 080#\n(0000000001.001000) can0 704#05\n(0000000001.002000) can0"
             " 20000004#0008000000008000\n"
         )
-        self.assertEqual(wire_checks.malformed([self.log(good)]), [])
-        self.assertIn("line 4", wire_checks.malformed([self.log(good + "(0000000001.003000) can0 604#4018\n")])[0])
+        self.assertEqual(self.malformed(good), [])
+        self.assertIn("line 4", self.malformed(good + "(0000000001.003000) can0 604#4018\n")[0])
         with self.assertRaises(ValueError):
-            wire_checks.malformed([self.log("nothing of the kind")])
+            self.malformed("nothing of the kind")
+
+    def malformed(self, text):
+        log = self.log(text)
+        return wire_checks.malformed(log.name, wire_checks.decoded(log))
+
+    def test_of_sync_and_pdos_the_first_of_each_length_after_every_nmt_command_is_decoded(self):
+        frames = ("080#", "184#0102", "080#", "184#0304", "184#05", "204#00", "704#05", "704#05", "604#40", "604#40")
+        lines = [f"(0000000001.{place:06}) can0 {frame}" for place, frame in enumerate((*frames, "000#0104", *frames))]
+        self.assertEqual([place for place, _ in wire_checks.telling(lines)], [1, 2, *range(5, 14), *range(16, 22)])
 
 
 class Modules(unittest.TestCase):
