@@ -25,13 +25,17 @@ using launcher::Captured;
 
 constexpr int kMaxIdleRounds = 3;  // arrays in a row that have delivered nothing
 constexpr auto kLookForResults = std::chrono::milliseconds(250);
-constexpr int kLooksPerAsk = 8;  // squeue is asked every two seconds
-constexpr int kLooksAfter = 8;   // results of the last task may come late through a network file system
+constexpr int kLooksPerAsk = 8;            // squeue is asked every two seconds
+constexpr const char* kPatience_s = "60";  // with programs of Slurm
+constexpr int kTimedOut = 124;             // exit code of timeout
+constexpr int kLooksAfter = 8;             // results of the last task may come late through a network file system
 
-// The words of a program that is looked up on PATH.
+// The words of a program that is looked up on PATH; one that hangs is ended.
 Captured ask(std::vector<std::string> words) {
-  words.insert(words.begin(), kEnv);
-  return launcher::run_and_capture(words);
+  words.insert(words.begin(), {kEnv, "timeout", "--foreground", kPatience_s});
+  Captured said = launcher::run_and_capture(words);
+  if (said.code == kTimedOut) said.error = "no answer within " + std::string(kPatience_s) + " s";
+  return said;
 }
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }

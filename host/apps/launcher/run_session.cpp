@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "host/apps/launcher/observer.hpp"
 
@@ -57,7 +58,7 @@ RunResult RunSession::run() {
     end = watch();
   }
   const bool is_over = end.bad_input || interrupts_.count() >= 2;  // nothing has moved yet, or nobody wants to wait
-  system_.end(is_over ? 0.0 : kEndGrace_s, [this](const Json& message) { take(message); });
+  system_.end(is_over ? 0.0 : kEndGrace_s, [this](const Json& message) { take(Json(message)); });
   say_how_the_recorder_ended();
   return end;
 }
@@ -193,7 +194,7 @@ std::string RunSession::how_the_arm_was_left() const {
 void RunSession::look(double timeout_s) {
   auto message = system_.receive(timeout_s);
   while (message) {
-    take(*message);
+    take(std::move(*message));
     if (system_.last().poll()) return;  // that is acted on before more is read
     message = system_.receive(0.0);
   }
@@ -209,27 +210,27 @@ void RunSession::look_until(double timeout_s, const std::function<bool()>& is_ov
   while (!is_over() && Clock::now() < deadline) look(kLook_s);
 }
 
-void RunSession::take(const Json& message) {
+void RunSession::take(Json message) {
   const std::string op = message.value("op", "");
-  if (op == "welcome") welcome_ = message;
+  if (op == "welcome") welcome_ = std::move(message);
   if (op != "state") return;
-  keep(message);
+  last_state_ = std::move(message);
+  keep(last_state_);
   if (!waits_for_us_) return;
   if (is_ending()) system_.dismiss();  // in the interval in which every run does
-  system_.send({{"op", "done"}, {"tick", message.value("tick", std::uint64_t{0})}});
+  system_.send({{"op", "done"}, {"tick", last_state_.value("tick", std::uint64_t{0})}});
 }
 
 void RunSession::keep(const Json& state) {
   watch_.heard();
   progress_.show(state);
-  states_.push_back({state.value("tick", std::uint64_t{0}), pose_or_none(state.value("setpoint_cp", Json()))});
+  states_.push_back({state.value("tick", std::uint64_t{0}), pose_or_none(state.member_or_null("setpoint_cp"))});
   report::keep_stage(stages_, state);
-  const Json clearance = state.value("clearance", Json());
+  const Json& clearance = state.member_or_null("clearance");
   if (clearance.is_object() && states_.back().tick > 0)  // of the angles at the tick before
     claims_.push_back({states_.back().tick - 1, clearance.value("distance_m", 0.0)});
   samples_.look(state);
-  last_state_ = state;
-  const Json step = state.value("step", Json());
+  const Json& step = state.member_or_null("step");
   const int index = step.is_object() ? step.value("index", 0) : 0;
   if (index == 0 || state.value("owner", "").empty()) return;
   const std::uint64_t tick = states_.back().tick;

@@ -56,7 +56,7 @@ class RunSession {
   void look(double timeout_s);
   void say_silence();
   void look_until(double timeout_s, const std::function<bool()>& is_over);
-  void take(const Json& message);
+  void take(Json message);
   void keep(const Json& state);
   bool is_ending() const;
   bool is_stopped() const;
