@@ -70,6 +70,8 @@ LinkLimits CableArm::link_limits() const noexcept { return make_link_limits(tabl
 // --- from the drives ---
 
 void CableArm::read(const DriveFeedbacks& drives, const LoadCells& cells) noexcept {
+  if (first_cable_ != 0)
+    feed_ = read_feed(table_, drives, zero_payout_m_, payout_measured_m_, feedback_age_ticks_ != 0xFFFF);
   feedback_age_ticks_ = 0;
   for (Index c = 0; c < cables(); ++c) {
     const DriveFeedback& drive = drives[c];

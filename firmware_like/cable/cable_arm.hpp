@@ -10,6 +10,7 @@
 #include "firmware_like/cable/arm/contact_detector.hpp"
 #include "firmware_like/cable/arm/dither.hpp"
 #include "firmware_like/cable/arm/estimator.hpp"
+#include "firmware_like/cable/arm/feed_monitor.hpp"
 #include "firmware_like/cable/arm/friction_estimator.hpp"
 #include "firmware_like/cable/arm/let_go.hpp"
 #include "firmware_like/cable/arm/load_cell.hpp"
@@ -60,6 +61,9 @@ class CableArm {
       watch_tension(tension_watch_limits_, looked_for, now, drive, tension_watch_, out);
       if (tension_watch_.slack_ticks[as_index(drive)] != 0 && is_missed(tension_watch_limits_, now)) missed_ = drive;
       if ((cables_with_cells_ >> as_index(drive) & 1u) != 0) watch_load_cell(table_, scope, drive, load_cells_, out);
+    } else {
+      const Index i = as_index(drive);
+      watch_feed(table_, scope, feed_[i], tension_.load_Nm[i], drive, tension_watch_, out);
     }
     if (drive == 0) watch_body(scope, out);
   }
@@ -85,10 +89,12 @@ class CableArm {
                         DriveProposals& out) noexcept;
   void report(Report& out) const noexcept;
 
-  // What the twin's drives show beside what they are told: the planned tension.
+  // What the twin's drives show beside what they are told: the planned tension, or what moves a base.
   static std::int16_t planned_permille(const RobotParams& table, const Report& report, std::int32_t drive) noexcept {
     const Index i = as_index(drive);
-    return narrow<std::int16_t>(to_counts(report.tension_plan_N[i] / table.drive[i].newtons_per_permille).value);
+    const double force_N =
+        drive < table.feed_count() ? feed_force_N(table, drive, report.load_Nm[i]) : report.tension_plan_N[i];
+    return narrow<std::int16_t>(to_counts(force_N / table.drive[i].newtons_per_permille).value);
   }
 
   static bool is_torque_controlled(const RobotParams&) noexcept { return false; }
@@ -210,6 +216,7 @@ class CableArm {
 
   // What the drives say.
   CableVector payout_measured_m_{};
+  FeedReadings feed_{};               // of this tick, read and watched in it
   CableVector tension_measured_N_{};  // by load cell where there is one that is believed, else by torque
   LoadCellState load_cells_{};
   EstimatorState estimator_{};

@@ -30,8 +30,10 @@ constexpr std::array<FaultInfo, count_enumerators<FaultNumber, 1000>()> kFaultTa
      "Look for what pushes it, and compare the drive's stored zero with the robot table; move it back by hand with the "
      "brakes' release "
      "procedure, then clear."},
-    {kJointJump, "joint_jump", kStop, true, false, "A joint's encoder changed faster than the joint can turn.",
-     "Check the encoder and its cable; compare the joint's angle with the arm by eye, then clear and enable again."},
+    {kJointJump, "joint_jump", kStop, true, false,
+     "The encoder of a joint, or of a base's drive, changed faster than that can move.",
+     "Check the encoder and its cable; compare where the joint or base stands with the arm by eye, then clear and "
+     "enable again."},
     {kWristSensorLost, "wrist_sensor_lost", kHold, false, true,
      "During an insertion the wrist's force sensor was unusable; the detail is 1 no sample, 2 saturated, 3 failed, "
      "4 no number, 5 not at rest before the insertion, 6 equal samples.",
@@ -78,8 +80,9 @@ constexpr std::array<FaultInfo, count_enumerators<FaultNumber, 1000>()> kFaultTa
     {kCableSlack, "cable_slack", kHold, false, true, "A cable's tension stayed under the floor.",
      "Retract if the arm is in the way; disable, look at the cable on its drum, then clear and enable: enabling "
      "tightens it."},
-    {kCableOverload, "cable_overload", StopCategory::kOff, true, false, "A cable's tension went over the hard limit.",
-     "Free the arm by hand with the brakes' release procedure, inspect the cable, then clear."},
+    {kCableOverload, "cable_overload", StopCategory::kOff, true, false,
+     "A cable's tension, or the force of a base's drive, went over the hard limit.",
+     "Free the arm by hand with the brakes' release procedure, inspect cable or guide, then clear."},
     {kTensionAlarm, "tension_alarm", kHold, false, true, "A cable's tension stayed over the alarm limit.",
      "Look for contact and retract from it; clear when the tension is under the limit again."},
     {kHomingImplausible, "homing_implausible", kHold, false, true,
@@ -100,8 +103,9 @@ constexpr std::array<FaultInfo, count_enumerators<FaultNumber, 1000>()> kFaultTa
     {kTensionScatters, "tension_scatters", kHold, false, true, "Readings of a cable jump back and forth.",
      "Retract and disable; check the drive's torque and position measurement and its cable, then clear."},
     {kBodyContact, "body_contact", kHold, false, true,
-     "A force acts on the arm's body: the torques of its cables do not balance; the drive is the first of the touched "
-     "segment, if that is known; the detail is in 0.01 N m.",
+     "A force acts on the arm's body: the torques of its cables do not balance, or a drive of its base meets more than "
+     "its load; the drive is that one, or the first of the touched segment, if that is known; the detail is in 0.01 N "
+     "m.",
      "Look where the arm touches, or what it carries untold (request payload); retract, or take that away, then "
      "clear."},
     {kFrictionNotAsDeclared, "friction_not_as_declared", kHold, false, true,

@@ -17,7 +17,7 @@ enum class FaultNumber : std::uint16_t {
   kCommandInvalid = 1001,       // a released command held a value that is not finite or out of range
   kTicksLost = 2001,            // more deadlines lost in a row than allowed
   kJointOutOfRange = 2002,      // a joint with power stands beyond the end of its range
-  kJointJump = 2003,            // a joint's encoder changed faster than the joint can turn
+  kJointJump = 2003,            // an encoder of a joint, or of a base's drive, changed faster than that can move
   kWristSensorLost = 2004,      // in a push the wrist's force sensor is not to be trusted
   kPushOverload = 2005,         // a push met more force, or a joint more torque, than it may
   kDriveMissing = 3001,         // no heartbeat from a drive
@@ -31,14 +31,15 @@ enum class FaultNumber : std::uint16_t {
   kNodeTwice = 3009,            // somebody else speaks under the identifiers of a drive
   kDriveOtherMode = 3010,       // a drive that follows targets shows another mode than it was told
   kBusLost = 4001,
-  kCableSlack = 5001,             // tension under the floor for too long
-  kCableOverload = 5002,          // tension over the hard limit
-  kTensionAlarm = 5003,           // tension over the alarm limit
-  kHomingImplausible = 5004,      // lengths of one segment's cables contradict each other
-  kCableSlip = 5005,              // length and tension of a cable stopped agreeing: it slipped, or its encoder jumped
-  kCableBreak = 5006,             // a cable's tension was gone from one moment to the next
-  kTensionScatters = 5007,        // a cable's readings jump to and fro
-  kBodyContact = 5008,            // something pushes the body: torques of a segment's cables do not balance
+  kCableSlack = 5001,         // tension under the floor for too long
+  kCableOverload = 5002,      // tension, or force of a base's drive, over the hard limit
+  kTensionAlarm = 5003,       // tension over the alarm limit
+  kHomingImplausible = 5004,  // lengths of one segment's cables contradict each other
+  kCableSlip = 5005,          // length and tension of a cable stopped agreeing: it slipped, or its encoder jumped
+  kCableBreak = 5006,         // a cable's tension was gone from one moment to the next
+  kTensionScatters = 5007,    // a cable's readings jump to and fro
+  kBodyContact =
+      5008,  // something pushes the body: torques of a segment's cables, or of a base's drive, do not balance
   kFrictionNotAsDeclared = 5009,  // friction was found that was not declared and that no tension plan carries
   kLoadCellLost = 5010,           // a load cell gives no usable reading
   kLoadCellContradicts = 5011,    // a load cell and the torque of its drive do not agree

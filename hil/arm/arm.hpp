@@ -57,6 +57,9 @@ class Arm {
   virtual void remove_rod() = 0;
   // What pushes the arm from now on; nothing of it is in the record.
   virtual void set_pushes(const std::vector<Push>& pushes) = 0;
+  // Whether something holds the slide or roll that `drive` moves, from now on, where it stands now; of models that feel
+  // forces of a base.
+  virtual void set_jammed(std::size_t drive, bool jammed) = 0;
   // 1000 m where the model knows no scene.
   virtual Clearance clearance() const = 0;
   virtual LoadRecord take_record() = 0;

@@ -42,6 +42,7 @@ class ArmPhysics final : public Arm {
   Pose tip() const override { return chain_.tip(); }
   void remove_rod() override;
   void set_pushes(const std::vector<Push>& pushes) override { pushes_ = pushes; }
+  void set_jammed(std::size_t drive, bool jammed) override { base_.set_jammed(drive, jammed, theta_); }
   Clearance clearance() const override { return clearance_of(chain_, scene_, robot_.module_radius_m); }
   // Extremes since the last take_record().
   LoadRecord take_record() override;

@@ -27,6 +27,17 @@ void BaseDrives::add(const Theta& theta_rad, const ThetaMatrix& mass, const Cabl
     const double stretch_m = this->payout_m(i, theta_rad[i]) - payout_m_[i];
     force[i] -= metres_[i] * (kStiffness_N_per_m * stretch_m - damping_Ns_per_m_[i] * speed_m_s_[i]);
     damping[i][i] += metres_[i] * metres_[i] * (damping_Ns_per_m_[i] + step_s * kStiffness_N_per_m);
+    if (!jammed_rad_[i]) continue;
+    force[i] -= metres_[i] * metres_[i] * kJam_N_per_m * (theta_rad[i] - *jammed_rad_[i]);
+    damping[i][i] += metres_[i] * metres_[i] * step_s * kJam_N_per_m;
+  }
+}
+
+void BaseDrives::set_jammed(std::size_t drive, bool jammed, const Theta& theta_rad) {
+  if (!jammed) {
+    jammed_rad_[drive].reset();
+  } else if (!jammed_rad_[drive]) {
+    jammed_rad_[drive] = theta_rad[drive];
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "hil/config/robot_config.hpp"
 #include "hil/math/reduced.hpp"
@@ -18,6 +19,9 @@ class BaseDrives {
   // gives 2 MN/m a strand. 20 N of weight move the slide by 0.01 mm; a drive that sees only its motor can not see that.
   static constexpr double kStiffness_N_per_m = 2e6;
 
+  // Of what holds a jammed slide, at the pitch line. Assumed: a bracket that gives 1 mm at 50 N.
+  static constexpr double kJam_N_per_m = 5e4;
+
   explicit BaseDrives(const RobotConfig& robot);
 
   std::size_t count() const { return count_; }
@@ -33,6 +37,8 @@ class BaseDrives {
            ThetaMatrix& damping);
   // The forces where the arm has come to.
   void settle(const Theta& theta_rad, const Theta& rate_rad_s);
+  // Whether something holds what a drive moves, where it stands now.
+  void set_jammed(std::size_t drive, bool jammed, const Theta& theta_rad);
   // The drives stand still where they are.
   void halt() { speed_m_s_ = {}; }
 
@@ -51,6 +57,7 @@ class BaseDrives {
   Values damping_Ns_per_m_{};
   Values stretch_m_{};
   Values force_N_{};
+  std::array<std::optional<double>, kBaseDrives> jammed_rad_{};  // where; empty: free
 };
 
 }  // namespace liana::bench

@@ -31,6 +31,7 @@ class KinematicArm final : public Arm {
   Pose tip() const override { return tip_; }
   void remove_rod() override {}
   void set_pushes(const std::vector<Push>&) override {}  // main.cpp refuses them
+  void set_jammed(std::size_t, bool) override {}         // the plant refuses it
   Clearance clearance() const override;
   LoadRecord take_record() override;
   ArmCounts counts() const override { return {}; }

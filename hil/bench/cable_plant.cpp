@@ -26,11 +26,24 @@ void require_cable(const RobotConfig& robot, std::size_t drive, const std::strin
                            std::to_string(robot.drive_count()));
 }
 
+// And the other way round; the light arm's base feels no force.
+void require_base(const RobotConfig& robot, std::size_t drive, const std::string& arm, const std::string& what) {
+  if (drive >= robot.base_drives())
+    throw std::runtime_error(what + " needs a drive of a base that feeds, but drive " + std::to_string(drive + 1) +
+                             " moves a cable" + (robot.base ? "; allowed are 1 and 2" : "; this arm has no such base"));
+  if (arm == "light") throw std::runtime_error(what + ": the light arm's base feels no force; give --arm full");
+}
+
 void refuse_cables_of_base(const RobotConfig& robot, const BusesConfig& buses, const ModelOptions& options,
                            const std::vector<FaultConfig>& faults) {
-  for (const FaultConfig& fault : faults)
-    if (fault_of(fault.kind) == FaultOf::kCable)
-      for (const std::size_t drive : fault.drives) require_cable(robot, drive, "--faults: kind \"" + fault.name + "\"");
+  for (const FaultConfig& fault : faults) {
+    const std::string what = "--faults: kind \"" + fault.name + "\"";
+    for (const std::size_t drive : fault.drives) {
+      if (fault_of(fault.kind) == FaultOf::kCable && fault.kind != FaultKind::kMotorSaturation)
+        require_cable(robot, drive, what);
+      if (fault_of(fault.kind) == FaultOf::kBase) require_base(robot, drive, options.arm, what);
+    }
+  }
   for (const std::size_t drive : options.cross_wired) require_cable(robot, drive, "--cross-wired");
   for (const LoadCellNodeConfig& node : buses.load_cells)
     for (const std::size_t cable : node.cables)
@@ -88,6 +101,11 @@ void CablePlant::inject(std::uint32_t slot, FaultInjector& injector) {
   injector.step(slot, {arm_->theta_rad(), arm_->rate_rad_s(), depth_m()}, drives_);
   load_cells_.suffer(injector.faults(), [&injector](std::size_t fault) { return injector.is_on(fault); });
   arm_->set_pushes(pushes_at(slot, injector, links_));
+  for (std::size_t i = 0; i < injector.faults().size(); ++i) {
+    const FaultConfig& fault = injector.faults()[i];
+    if (fault.kind != FaultKind::kJammed) continue;
+    for (const std::size_t drive : fault.drives) arm_->set_jammed(drive, injector.is_on(i));
+  }
 }
 
 double CablePlant::fastest_rad_s() const {

@@ -156,7 +156,9 @@ FaultParameters read_parameters(const JsonFile& file, const std::string& field, 
   return values;
 }
 
-bool names_drives(const KindOfFault& kind) { return kind.of == FaultOf::kDrive || kind.of == FaultOf::kCable; }
+bool names_drives(const KindOfFault& kind) {
+  return kind.of == FaultOf::kDrive || kind.of == FaultOf::kCable || kind.of == FaultOf::kBase;
+}
 
 FaultConfig read_fault(const JsonFile& file, const std::string& field, std::size_t drive_count,
                        std::size_t theta_count) {

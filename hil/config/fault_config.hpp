@@ -27,6 +27,7 @@ enum class FaultKind {
   kCableSlip,
   kCableBreak,
   kMotorSaturation,
+  kJammed,
   kLoadCellFailed,
   kLoadCellStuck,
   kLoadCellSilent,
@@ -62,10 +63,11 @@ enum class FaultKind {
   kBaseMoved
 };
 
-// What a fault happens to. Of drives and cables it names drives, of the others none.
+// What a fault happens to. Of drives, cables and bases it names drives, of the others none.
 enum class FaultOf {
   kDrive,
   kCable,    // what a drive of a cable arm moves
+  kBase,     // what a drive of a base moves
   kTip,      // camera and tool
   kBody,     // of a cable arm
   kPayload,  // its target, wrist sensor, adapter and base: of an arm that installs a payload

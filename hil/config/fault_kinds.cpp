@@ -53,6 +53,8 @@ std::vector<KindOfFault> of_cables() {
           {"load_cell_off", kLoadCellOff, kOf, true, {{"tension_N", &P::tension_N, -1e4, 1e4, false, true}}}};
 }
 
+KindOfFault of_the_base() { return {"jammed", FaultKind::kJammed, FaultOf::kBase, true, {}}; }
+
 std::vector<KindOfFault> of_the_tip() {
   using enum FaultKind;
   constexpr FaultOf kOf = FaultOf::kTip;
@@ -112,7 +114,8 @@ std::vector<KindOfFault> of_the_payload() {
 
 std::vector<KindOfFault> all_kinds() {
   std::vector<KindOfFault> all = of_drives();
-  for (const auto& more : {of_cables(), of_the_tip(), std::vector{of_the_body()}, of_the_payload()})
+  for (const auto& more :
+       {of_cables(), std::vector{of_the_base()}, of_the_tip(), std::vector{of_the_body()}, of_the_payload()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

@@ -5,6 +5,7 @@ import collections
 Arm = collections.namedtuple("Arm", "scene bus joint mission")
 ARMS = {
     "zhu2022": Arm("panel_slit", "embedded", 8, "short.lua"),
+    "feeder": Arm("none", "embedded_feeder", 0, "short_micro.lua"),
     "lab_1g": Arm("none", "embedded_lab_1g", 3, "short_micro.lua"),
     "micro": Arm("none", "embedded_micro", 3, "short_micro.lua"),
     "macro_micro_stiff": Arm("none", "embedded_payload", 3, "short_micro.lua"),

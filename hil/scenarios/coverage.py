@@ -24,10 +24,6 @@ TESTS = {
     2002: ("SerialController.AJointPushedOutOfItsRangeIsAFault", "tests/firmware_like/serial_controller_test.cpp"),
     2004: ("Force.WhateverTheWristSensorSaysOrDoesNotThePushEndsByNameAndTheForceGoes", "tests/serial/force_test.cpp"),
     2005: ("Force.ABlowAtTheTipEndsThePushAsOverload", "tests/serial/force_test.cpp"),
-    5008: (
-        "ContactWatch.ABodyThatIsPressedAgainstThePanelIsAFaultThatHoldsWithSegmentAndSize",
-        "tests/closed_loop/contact_detector_test.cpp",
-    ),
     5009: (
         "FrictionWatch.ThePlanFollowsSlowlyAndNeverBeyondWhatTensionsCanCarry",
         "tests/firmware_like/friction_estimator_test.cpp",

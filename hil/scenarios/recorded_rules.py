@@ -40,10 +40,11 @@ SETTLE_TICKS = 5  # from the state on: drives have heard the last command, their
 # Detection that is promised: wrong for more than so many ticks is a fault.
 SILENT_TICKS, HEARTBEAT_S, LOST_TICKS = 2, 0.3, 2
 SLACK_TICKS, ALARM_TICKS, OVERLOAD_TICKS = 25, 25, 3
-FOLLOWING_M, FOLLOWING_TICKS = 1e-3, 6
+FOLLOWING_M, FOLLOWING_S, FOLLOWING_TICKS = 2e-4, 0.08, 6  # at rest, and of the way at cable speed
 FOLLOWING_DEG = 0.5  # of a serial arm's joint: 0.1 deg, and its way at full rate while drive and bus lag
 TORQUE_FOLLOWING_DEG = 2.5  # of one whose drive follows torques: 2 deg, and that way
 JUMP_DEG, OUTSIDE_DEG, OUTSIDE_TICKS = 0.2, 1.01, 2
+BASE_JUMP_M, BASE_JUMP_PERIODS = 3e-4, 10  # of slide and roll of a base: more than ten periods at full rate
 
 
 class Limits(typing.NamedTuple):
@@ -58,6 +59,7 @@ class Limits(typing.NamedTuple):
     alarm_N: float = math.inf
     overload_N: float = math.inf
     jump_counts: float = math.inf
+    base_jump_counts: tuple = ()  # the same of slide and roll of a base, which have no cable
     ranges_counts: tuple = ()  # least and most of each joint
 
 
@@ -67,19 +69,30 @@ def limits_of(robot, period_s):
         step_counts=predicates.step_limit_counts(robot, period_s),
         heartbeat_ticks=round(HEARTBEAT_S / period_s),
         let_go_counts=predicates.let_go_counts(robot),
-        **(joint_limits(robot) if serial else cable_limits(robot)),
+        **(joint_limits(robot) if serial else cable_limits(robot, period_s)),
     )
 
 
-def cable_limits(robot):
-    drives, tension = robot["drives"], robot["tension"]
+def cable_limits(robot, period_s):
+    drives, tension, limits = robot["drives"], robot["tension"], robot["limits"]
+    counts_per_m = predicates.counts_per_turn(robot) / (2 * math.pi * drives["drum_radius_m"])
+    jumps_m = [
+        BASE_JUMP_M + BASE_JUMP_PERIODS * period_s * limits["theta_rate_deg_s"] * m_per_deg
+        for m_per_deg in metres_per_deg(robot.get("base"))
+    ]
     return {
-        "following_counts": FOLLOWING_M * predicates.counts_per_turn(robot) / (2 * math.pi * drives["drum_radius_m"]),
+        "following_counts": (FOLLOWING_M + FOLLOWING_S * limits["cable_speed_m_s"]) * counts_per_m,
+        "base_jump_counts": tuple(counts_per_m * jump_m for jump_m in jumps_m),
         "newtons_per_permille": drives["rated_torque_Nm"] / 1000 / drives["drum_radius_m"],
         "slack_N": tension["floor_anywhere_N"],
         "alarm_N": tension["alarm_N"],
         "overload_N": tension["hard_limit_N"],
     }
+
+
+def metres_per_deg(base):
+    """Of slide and roll of a base that feeds; of an arm without one, nothing."""
+    return [base["slide_m_per_deg"], math.radians(base["roll_radius_m"])] if base else []
 
 
 def joint_limits(robot):
@@ -346,7 +359,8 @@ class Watch:
         lag = abs(before.target[drive] - position)
         if self.lasting((3006, drive), powered and lag > self.limits.following_counts, FOLLOWING_TICKS):
             yield 3006
-        if both_new and abs(position - before.position[drive]) > self.limits.jump_counts:
+        jump_counts = (*self.limits.base_jump_counts, *[self.limits.jump_counts] * 32)[drive]
+        if both_new and abs(position - before.position[drive]) > jump_counts:
             yield 2003
         for least, most in self.limits.ranges_counts[drive : drive + 1]:
             if self.lasting((2002, drive), powered and not least <= position <= most, OUTSIDE_TICKS):
@@ -354,6 +368,10 @@ class Watch:
 
     def of_cable(self, now, drive, powered):
         limits, tension_N = self.limits, now.torque[drive] * self.limits.newtons_per_permille
+        if drive < len(limits.base_jump_counts):
+            if self.lasting((5002, drive), powered and abs(tension_N) > limits.overload_N, OVERLOAD_TICKS):
+                yield 5002
+            return
         if self.lasting((5001, drive), powered and tension_N < limits.slack_N, SLACK_TICKS):
             yield 5001
         if self.lasting((5003, drive), powered and tension_N > limits.alarm_N, ALARM_TICKS):

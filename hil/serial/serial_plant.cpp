@@ -16,8 +16,8 @@ constexpr double kStribeck_rad_s = 1e-3;  // below this rate Coulomb friction fa
 }  // namespace
 
 void refuse_for_serial(const ModelOptions& options, const std::vector<FaultConfig>& faults) {
-  refuse_faults(faults, {FaultOf::kCable, FaultOf::kBody},
-                "happens to cables or the body of a cable arm, and this is a serial one; allowed are the drives' own "
+  refuse_faults(faults, {FaultOf::kCable, FaultOf::kBase, FaultOf::kBody},
+                "happens to cables, base or body of a cable arm, and this is a serial one; allowed are the drives' own "
                 "faults");
   if (options.gravity_share != 0.0 || options.linkage_error != 0.0)
     throw std::runtime_error("--gravity, --linkage-error: a serial arm's bench has neither; leave them out");

@@ -199,11 +199,11 @@ TEST(FedArm, ItsTipGoesForwardByTheSlideAlone) {
   EXPECT_NEAR(kSlide_m_rad * rig.out.theta_command_rad[0], 0.02, 1e-3);
 }
 
-// Slide and roll have no cable that could be slack: whatever torque their drives report.
+// Slide and roll have no cable that could be slack: whatever torque their drives report, as long as friction may be it.
 TEST(FedArm, TorqueOfItsTwoDrivesIsNoTension) {
   FedRig rig(zhu2022::table(), ThetaVector{});
   ASSERT_NO_FATAL_FAILURE(rig.enable());
-  for (const std::int16_t permille : {std::int16_t{-1000}, std::int16_t{0}, std::int16_t{1000}}) {
+  for (const std::int16_t permille : {std::int16_t{-50}, std::int16_t{0}, std::int16_t{50}}) {
     for (int i = 0; i < 200; ++i) {
       Inputs inputs = rig.drives.inputs(rig.now++);
       inputs.drive[0].torque_permille = inputs.drive[1].torque_permille = permille;

@@ -472,12 +472,11 @@ TEST(BenchWithBase, ASlidesCountsMoveTheTipAlongX) {
 }
 
 TEST(BenchWithBase, RefusesFaultsOfCablesThatSlideAndRollDoNotHave) {
-  for (const char* kind : {"slack", "cable_break", "cable_slip", "motor_saturation", "load_cell_failed"}) {
+  for (const char* kind : {"slack", "cable_break", "cable_slip", "load_cell_failed"}) {
     for (const int drive : {1, 2}) {
       BenchOptions options = feeder_options();
       std::string fault = R"({"drive":[4,)" + std::to_string(drive) + R"(],"kind":")" + kind + R"(","at_slot":60)";
       if (std::string(kind) == "cable_slip") fault += R"(,"length_m":0.001)";
-      if (std::string(kind) == "motor_saturation") fault += R"(,"tension_N":20)";
       options.faults = feeder_faults("[" + fault + "}]");
       try {
         Bench bench(options);
@@ -493,6 +492,49 @@ TEST(BenchWithBase, RefusesFaultsOfCablesThatSlideAndRollDoNotHave) {
   BenchOptions cells = feeder_options();
   cells.buses.load_cells = {{20, 0, {0, 3}, {0.0, 0.0}}};
   EXPECT_THROW(Bench{cells}, std::runtime_error);
+}
+
+TEST(BenchWithBase, OnlySlideAndRollOfAFullArmJam) {
+  const auto refuses = [](const BenchOptions& options, const std::vector<std::string>& words) {
+    try {
+      Bench bench(options);
+      ADD_FAILURE() << "was accepted";
+    } catch (const std::runtime_error& error) {
+      EXPECT_TRUE(names(error.what(), words)) << error.what();
+    }
+  };
+  BenchOptions options = feeder_options();
+  options.faults = feeder_faults(R"([{"drive":3,"kind":"jammed","at_slot":60}])");
+  refuses(options, {"jammed", "3", "1 and 2"});
+  options.faults = feeder_faults(R"([{"drive":[1,2],"kind":"jammed","at_slot":60}])");
+  EXPECT_NO_THROW(Bench{options});
+  options.arm = "light", options.physics = "ideal", options.robot.gravity_m_s2 = {};
+  refuses(options, {"jammed", "light"});
+  BenchOptions without_base = options_of(1);
+  without_base.faults = feeder_faults(R"([{"drive":1,"kind":"jammed","at_slot":60}])");
+  refuses(without_base, {"jammed", "no such base"});
+}
+
+// What holds the slide pulls back by 50 N for each millimetre that its drive has gone on, and lets go when it ends.
+TEST(BenchWithBase, AJammedSlidePullsBackAtItsDriveUntilItIsFree) {
+  BenchOptions options = feeder_options();
+  options.start_pose = "zero";
+  options.robot.gravity_m_s2 = {};
+  const double m_per_slot = 4 * 2 * 3.14159265358979323846 * 0.012 / 16384, permille_per_N = 1000 * 0.012 / 5;
+  options.faults = feeder_faults(R"([{"drive":1,"kind":"jammed","at_slot":90}])");
+  const FeederRun jammed = run_feeder(options, 150, 4);
+  const std::size_t last = jammed.truth.rows.size() - 1;
+  const auto slid_m = [last](const Truth& truth) {  // since it was caught
+    return 0.005 * std::fabs(truth.at(last, "theta_deg_1") - truth.at(89, "theta_deg_1"));
+  };
+  const double way_m = (150 - 90) * m_per_slot;
+  EXPECT_GT(slid_m(jammed.truth), 0.7 * way_m) << "the drive is stronger";
+  EXPECT_NEAR(std::abs(static_cast<std::int16_t>(jammed.torque_permille[0])),
+              permille_per_N * 5e4 * slid_m(jammed.truth), 5.0);
+  options.faults = feeder_faults(R"([{"drive":1,"kind":"jammed","at_slot":90,"for_slots":20}])");
+  const FeederRun freed = run_feeder(options, 150, 4);
+  EXPECT_GT(slid_m(freed.truth), 0.7 * way_m);
+  EXPECT_LT(std::abs(static_cast<std::int16_t>(freed.torque_permille[0])), 5.0);
 }
 
 TEST(BenchWithBase, FaultsOfItsDrivesAndOfItsCablesHappen) {

@@ -220,6 +220,17 @@ class Rules(unittest.TestCase):
         self.broken(rules.faults_not_latched(pushed, limits), "tick 4", "(2002, 1)")
         self.assertEqual(rules.faults_not_latched(pushed[:4], limits), [], "one reading is no joint out of its range")
 
+    def test_slide_and_roll_of_a_base_have_no_slack_cable_but_jump_and_are_overloaded_on_either_side(self):
+        limits = LIMITS._replace(base_jump_counts=(500,), following_counts=10**6)
+        force = lambda permille: changed(5, 60, torque=(permille, 70))
+        self.assertEqual(rules.faults_not_latched(force(0), limits), [], "no cable is slack")
+        most = int(limits.overload_N / limits.newtons_per_permille)
+        for side in (1, -1):
+            self.assertEqual(rules.faults_not_latched(force(side * most), limits), [])
+            self.broken(rules.faults_not_latched(force(side * (most + 1)), limits), "(5002, 0)")
+        self.broken(rules.faults_not_latched(changed(5, position=(1501, 2000)), limits), "(2003, 0)")
+        self.assertEqual(rules.faults_not_latched(changed(5, position=(1500, 3000)), limits), [])
+
     def test_limits_of_a_serial_arm_are_its_joints_and_no_cables(self):
         joint = {"low_deg": -90.0, "high_deg": 180.0, "rate_deg_s": 4.0}
         drives = {"counts_per_turn": 3600, "gear": 1, "zero_counts": [100, 100], "direction": [1, -1]}

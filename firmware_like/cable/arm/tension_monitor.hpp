@@ -30,7 +30,7 @@ TensionWatchLimits make_tension_watch_limits(const RobotParams& table) noexcept;
 
 // Ticks in a row in which a condition was seen.
 struct TensionMonitorState {
-  std::array<std::uint16_t, kMaxCables> slack_ticks{};
+  std::array<std::uint16_t, kMaxCables> slack_ticks{};  // of a drive of a base: with a force that nothing explains
   std::array<std::uint16_t, kMaxCables> alarm_ticks{};
   std::array<std::uint16_t, kMaxCables> overload_ticks{};
 };

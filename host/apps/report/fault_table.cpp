@@ -47,7 +47,9 @@ constexpr std::array<Detection, count_enumerators<FaultNumber, 1000>() - 1> kDet
     {kTicksLost, "drive link monitor: deadlines lost in a row, more than 2", ticks<1>},
     {kJointOutOfRange, "serial arm: encoder more than 1 deg beyond the joint's range, in a row",
      ticks<serial::kRangeDebounceTicks>},
-    {kJointJump, "serial arm: encoder against the tick before, over three times the joint's rate", ticks<1>},
+    {kJointJump,
+     "serial arm, and slide and roll of a base: encoder against the tick before, over three times the axis' rate",
+     ticks<1>},
     {kWristSensorLost,
      "insertion: no new sample of the wrist sensor, or one that is saturated, failed or no number (at once); equal "
      "samples (after wrist_still_samples of the table)",
@@ -73,7 +75,7 @@ constexpr std::array<Detection, count_enumerators<FaultNumber, 1000>() - 1> kDet
     {kBusLost, "interface down or in bus-off (1 tick), or no drive of the bus sends", ticks<kFeedbackAgeTicks + 1>},
     {kCableSlack, "tension monitor: motor tension under the floor, in a row",
      ticks_of_cables<cable::kSlackDebounceTicks>},
-    {kCableOverload, "tension monitor: motor tension over the hard limit, in a row",
+    {kCableOverload, "tension monitor: motor tension, or force of a base's drive, over the hard limit, in a row",
      ticks_of_cables<cable::kOverloadDebounceTicks>},
     {kTensionAlarm, "tension monitor: motor tension over the alarm limit, in a row",
      ticks_of_cables<cable::kAlarmDebounceTicks>},
@@ -90,7 +92,9 @@ constexpr std::array<Detection, count_enumerators<FaultNumber, 1000>() - 1> kDet
      ticks_of_cables<cable::kScatterReversals + 1>},
     {kBodyContact,
      "contact detector: torques that cables, friction, inertia and a force of up to 3 N at the tip do not explain, "
-     "low-passed over 0.6 s, relative to their standard deviations, in a row",
+     "low-passed over 0.6 s, relative to their standard deviations, in a row; of a base's drive (5 ticks): force "
+     "beyond "
+     "load, friction and a push at the tip",
      [](const FaultTimes& times) {
        return times.segments > 0
                   ? static_cast<int>(cable::kFrictionTicks) * 2 * times.segments * (cable::kContactSweeps + 1)
