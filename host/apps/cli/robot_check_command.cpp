@@ -169,11 +169,12 @@ void look_at_travel(const cable::RobotParams& table, Json& notes) {
     const cable::SegmentParams& segment = table.segment[j];
     if (cable::feeds(segment)) continue;
     const double most_m = segment.hole_radius_m * segment.modules * segment.theta_limit_rad;
-    if (most_m >= calibration::kMinChange_m) continue;
+    const double needed_m = calibration::min_change_m(table, j);
+    if (most_m >= needed_m) continue;
     notes.push_back(
         text("segment %zu moves its cables by %.1f mm at most: liana calibrate needs %g mm: set drives.zero_counts "
              "and .direction by hand (docs/how-to/calibrate.md)",
-             j + 1, 1e3 * most_m, 1e3 * calibration::kMinChange_m));
+             j + 1, 1e3 * most_m, 1e3 * needed_m));
   }
 }
 

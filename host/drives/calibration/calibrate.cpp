@@ -1,6 +1,7 @@
 #include "host/drives/calibration/calibrate.hpp"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -22,9 +23,18 @@ using Index = std::size_t;
 constexpr Eigen::Index column(Index i) { return static_cast<Eigen::Index>(i); }
 using Changes = Eigen::Ref<const Eigen::VectorXd>;  // of one length, pose by pose, about their mean [m]
 
-constexpr double kApart_m = 1e-3;     // between two cables, to tell them apart
-constexpr double kMisfit_m = 0.5e-3;  // of a fitted drum; elongation and hole radius bring a tenth of it
+constexpr double kRadiusToChange = 5.0;   // in a hole radius: 5 mm of the published arm, whose holes have 25 mm
+constexpr double kChangeToApart = 5.0;    // in min_change_m: between two cables, to tell them apart
+constexpr double kChangeToMisfit = 10.0;  // in it: of a fitted drum; elongation and hole radius bring a tenth of that
 constexpr double kDrumShare = 0.02;
+
+double min_change_of_cable_m(const config::RobotConfig& robot, Index cable) {
+  return min_change_m(robot.table, as_index(config::DriveNames(robot.table).segment_of(cable) - 1));
+}
+
+double max_misfit_m(const config::RobotConfig& robot, Index cable) {
+  return min_change_of_cable_m(robot, cable) / kChangeToMisfit;
+}
 
 // Largest |a scale - b| over the poses.
 double misfit_m(const Changes& a, double scale, const Changes& b) { return (scale * a - b).lpNorm<Eigen::Infinity>(); }
@@ -64,17 +74,17 @@ Fit fit(const Changes& reported, const Changes& expected) {
   return {scale, misfit_m(reported, scale, expected)};
 }
 
-bool is_drum(const Fit& found) {
-  return found.misfit_m <= kMisfit_m && std::fabs(std::fabs(found.scale) - 1.0) <= kDrumShare;
+bool is_drum(const Fit& found, double max_m) {
+  return found.misfit_m <= max_m && std::fabs(std::fabs(found.scale) - 1.0) <= kDrumShare;
 }
 
 // The other cable that a drive follows as if it were its own.
-std::optional<Index> followed_by(const Lengths& lengths, Index drive) {
+std::optional<Index> followed_by(const config::RobotConfig& robot, const Lengths& lengths, Index drive) {
   std::optional<Index> best;
   double least_m = std::numeric_limits<double>::infinity();
   for (Index cable = 0; cable < Index(lengths.expected.cols()); ++cable) {
     const Fit found = fit(lengths.reported.col(column(drive)), lengths.expected.col(column(cable)));
-    if (!is_drum(found) || found.misfit_m >= least_m) continue;
+    if (!is_drum(found, max_misfit_m(robot, cable)) || found.misfit_m >= least_m) continue;
     best = cable;
     least_m = found.misfit_m;
   }
@@ -82,14 +92,15 @@ std::optional<Index> followed_by(const Lengths& lengths, Index drive) {
 }
 
 std::string problem_of(const config::RobotConfig& robot, const Lengths& lengths, Index drive, const Fit& own) {
-  const std::optional<Index> other = followed_by(lengths, drive);
+  const std::optional<Index> other = followed_by(robot, lengths, drive);
   const config::DriveNames names(robot.table);
   const std::string who = names.drive(drive);
   if (other && *other != drive)
     return who + " moves as " + names.cable(*other) +
            " does, not as its own: their cables are exchanged: wind each cable on its own drum, or exchange the "
            "drives' node ids, then calibrate again";
-  if (own.misfit_m <= kMisfit_m) {
+  const double max_m = max_misfit_m(robot, drive);
+  if (own.misfit_m <= max_m) {
     return text(
         "%s: drum radius %.4f mm: allowed %.4f mm +- %.0f %%: look whether cable lies on cable, or correct "
         "drives.drum_radius_m of robot %s",
@@ -97,9 +108,9 @@ std::string problem_of(const config::RobotConfig& robot, const Lengths& lengths,
         robot.name.c_str());
   }
   return text(
-      "%s: its position misses the jigs' poses by %.1f mm: allowed %.1f mm: look whether the arm lies in every "
+      "%s: its position misses the jigs' poses by %.1f mm: allowed %.2g mm: look whether the arm lies in every "
       "jig and the cable is on its drum",
-      who.c_str(), 1e3 * own.misfit_m, 1e3 * kMisfit_m);
+      who.c_str(), 1e3 * own.misfit_m, 1e3 * max_m);
 }
 
 // Without a number of its own a drive cannot be told from another one when it is swapped later. Empty: it has one.
@@ -164,6 +175,10 @@ bool are_opposite(const RobotParams& robot, Index a, Index b) {
 
 }  // namespace
 
+double min_change_m(const RobotParams& robot, std::size_t segment) {
+  return robot.segment[std::max(segment, as_index(robot.first_bending()))].hole_radius_m / kRadiusToChange;
+}
+
 void check_poses(const config::RobotConfig& robot, std::span<const ThetaVector> poses_rad) {
   if (poses_rad.size() < 2) throw std::runtime_error("one pose says nothing of drums and directions: give two or more");
   CableVector tension_N;
@@ -172,14 +187,15 @@ void check_poses(const config::RobotConfig& robot, std::span<const ThetaVector> 
   for (const ThetaVector& theta_rad : poses_rad) readings.push_back({theta_rad, {}, tension_N});
   const Eigen::MatrixXd cables = lengths_of(robot, readings).expected;
   for (Index a = 0; a < Index(cables.cols()); ++a) {
-    if (cables.col(column(a)).lpNorm<Eigen::Infinity>() < kMinChange_m)
+    const double min_m = min_change_of_cable_m(robot, a);
+    if (cables.col(column(a)).lpNorm<Eigen::Infinity>() < min_m)
       throw std::runtime_error(
           config::DriveNames(robot.table).cable(a) +
-          text(" changes by less than %.0f mm between these poses: add one that bends its segment more",
-               1e3 * kMinChange_m));
+          text(" changes by less than %.2g mm between these poses: add one that bends its segment more", 1e3 * min_m));
     for (Index b = 0; b < Index(cables.cols()); ++b) {
       const Fit alike = fit(cables.col(column(a)), cables.col(column(b)));
-      if (a != b && alike.misfit_m < kApart_m && std::fabs(std::fabs(alike.scale) - 1.0) <= 2.0 * kDrumShare)
+      if (a != b && alike.misfit_m < min_change_of_cable_m(robot, b) / kChangeToApart &&
+          std::fabs(std::fabs(alike.scale) - 1.0) <= 2.0 * kDrumShare)
         refuse_alike(robot.table, a, b);
     }
   }
@@ -194,7 +210,7 @@ CalibrationResult calibrate(const config::RobotConfig& robot, std::span<const Ca
     const Fit own = fit(lengths.reported.col(column(c)), lengths.expected.col(column(c)));
     const std::string serial_problem = serial_problem_of(robot, readings, c);
     if (!serial_problem.empty()) out.problems.push_back(serial_problem);
-    if (!is_drum(own)) {
+    if (!is_drum(own, max_misfit_m(robot, c))) {
       out.problems.push_back(problem_of(robot, lengths, c, own));
     } else {
       out.calibration.cables.push_back(cable_of(robot, lengths, c, own.scale, readings.front()));

@@ -25,12 +25,13 @@ struct CalibrationResult {
   std::vector<std::string> problems;  // each names drive or cable, what was found and what to do
 };
 
-// The poses tell every two cables apart by at least 1 mm of change, and every cable changes enough to see its
+// The poses tell every two cables apart, by a fifth of min_change_m, and every cable changes enough to see its
 // direction; throws std::runtime_error naming what is missing. At least two poses.
 void check_poses(const config::RobotConfig& robot, std::span<const cable::ThetaVector> poses_rad);
 
-// By which every cable's length has to differ from its mean over the poses, for its direction to be seen.
-constexpr double kMinChange_m = 5e-3;
+// By which the length of every cable of `segment` (0-based) has to differ from its mean over the poses, for its
+// direction to be seen: as much as 0.2 rad make at the segment's holes. A base goes by the segment beyond it.
+double min_change_m(const cable::RobotParams& robot, std::size_t segment);
 
 // Fits a drum radius and a zero to every drive. A drive that counts backwards gets the other direction and is a problem
 // of nobody; cables that are wound on each other's drums, a drum that is off by over 2 %, readings that no drum

@@ -185,6 +185,50 @@ TEST(Calibrate, PosesThatDoNotTellEnoughAreRefused) {
   EXPECT_NE(message({"prepare", "prepare"}).find("cable 1 (segment 1)"), std::string::npos);
 }
 
+// The published arm, every length times `factor`.
+config::RobotConfig scaled(double factor) {
+  config::RobotConfig arm = config::nominal_zhu2022();
+  RobotParams& table = arm.table;
+  for (std::size_t j = 0; j < as_index(table.segment_count); ++j) {
+    table.segment[j].module_length_m *= factor;
+    table.segment[j].hole_radius_m *= factor;
+    table.segment[j].face_offset_m *= factor;
+  }
+  table.lead_m *= factor;
+  arm.drum_radius_m *= factor;
+  for (std::size_t i = 0; i < 15; ++i) table.drive[i].metres_per_count *= factor;
+  return arm;
+}
+
+// What is enough of a change, and what is too much of a misfit, goes with the arm's size.
+TEST(Calibrate, ASmallArmAndALargeOneAreJudgedAsThePublishedOne) {
+  EXPECT_EQ(min_change_m(config::nominal_zhu2022().table, 0), 5e-3);
+  for (const double factor : {0.04, 0.25, 1.0, 4.0, 20.0}) {
+    Workshop workshop;
+    workshop.arm = scaled(factor);
+    EXPECT_NEAR(min_change_m(workshop.arm.table, 4), factor * 5e-3, 1e-12);
+    const auto poses = [&](double share) {
+      std::vector<ThetaVector> out;
+      for (const char* name : {"zero", "jig", "prepare"}) {
+        out.push_back(named_pose_rad(workshop.arm, name));
+        for (double& angle : out.back()) angle *= share;
+      }
+      return out;
+    };
+    EXPECT_NO_THROW(check_poses(workshop.arm, poses(1.0))) << factor;
+    EXPECT_THROW(check_poses(workshop.arm, poses(0.1)), std::runtime_error) << factor << ": little bent";
+    EXPECT_EQ(workshop.result().problems, std::vector<std::string>{}) << factor;
+    for (const double off_mm : {0.3, 3.0}) {
+      std::vector<CalibrationReading> readings = workshop.readings();
+      readings[1].position_m[6] += 1e-3 * off_mm * factor;
+      EXPECT_EQ(calibrate(workshop.arm, readings, kDay).problems.size(), off_mm > 1.0 ? 1u : 0u)
+          << factor << ", " << off_mm;
+    }
+    std::swap(workshop.cable_of[3], workshop.cable_of[9]);
+    EXPECT_EQ(workshop.result().problems.size(), 2u) << factor;
+  }
+}
+
 // Homing itself, without fixtures: at prepare, an arm whose two cables are exchanged contradicts itself.
 TEST(Calibrate, HomingAloneSeesExchangedCablesOfDifferentSegments) {
   const config::RobotConfig arm = config::nominal_zhu2022();
