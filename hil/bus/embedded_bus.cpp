@@ -2,6 +2,7 @@
 
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -11,11 +12,17 @@
 #include "hil/bus/wall_clock.hpp"
 
 namespace liana::bench {
+namespace {
+
+constexpr timeval kLookForEnd{0, 100000};  // a read without an end looks so often whether an end is asked for
+
+}  // namespace
 
 EmbeddedBus::EmbeddedBus(const std::string& socket_path, std::uint32_t period_us, std::size_t bus_count)
     : socket_(connect_local(socket_path, 10000)) {
   if (!socket_.open())
     throw std::runtime_error("embedded bus: nobody listens on " + socket_path + " (10 s); start liana-bus first");
+  ::setsockopt(socket_.descriptor(), SOL_SOCKET, SO_RCVTIMEO, &kLookForEnd, sizeof kLookForEnd);
   write(make_hello("liana-bench"));
   Packet packet;
   if (!read(packet, -1))
@@ -35,7 +42,10 @@ bool EmbeddedBus::read(Packet& packet, int timeout_ms) {
   if (count == 0) return true;                                           // nothing in time: an empty packet
   if (count < 0) return false;                                           // a signal
   packet.resize(kMaxPacketBytes);
-  const ssize_t size = ::recv(socket_.descriptor(), packet.data(), packet.size(), 0);
+  ssize_t size;
+  do {  // a signal between the look and the read does not end the read: the time does
+    size = ::recv(socket_.descriptor(), packet.data(), packet.size(), 0);
+  } while (size < 0 && (errno == EAGAIN || errno == EINTR) && !end_requested());
   if (size <= 0) return false;
   packet.resize(static_cast<std::size_t>(size));
   return true;

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -191,6 +192,41 @@ TEST(EmbeddedBusClient, AnswersASyncWithWhatTheDrivesSendAndAsksForTheNext) {
 TEST(EmbeddedBusClient, RefusesABusWithAnotherPeriod) {
   OneWakeBus server;
   EXPECT_THROW(EmbeddedBus(server.path(), 10000, 2), std::runtime_error);
+}
+
+// The signal comes between the look whether an end is asked for and the read: another thread takes it, so that nothing
+// interrupts the read.
+TEST(EmbeddedBusClient, EndsThoughNoSignalInterruptsItsRead) {
+  const auto ends = [] {
+    const std::string path = temporary("silent.sock");
+    const Socket listener(::socket(AF_UNIX, SOCK_SEQPACKET, 0));
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strncpy(address.sun_path, path.c_str(), sizeof address.sun_path - 1);
+    ::unlink(path.c_str());
+    ::bind(listener.descriptor(), reinterpret_cast<sockaddr*>(&address), sizeof address);
+    ::listen(listener.descriptor(), 1);
+    std::thread server([&listener] {
+      const Socket peer(::accept(listener.descriptor(), nullptr, nullptr));
+      Packet welcome(8 + 32);
+      welcome[0] = 2, welcome[2] = 2;
+      put_little_endian(&welcome[4], 4, 4000);
+      ::send(peer.descriptor(), welcome.data(), welcome.size(), MSG_NOSIGNAL);
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      ::raise(SIGTERM);  // in this thread
+      std::this_thread::sleep_for(std::chrono::seconds(20));
+    });
+    server.detach();
+    end_on_signals();
+    EmbeddedBus bus(path, 4000, 2);
+    Wake wake;
+    const auto before = std::chrono::steady_clock::now();
+    const bool goes_on = bus.wait(wake);
+    const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - before;
+    std::_Exit(!goes_on && waited.count() < 5.0 ? 0 : 1);
+  };
+  ::testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_EXIT(ends(), ::testing::ExitedWithCode(0), "");
 }
 
 TEST(SocketCan, WithoutTheInterfaceSaysWhatIsMissing) {
