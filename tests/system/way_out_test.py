@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 from support import SystemTest
-from liana.client import brief
+from liana.client import LianaError, brief
 from liana.system import System, run, table
 
 NEAR_DEG = 0.02  # from the pose in which the arm was enabled: what the controller is told is not what it measures
@@ -43,6 +43,12 @@ class TheWayOut(SystemTest):
         client = self.enterContext(system).client()
         client.enable()
         return client, list(client.go_on(0.1)["setpoint_js_deg"])
+
+    def booted(self, system):
+        client = self.enterContext(system).client()
+        client.until(lambda state: state["is_homed"] and state["tick"] > 300)
+        client.call("acquire")
+        return client
 
     def moved(self, client, by_deg=3.0):
         """The arm at rest, this far from where it was."""
@@ -127,6 +133,46 @@ class TheWayOut(SystemTest):
         state, phases = self.gone_back(client)
         self.assertEqual((state["retract"]["phase"], "joining" in phases), ("done", True), state["retract"])
         self.assertLess(apart_deg(state["setpoint_js_deg"], start), 1e-4)
+
+    def test_a_cable_that_was_lost_before_the_death_of_lianad_is_not_forgotten(self):
+        folder = pathlib.Path(tempfile.mkdtemp(prefix="liana-way-"))
+        self.addCleanup(shutil.rmtree, folder)
+        kept = {"retract_path": folder / "way.bin"}
+        broken = {"drive": 5, "kind": "cable_break"}
+        first = System(faults=[{**broken, "when": {"moving": True, "for_slots": 50}}], **kept)
+        client, _ = self.enabled(first)
+        goal = list(client.state["setpoint_js_deg"])
+        goal[8] -= 3.0
+        client.call("move_jp", goal_deg=goal)
+        client.until(lambda state: [fault["number"] for fault in state["faults"]][:1] == [5006])
+        client.go_on(0.2)
+        first.kill("lianad")
+
+        second = System(faults=[{**broken, "at_slot": 200}], **kept)
+        client = self.booted(second)
+        for command, words in (("enable", {}), ("clear", {}), ("clear", {"whole": 4}), ("recover", {})):
+            with self.assertRaisesRegex(LianaError, "cable 5 .*lost before.*--whole 5"):
+                client.call("state_command", command=command, **words)
+        client.call("state_command", command="clear", whole=5)
+        client.go_on(0.5)
+        client.call("state_command", command="enable")  # it takes no tension all the same
+        client.until(lambda state: state["state"] == "ENABLING")
+        begin = client.state["tick"]
+        client.until(lambda state: state["state"] == "DISABLED")
+        self.assertLess(client.state["tick"] - begin, 250 * 5)
+        client.go_on(0.5)
+        with self.assertRaisesRegex(LianaError, "cable 5"):
+            client.call("state_command", command="enable")
+        second.kill("lianad")
+
+        third = System(**kept)
+        client = self.booted(third)
+        client.call("state_command", command="clear", whole=5)  # repaired
+        client.go_on(0.5)
+        client.enable()
+        third.kill("lianad")
+        fourth = System(**kept)
+        self.booted(fourth).enable()
 
     def test_out_of_the_slit_it_leads_after_a_stop_beside_a_body_nearer_than_commands_may_come(self):
         rod = json.loads(table("robot", "zhu2022"))["named_poses_deg"]["press_rod"]

@@ -87,6 +87,10 @@ class ArmServer {
   virtual std::string why_not_recover() const { return "this arm has no cables that it could go back without"; }
   // Whether it does so now: the core has cleared the fault for that.
   virtual bool recovers() const { return false; }
+  // Cables that are lost, as this lianad has seen; 0-based, ascending.
+  virtual std::vector<std::size_t> lost() const { return {}; }
+  // Somebody has looked at a cable that an earlier lianad has lost, and it is whole.
+  virtual void call_whole(std::size_t /*cable*/) {}
   // What keeps an arm that is being enabled, beside its drives; empty: nothing.
   virtual std::string why_not_taut() const { return ""; }
   // A cable that was called whole and takes no tension: the arm is not to pull at the others any longer.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "host/api/server/request_error.hpp"
 #include "host/api/server/request_text.hpp"
@@ -49,6 +50,7 @@ Service::Service(const ServiceConfig& config, ArmServer& desk)
                     PathBasis{robot.at("name").text(), robot.dump(), config.calibration, config.scene_json},
                     desk.joint_count());
   desk.restore_way(way_file_->kept());
+  losses_.emplace(config.way_file + ".lost", robot.at("name").text(), desk.drive_count());
 }
 
 // In real time finer than ticks: both ways of a device's packets are measured with it.
@@ -159,6 +161,7 @@ void Service::watch_enabling() {
         .number = event::number_of(event::HostTroubleEvent::kEnablingWaits),
         .text = "enabling waits: " + notes_.enabling_waits});
   if (!desk_.is_untrue()) return;
+  if (losses_ && !recalled_.empty()) losses_->note(std::exchange(recalled_, {}));
   note({.kind = event::EventKind::kHostWarning,
         .number = event::number_of(event::HostTroubleEvent::kEnablingWaits),
         .text = "enabling ends: a cable that was called whole takes no tension, and counts as lost again"});
@@ -287,6 +290,49 @@ void Service::keep_way() {
   if (!way_file_) return;
   if (const auto change = desk_.take_way_change()) way_file_->follow(*change);
   if (auto trouble = way_file_->trouble()) note(std::move(*trouble));
+  keep_losses();
+}
+
+// What is lost stays so beyond this lianad, until somebody has called it whole or it has taken tension again.
+void Service::keep_losses() {
+  if (now().state == OperatingState::kEnabled) recalled_.clear();
+  const std::vector<std::size_t> lost = desk_.lost();
+  if (!loss_told_ && !why_remembered().empty()) {
+    note({.kind = event::EventKind::kHostWarning,
+          .number = event::number_of(event::HostTroubleEvent::kEnablingWaits),
+          .text = "enabling is refused: " + why_remembered()});
+  }
+  loss_told_ = true;
+  if (lost.empty() && !has_lost_) return;
+  has_lost_ = !lost.empty();
+  if (lost == losses_->cables() || losses_->note(lost)) return;
+  note({.kind = event::EventKind::kHostWarning,
+        .number = event::number_of(event::HostTroubleEvent::kEnablingWaits),
+        .text = "a lianad that is started anew will not know of the lost cables: their file cannot be written"});
+}
+
+// What an earlier lianad has left: the core of this one does not know of it.
+std::string Service::why_remembered() const {
+  if (!losses_ || has_lost_ || losses_->cables().empty()) return "";
+  const std::size_t cable = losses_->cables().front();
+  return config_.drive_names.cable(cable) +
+         " was lost before this lianad was started. If you have looked and it is whole, liana clear --whole " +
+         std::to_string(cable + 1) + "; else take the arm out by hand (docs/how-to/a-cable-broke.md)";
+}
+
+bool Service::remembers(std::int64_t cable) const {
+  if (why_remembered().empty()) return false;
+  const std::vector<std::size_t>& lost = losses_->cables();
+  return cable >= 1 && std::find(lost.begin(), lost.end(), static_cast<std::size_t>(cable - 1)) != lost.end();
+}
+
+// A cable that an earlier lianad has lost is whole again.
+void Service::recall(std::size_t cable) {
+  std::vector<std::size_t> left = losses_->cables();
+  std::erase(left, cable);
+  losses_->note(left);
+  recalled_.push_back(cable);
+  desk_.call_whole(cable);
 }
 
 bool Service::note(event::Event event) { return log_.add(tick(), std::move(event)); }

@@ -19,6 +19,7 @@
 #include "host/control/server/arm_server.hpp"
 #include "host/control/server/command_log.hpp"
 #include "host/control/server/host_warning.hpp"
+#include "host/control/server/loss_file.hpp"
 #include "host/control/server/owner.hpp"
 #include "host/control/server/retract_path_file.hpp"
 #include "host/control/server/run_lifecycle.hpp"
@@ -132,6 +133,10 @@ class Service : private api::ApiHandler {
   std::optional<LastVerdict> timed_release();
   void tell_of_paths();
   void keep_way();
+  void keep_losses();
+  std::string why_remembered() const;
+  bool remembers(std::int64_t cable) const;
+  void recall(std::size_t cable);
 
   ServiceConfig config_;
   ArmServer& desk_;
@@ -146,6 +151,10 @@ class Service : private api::ApiHandler {
   std::optional<event::EventFile> file_;
   std::optional<CommandLog> dispatch_;
   std::optional<RetractPathFile> way_file_;
+  std::optional<LossFile> losses_;
+  bool has_lost_ = false;              // in this life; else losses_ has what an earlier one has left
+  bool loss_told_ = false;             // what an earlier one has left
+  std::vector<std::size_t> recalled_;  // cables of these that were called whole, until the arm has been enabled
   std::optional<event::LineFile> verify_times_;
   realtime::BootPhase boot_seen_ = realtime::BootPhase::kBooting;
   bool homed_told_ = false;

@@ -125,6 +125,7 @@ Json Service::on_state_command(const api::ClientInfo&, const api::Arguments& fie
       throw api::RequestError("refused",
                               "a stop was asked for in the same command interval: ask again if the arm should go on");
     if (now().faults.count > 0) throw api::RequestError("fault", "a fault is latched: clear it first");
+    if (const std::string why = why_remembered(); !why.empty()) throw api::RequestError("fault", why);
     if (lifecycle_.is_stopping()) throw api::RequestError("refused", "lianad is stopping: start it again afterwards");
     if (now().state == OperatingState::kStopping || disable_tick_ == tick())
       throw api::RequestError("busy", "the arm is stopping: ask again when it is disabled");
@@ -134,12 +135,17 @@ Json Service::on_state_command(const api::ClientInfo&, const api::Arguments& fie
     disable_tick_ = tick();
     this->request(Request::kDisable);
   } else if (command == "clear") {
-    const std::string why = desk_.why_not_clear(fields.has("whole") ? fields.integer("whole") : 0);
+    const std::int64_t whole = fields.has("whole") ? fields.integer("whole") : 0;
+    const bool is_recalled = remembers(whole);
+    std::string why = is_recalled ? "" : why_remembered();
+    if (why.empty()) why = desk_.why_not_clear(is_recalled ? 0 : whole);
     if (!why.empty()) throw api::RequestError("fault", "not cleared: " + why);
+    if (is_recalled) recall(static_cast<std::size_t>(whole - 1));
     notes_.stop.release();
     this->request(Request::kClear);
   } else if (command == "recover") {
-    const std::string why = desk_.why_not_recover();
+    std::string why = why_remembered();
+    if (why.empty()) why = desk_.why_not_recover();
     if (!why.empty()) throw api::RequestError("refused", why);
     if (now().state != OperatingState::kFault && !desk_.recovers())
       throw api::RequestError("busy", "the arm is stopping: ask again when it stands in FAULT, without power");
