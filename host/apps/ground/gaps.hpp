@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "host/api/ground/packet.hpp"
@@ -26,10 +27,11 @@ class Gaps {
     std::uint64_t from_us = 0, to_us = 0;
   };
 
-  // The newest packet that the store has from before; without it the first one is the beginning.
-  void begin(std::uint16_t apid, std::uint16_t count, std::uint64_t time_us);
-  // A packet has come, for the first time or again.
-  void take(std::uint16_t apid, std::uint16_t count, std::uint64_t time_us, double now_s);
+  // A packet has come, for the first time or again. The first one is the beginning; so is one of an on-board end that
+  // was started anew, which counts from 0: what the one before has sent last, and nobody got, is nowhere any more.
+  void take(const Telemetry& packet, double now_s);
+  // Packets of one time, in whatever order.
+  void take_together(std::vector<Telemetry> packets, double now_s);
   // The span of time to ask for now, if there is one.
   std::optional<Span> ask(double now_s);
 
@@ -43,6 +45,9 @@ class Gaps {
     std::uint16_t count;
     std::uint64_t time_us;
   };
+  struct Message {  // the newest of a service and subtype
+    std::uint16_t count, message_count;
+  };
   struct Gap {
     std::uint16_t apid;
     std::set<std::uint16_t> missing;
@@ -51,8 +56,12 @@ class Gaps {
     int tries = 0;
   };
   bool fill(std::uint16_t apid, std::uint16_t count, std::uint64_t time_us);
+  unsigned ahead(const Telemetry& packet) const;
+  bool is_of_a_new_life(const Telemetry& packet, const Newest& before) const;
+  void begin_life(std::uint16_t apid, const Span& between, double now_s);
 
-  std::map<std::uint16_t, Newest> newest_;  // by APID
+  std::map<std::uint16_t, Newest> newest_;                                   // by APID
+  std::map<std::pair<std::uint8_t, std::uint8_t>, Message> newest_message_;  // by service and subtype
   std::deque<Gap> gaps_;
   std::uint64_t found_ = 0, filled_ = 0, lost_ = 0;
 };

@@ -6,6 +6,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <utility>
 
 namespace liana::ground {
 namespace {
@@ -40,7 +41,7 @@ class Keeper {
  public:
   Keeper(const StoreConfig& config, const std::function<void(const std::string&)>& news)
       : config_(config), news_(news), file_(config.file, archive::Database::Open::kQuick) {
-    file_.begin(gaps_);
+    file_.begin(gaps_, monotonic_s());
   }
 
   void step() {
@@ -86,7 +87,7 @@ class Keeper {
       return;
     }
     ++(file_.add(*telemetry, packet) ? counts_.packets : counts_.again);
-    gaps_.take(telemetry->primary.apid, telemetry->primary.count, time_of(*telemetry), now_s_);
+    gaps_.take(*telemetry, now_s_);
   }
 
   // Where no network leads there yet nothing counts as asked for.
@@ -158,12 +159,16 @@ void PacketFile::remove_old(double keep_s) {
       .run(static_cast<std::int64_t>(1e6 * keep_s));
 }
 
-void PacketFile::begin(Gaps& gaps) const {
-  archive::Statement newest(database_, "SELECT apid, count, max(time_us) FROM packets GROUP BY apid");
-  newest.bind();
-  while (newest.step())
-    gaps.begin(static_cast<std::uint16_t>(newest.whole(0)), static_cast<std::uint16_t>(newest.whole(1)),
-               newest.count(2));
+void PacketFile::begin(Gaps& gaps, double now_s) const {
+  std::vector<Telemetry> together;
+  read([&](const std::string& packet) {
+    auto telemetry = read_telemetry(packet);
+    if (!telemetry) return;
+    if (!together.empty() && time_of(*telemetry) != time_of(together.front()))
+      gaps.take_together(std::exchange(together, {}), now_s);
+    together.push_back(std::move(*telemetry));
+  });
+  gaps.take_together(std::move(together), now_s);
 }
 
 void PacketFile::read(const std::function<void(const std::string& packet)>& take) const {

@@ -27,8 +27,8 @@ class PacketFile {
   void commit();
   // Removes what is older than `keep_s` before the newest.
   void remove_old(double keep_s);
-  // The newest packet of each APID.
-  void begin(Gaps& gaps) const;
+  // Shows all packets to `gaps`, for what is missing between them.
+  void begin(Gaps& gaps, double now_s) const;
   // All packets, in the order of their times.
   void read(const std::function<void(const std::string& packet)>& take) const;
 

@@ -63,7 +63,7 @@ bool PacketRelay::is_out(std::int64_t now_us) const {
 }
 
 void PacketRelay::let_in() {
-  api::UniqueFd ground(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+  api::UniqueFd ground = api::accept_or_turn_away(listener_.get(), spare_);
   if (ground.get() < 0 || connections_.size() >= kMaxConnections) return;
   api::UniqueFd arm = api::connect_at(api::Transport::kTcp, config_.to);
   if (arm.get() < 0) return;

@@ -84,6 +84,7 @@ class PacketRelay {
 
   RelayConfig config_;
   api::UniqueFd listener_, datagrams_, arm_datagrams_;
+  api::UniqueFd spare_;  // turns those away for whom no descriptor is left
   RelayDirection datagrams_forward_, datagrams_back_;
   std::vector<std::unique_ptr<Connection>> connections_;
   std::string sender_{};  // address of the newest datagram, to which answers go

@@ -86,7 +86,7 @@ void Server::set_time() {
 
 // Where too many are there the newest is turned away: who flies keeps the connection.
 void Server::let_in(const api::UniqueFd& listener, std::vector<Peer>& peers) {
-  api::UniqueFd fd(::accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+  api::UniqueFd fd = api::accept_or_turn_away(listener.get(), spare_);
   if (fd.get() >= 0 && peers.size() < kMaxPeers) peers.push_back({std::move(fd)});
 }
 

@@ -57,6 +57,7 @@ class Server {
 
   ServerConfig config_;
   api::UniqueFd telemetry_, telecommand_, datagrams_, to_;
+  api::UniqueFd spare_;  // turns those away for whom no descriptor is left
   std::vector<Peer> readers_, commanders_;
   std::optional<api::ApiClient> lianad_;
   bool is_welcome_ = false, leaves_ = false, asks_for_events_ = true;

@@ -164,6 +164,19 @@ bool wait_for(int fd, short events, double timeout_s) {
 }
 }  // namespace
 
+UniqueFd accept_or_turn_away(int listener, UniqueFd& spare) {
+  const auto accept = [listener] {
+    return UniqueFd(::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+  };
+  if (spare.get() < 0) spare = UniqueFd(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+  UniqueFd fd = accept();
+  if (fd.get() >= 0 || (errno != EMFILE && errno != ENFILE)) return fd;
+  spare = UniqueFd();
+  accept();  // and closed
+  spare = UniqueFd(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+  return UniqueFd();
+}
+
 bool wait_readable(int fd, double timeout_s) { return wait_for(fd, POLLIN, timeout_s); }
 bool wait_writable(int fd, double timeout_s) { return wait_for(fd, POLLOUT, timeout_s); }
 

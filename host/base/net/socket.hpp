@@ -70,6 +70,10 @@ void limit_wait(int fd, double timeout_s);
 // Reads one packet of at most kMaxPacketBytes, waiting for it; kWouldBlock when none came, or a signal did.
 SocketResult await_packet(int fd, std::string& packet);
 
+// A connection that waits at `listener`, non-blocking; none where nobody waits. Where this process may have no further
+// descriptor, `spare` is given up for a moment to turn the connection away: who polls the listener would never sleep.
+UniqueFd accept_or_turn_away(int listener, UniqueFd& spare);
+
 // Waits until `fd` is readable (or writable), at most `timeout_s`; true when it is.
 bool wait_readable(int fd, double timeout_s);
 bool wait_writable(int fd, double timeout_s);

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 
 namespace liana::ground {
 namespace {
@@ -83,6 +86,39 @@ TEST(PacketRelay, CarriesAStreamToTheOtherEndAfterItsDelay) {
   EXPECT_EQ(got, sent);
   EXPECT_EQ(relay.sent(), 2u);
   EXPECT_EQ(relay.received(), 2u);
+}
+
+// Whom no descriptor is left for is turned away: the relay sleeps, and serves those who come later.
+TEST(PacketRelay, SleepsWhereNoDescriptorIsLeft) {
+  const Far far;
+  RelayConfig config;
+  config.listen = {"127.0.0.1", 0};
+  config.to = far.address;
+  PacketRelay relay(config);
+  relay.step(0);
+  rlimit before{};
+  ::getrlimit(RLIMIT_NOFILE, &before);
+  {
+    const api::UniqueFd near = api::connect_at(api::Transport::kTcp, relay.listen());
+    ASSERT_GE(near.get(), 0);
+    rlimit none = before;
+    none.rlim_cur = static_cast<rlim_t>(api::UniqueFd(::dup(0)).get());
+    ::setrlimit(RLIMIT_NOFILE, &none);
+    const auto begin = std::chrono::steady_clock::now();
+    for (int i = 1; i <= 4; ++i) {
+      relay.wait(100);
+      relay.step(i);
+    }
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    ::setrlimit(RLIMIT_NOFILE, &before);
+    EXPECT_GT(took.count(), 0.25) << "it looked again and again for one who waits";
+    std::array<char, 8> bytes{};
+    EXPECT_EQ(::recv(near.get(), bytes.data(), bytes.size(), MSG_DONTWAIT), 0) << "turned away";
+  }
+  const api::UniqueFd later = api::connect_at(api::Transport::kTcp, relay.listen());
+  relay.wait(100);
+  relay.step(10);
+  EXPECT_TRUE(api::wait_readable(far.listener.get(), 1.0));
 }
 
 }  // namespace
