@@ -4,8 +4,8 @@ import { distance } from '../../host/apps/web/src/model/vector';
 import { ACTIONS, roleBlocked } from '../../host/apps/web/src/steer/actions';
 import { LEAD_S, nextGoal, sumOf, towards } from '../../host/apps/web/src/steer/jog';
 import { actionOf, isField, type Direction } from '../../host/apps/web/src/steer/keyboard';
-import { plannerCommand, pointsOfPlan } from '../../host/apps/web/src/steer/planner_offer';
-import { near } from './support';
+import { hasMoved, length_m, pointsOfPlan, tipWay_m, wayText } from '../../host/apps/web/src/steer/planner_offer';
+import { ARM, near } from './support';
 
 const limits = { tip_speed_m_s: 0.1, tip_rate_deg_s: 20 };
 const speed = { tip_m_s: 0.05, turn_rad_s: 0.1, inTip: false };
@@ -88,9 +88,23 @@ test('each button says why it cannot be used now', () => {
   assert.equal(roleBlocked('operate'), '');
 });
 
-test('the planner is offered from where the arm is commanded to the goal, with the margin of this scene', () => {
-  assert.equal(plannerCommand('zhu2022', { name: 'x' }, [0, 1.23456], [-2, 3]), 'liana plan --robot zhu2022 --scene x --from-deg=0,1.235 --to-deg=-2,3 --out way.json');
-  assert.match(plannerCommand('zhu2022', { name: '', margins: { prediction_m: 0.007, refuse_m: 0.003 } }, [0], [1]), /--scene none .* --margin=0.0100 /);
+test('a planned way is told by the length of its tip, its time and its least clearance', () => {
+  const tip_m = tipWay_m(ARM, [Array(10).fill(0), Array(10).fill(5)]);
+  const straight_m = [tip_m.length - 3, tip_m.length - 2, tip_m.length - 1].map((i) => tip_m[i]);
+  assert.ok(near(tip_m[0], 4, 1e-6) && length_m(tip_m) > distance([4, 0, 0], straight_m));
+  const way = { from_deg: [], points_deg: [], duration_s: 8.7, min_clearance_m: 0.014, nearest: 'drive_box' };
+  assert.equal(wayText(ARM, way, 1.234), 'Way found: 1.23 m of the tip, at least 12 s, at least 14.0 mm to drive box.');
+  assert.match(wayText(ARM, { ...way, min_clearance_m: null, nearest: '' }, 0.5), /at least 9 s, nothing in the scene/);
+});
+
+test('a way of 500 points has no more places than a line in the scene', () => {
+  assert.ok(tipWay_m(ARM, Array.from({ length: 500 }, (_, k) => Array(10).fill(k / 100))).length / 3 <= 3000);
+});
+
+test('a planned way is good for where the arm stands, and for nothing else', () => {
+  assert.equal(hasMoved([1, 2], Float32Array.of(1, 2)), false);
+  for (const now of [[1.02, 2], [1, 1.98], [1], []]) assert.equal(hasMoved([1, 2], now), true);
+  assert.equal(hasMoved([1, 2], [1.009, 1.991]), false);
 });
 
 test('a plan is carried out only where it has points of this arm', () => {

@@ -199,6 +199,28 @@ class WhatAClientMayDo(GatewayTest):
             console.call("device", device="vr", samples=[{"t_us": 11111 * i, "right": hand, "left": hand}])
         console.until(lambda me: me.state["device_samples"][0] >= before + 20)
 
+    def test_the_owner_alone_plans_a_way_and_lianad_carries_it_out(self):
+        owner, other = self.console("owner"), self.console("other")
+        owner.enable()
+        goal = [angle + 1.0 for angle in owner.state["setpoint_js_deg"]]
+        self.assertEqual(other.ask("plan", goal_deg=goal)["code"], "not_owner")
+        owner.call("plan", goal_deg=goal)
+        owner.until(lambda me: any(said.get("phase") == "found" for said in me.complaints))
+        way = owner.complaints[-1]
+        self.assertLess(max(abs(a - b) for a, b in zip(way["points_deg"][-1], goal)), 1e-9)
+        owner.call("move_path", points_deg=way["points_deg"])
+        owner.until(lambda me: max(abs(a - b) for a, b in zip(me.state["setpoint_js_deg"], goal)) < 1e-3)
+
+    def test_a_planner_ends_with_its_client(self):
+        owner = self.console("owner")
+        owner.enable()
+        pid = self.gateway.process.pid
+        children = pathlib.Path(f"/proc/{pid}/task/{pid}/children")
+        owner.call("plan", goal_deg=[0.0] * len(owner.state["setpoint_js_deg"]))
+        owner.close()
+        wait_until(lambda: children.read_text() == "", "the end of the planner")
+        self.assertIsNone(self.gateway.process.poll())
+
     def test_what_lianad_refuses_is_answered_in_its_words(self):
         console = self.console().until(lambda me: me.facts)
         console.enable()

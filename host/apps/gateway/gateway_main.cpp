@@ -55,7 +55,8 @@ int run(const Options& options) {
   std::signal(SIGPIPE, SIG_IGN);
   ::setpriority(PRIO_PROCESS, 0, kNice);
   const std::string devices = options.devices.empty() ? liana::device::devices_path(options.api) : options.devices;
-  Gateway gateway(options.api, devices, tokens ? &*tokens : nullptr, listen.is_loopback(), now_s);
+  Gateway gateway(options.api, devices, tokens ? &*tokens : nullptr, listen.is_loopback(), now_s,
+                  liana::install_paths::program_folder() + "/liana");
   const std::string page = options.page.empty() ? liana::install_paths::page_file("console.html") : options.page;
   WebServer server({listen, options.certificate, options.key, page, options.runs}, gateway);
   std::puts(server.address().c_str());

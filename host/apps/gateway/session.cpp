@@ -33,6 +33,8 @@ std::optional<std::int64_t> id_of(const Json& message) {
   return id.get<std::int64_t>();
 }
 
+Json done(std::int64_t id) { return {{"op", "answer"}, {"id", id}, {"ok", true}, {"answer", Json::object()}}; }
+
 }  // namespace
 
 Session::Session(House& house, std::string address, double now_s, std::function<void()> something_to_send)
@@ -56,7 +58,7 @@ void Session::take_text(std::string_view text, double now_s) {
     if (!greeted_) return op == "hello" ? hello(message) : close(kPolicyViolated, "no_hello", "say hello first");
     if (op == "request" && text_of(message.member_or_null("request"), "op") == "stop")
       return stop(message["request"], id, now_s);
-    if (op == "request") return request(message, id);
+    if (op == "request") return request(message, id, now_s);
     if (op == "stop") return stop(message, id, now_s);
     if (op == "pace") return pace(message);
     malformed(now_s, id, "op '" + op + "': allowed request, stop, pace");
@@ -104,6 +106,7 @@ void Session::hello(const Json& message) {
   operator_.emplace(house_.poller, house_.api, name_, "operator", reply);
   handles_.emplace(house_.poller, house_.devices, name_,
                    [this](const std::string& why) { answer(refusal(std::nullopt, "refused", why)); });
+  planner_.emplace(house_.planner, reply);
   something_to_send_();
 }
 
@@ -119,7 +122,7 @@ bool Session::is_proven(const Json& message) {
   return false;
 }
 
-void Session::request(const Json& message, std::optional<std::int64_t> id) {
+void Session::request(const Json& message, std::optional<std::int64_t> id, double now_s) {
   const Json& wanted = message.at("request");
   const std::string op = text_of(wanted, "op");
   if (!may_ask(access_, op)) {
@@ -127,6 +130,7 @@ void Session::request(const Json& message, std::optional<std::int64_t> id) {
     return answer(refusal(id, "not_allowed", "'" + op + "' is not for the role " + access_name(access_)));
   }
   if (op == "device") return device(wanted, id);
+  if (op == "plan" || op == "end_plan") return plan(wanted, id, now_s);
   if (op == "use_device") choose(wanted);
   (op == "operator_says" ? operator_ : client_)->ask(wanted, id);
   if (op != "release") return;
@@ -138,7 +142,21 @@ void Session::request(const Json& message, std::optional<std::int64_t> id) {
 void Session::device(const Json& wanted, std::optional<std::int64_t> id) {
   try {
     handles_->take(wanted);
-    if (id) answer({{"op", "answer"}, {"id", *id}, {"ok", true}, {"answer", Json::object()}});
+    if (id) answer(done(*id));
+  } catch (const api::RequestError& error) {
+    answer(refusal(id, error.code(), error.what()));
+  }
+}
+
+// A way to a goal of angles: what becomes of it comes as messages.
+void Session::plan(const Json& wanted, std::optional<std::int64_t> id, double now_s) {
+  try {
+    if (text_of(wanted, "op") == "plan") {
+      planner_->start(wanted, house_.feed.welcome(), Json::parse_or_null(house_.feed.state()), name_, now_s);
+    } else {
+      planner_->end("Planning was cancelled.");
+    }
+    if (id) answer(done(*id));
   } catch (const api::RequestError& error) {
     answer(refusal(id, error.code(), error.what()));
   }
@@ -196,6 +214,7 @@ void Session::tick(double now_s) {
   if (in_flight_.size() == kCredits && now_s - std::max(heard_s_, record_s_) > kSilent_s)
     close(kPolicyViolated, "silent", "has answered nothing for 10 s");
   if (stop_) stop_->tick(now_s);
+  if (planner_ && planner_->is_running()) planner_->tick(Json::parse_or_null(house_.feed.state()), name_, now_s);
 }
 
 bool Session::has_more() const {

@@ -14,6 +14,7 @@
 #include "host/apps/gateway/access.hpp"
 #include "host/apps/gateway/feed.hpp"
 #include "host/apps/gateway/handles.hpp"
+#include "host/apps/gateway/planner.hpp"
 #include "host/apps/gateway/requester.hpp"
 #include "host/apps/gateway/stop_call.hpp"
 
@@ -28,6 +29,7 @@ struct House {
   bool is_loopback = false;                                         // the gateway listens there
   std::function<std::string(const std::string& wanted)> free_name;  // one that no other client has
   std::function<void(std::string_view what, const std::string& address, std::string_view detail)> refused;
+  std::string planner = {};  // path of `liana`
 };
 
 // What is to be sent next; good until the session is asked again.
@@ -78,9 +80,10 @@ class Session {
  private:
   void hello(const class Json& message);
   bool is_proven(const Json& message);
-  void request(const Json& message, std::optional<std::int64_t> id);
+  void request(const Json& message, std::optional<std::int64_t> id, double now_s);
   void device(const Json& wanted, std::optional<std::int64_t> id);
   void choose(const Json& wanted);
+  void plan(const Json& wanted, std::optional<std::int64_t> id, double now_s);
   void stop(const Json& message, std::optional<std::int64_t> id, double now_s);
   void pace(const Json& message);
   void malformed(double now_s, std::optional<std::int64_t> id, const std::string& why);
@@ -99,6 +102,7 @@ class Session {
   std::optional<StopCall> stop_;
   std::optional<Requester> client_, operator_;
   std::optional<Handles> handles_;
+  std::optional<Planner> planner_;
   End end_;
 
   std::deque<std::string> answers_;

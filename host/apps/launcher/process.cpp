@@ -60,6 +60,9 @@ std::vector<char*> exec_arguments(const std::vector<std::string>& argv) {
 [[noreturn]] void become(std::vector<char*>& argv, int out_fd, int error_fd, int realtime_priority) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
+  sigset_t none;
+  sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);  // the parent may wait for signals by a descriptor
   file::limit_address_space(kMaxAddressSpace);
   sched_param parameters{};
   parameters.sched_priority = realtime_priority;

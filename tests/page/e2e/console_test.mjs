@@ -152,12 +152,30 @@ test('retract goes back along the verified path, hold ends it', async () => {
   await isAtRest('hold');
 });
 
-test('a goal whose way is refused offers the planner, and a file that is no plan is refused in words', async () => {
+test('a goal whose way is refused: one click plans a way around, and a planned way ends when the arm moves', async () => {
   await isAtRest('before');
-  await page.selectOption('[aria-label="named pose"]', 'zero'); // straight through the panel
+  await page.selectOption('[aria-label="named pose"]', 'segment5_in_slit'); // straight into the wall
   await page.click('[data-action="go"]');
-  await page.waitForSelector('.offer:not([hidden])');
-  assert.match(await text('.offer code'), /^liana plan --robot zhu2022 --scene panel_slit --from-deg=.* --to-deg=0(,0){9} --margin=/);
+  await page.click('[data-action="plan a way"]');
+  await page.waitForSelector('.offer :text("Way found")', { timeout: 60000 });
+  assert.match(await text('.offer p'), /^Way found: [\d.]+ m of the tip, at least \d+ s, at least [\d.]+ mm to /);
+  await picture(page, 'console_planned');
+  await page.click('[data-jog="z+"]');
+  await page.waitForSelector('.offer :text("The arm has moved since")');
+  assert.equal(await page.isVisible('[data-action="carry out"]'), false);
+  await isAtRest('the step');
+});
+
+test('a second click carries the planned way out, verified', async () => {
+  await page.click('[data-action="plan a way"]');
+  await page.click('[data-action="carry out"]', { timeout: 60000 });
+  await page.waitForFunction(() => /^planned way: (?!taken)/.test(document.querySelector('.answer').textContent), null, { timeout: 300000 });
+  assert.equal(await text('.answer'), 'planned way: done');
+  const [now, goal] = await page.evaluate(() => [[...window.liana.live.sample.numbers.get('setpoint_js_deg')], window.liana.live.welcome.robot.named_poses_deg.segment5_in_slit]);
+  assert.ok(now.every((angle_deg, i) => Math.abs(angle_deg - goal[i]) < 0.06), `${now}, ${goal}`);
+});
+
+test('a file that is no plan is refused in words', async () => {
   await page.setInputFiles('[aria-label="plan to carry out"]', { name: 'no.json', mimeType: 'application/json', buffer: Buffer.from('{}') });
   await page.waitForSelector('section[aria-label="Angles"] :text("no.json: waypoints_deg")');
   await isAtRest('after');

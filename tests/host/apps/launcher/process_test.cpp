@@ -25,5 +25,21 @@ TEST(ChildProcess, IsSeenToEndWhereSigchldWasBlocked) {
   EXPECT_EQ(end->code, 3);
 }
 
+// A program that waits for its signals by a descriptor has blocked them.
+TEST(ChildProcess, IsAskedToEndWhereItsParentBlockedTheSignal) {
+  sigset_t ending, before;
+  sigemptyset(&ending);
+  sigaddset(&ending, SIGTERM);
+  ASSERT_EQ(::pthread_sigmask(SIG_BLOCK, &ending, &before), 0);
+  const std::string log = testing::TempDir() + "liana_process_" + std::to_string(::getpid());
+  ChildProcess child("sleep", {"/bin/sleep", "60"}, log);
+  child.ask_to_end();
+  const auto end = child.wait(10.0);
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  ::unlink(log.c_str());
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->signal, SIGTERM);
+}
+
 }  // namespace
 }  // namespace liana::launcher

@@ -18,6 +18,7 @@ import { JointPanel } from '../steer/joint_panel';
 import { actionOf, isField } from '../steer/keyboard';
 import { MissionPanel } from '../steer/mission_panel';
 import { MotionPanel } from '../steer/motion_panel';
+import type { PlannerOffer } from '../steer/planner_offer';
 import { ShapePanel } from '../steer/shape_panel';
 import { h, setText } from '../ui/dom';
 import { PushCard } from '../ui/push_card';
@@ -61,6 +62,7 @@ export class LivePage {
   private pushCard: PushCard | null = null;
   private scene: SceneView | null = null;
   private plots: LivePlots | null = null;
+  private planner: PlannerOffer | null = null;
   private handle: TipHandle | null = null;
   vr: Vr | null = null;
   private readonly vrButton = h('button', { type: 'button', hidden: true, title: 'steer with the handles of a headset', onclick: () => void this.toggleVr() }, 'VR');
@@ -125,6 +127,7 @@ export class LivePage {
     }
     this.jogger.letGo();
     this.pending.forget();
+    this.planner?.forget();
     this.live.takeWelcome(welcome);
     this.historyScrubber.goTo(null);
     const robot = JSON.stringify([welcome.robot, welcome.scene, welcome.layout]);
@@ -140,7 +143,8 @@ export class LivePage {
     const { ask } = this.pending;
     const motion = new MotionPanel(this.live, this.connection, ask);
     const mission = new MissionPanel(this.live, ask);
-    const joints = new JointPanel(this.live, welcome, ask);
+    const joints = new JointPanel(this.live, welcome, this.connection, ask, (places_m) => this.scene?.way.set(places_m));
+    this.planner = joints.planner;
     const device = new DevicePanel(this.live, ask);
     const jog = new JogPanel(this.live, this.jogger, ask);
     const shape = welcome.robot.kind === 'serial' ? null : new ShapePanel(this.live, welcome.robot, ask);
@@ -196,6 +200,7 @@ export class LivePage {
   private message(message: FromGateway): void {
     const newest = this.live.newestEvent;
     this.live.take(message);
+    if (message.op === 'plan') this.planner?.take(message);
     if (message.op === 'event' && message.sequence > newest && newest !== 0) this.pending.event(message);
   }
 

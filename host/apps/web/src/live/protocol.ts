@@ -31,6 +31,17 @@ export interface Answer {
   message?: string;
 }
 
+// A way that the planner has found; it begins where the arm was commanded to be.
+export interface PlannedWay {
+  from_deg: number[];
+  points_deg: number[][];
+  duration_s: number;
+  min_clearance_m: number | null; // null: nothing is in the scene
+  nearest: string;
+}
+
+export type FromPlanner = { op: 'plan' } & ({ phase: 'planning'; for_s: number; text: string } | { phase: 'none'; text: string } | ({ phase: 'found' } & PlannedWay));
+
 export type FromGateway =
   | { op: 'challenge'; nonce: string; loopback: boolean; proof?: boolean }
   | Welcome
@@ -38,6 +49,7 @@ export type FromGateway =
   | { op: 'facts'; facts: number; state: Facts }
   | ({ op: 'event' } & LianaEvent)
   | { op: 'events_lost'; from: number; to: number; count: number }
+  | FromPlanner
   | Answer;
 
 export interface Token {

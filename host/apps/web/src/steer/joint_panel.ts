@@ -1,6 +1,7 @@
 // Goals of all angles: by sliders, or a named pose of the robot table; nothing moves before "go". What nobody has touched
 // stays where the arm is commanded to be.
 import { values } from '../data/sample';
+import type { Connection } from '../live/connection';
 import type { Live } from '../live/live';
 import type { Welcome } from '../live/protocol';
 import type { Ask } from '../live/pending_command';
@@ -15,12 +16,12 @@ export class JointPanel {
   private readonly sliders: HTMLInputElement[];
   private readonly outputs: HTMLElement[];
   private readonly now: HTMLElement[];
-  private readonly planner: PlannerOffer;
+  readonly planner: PlannerOffer;
   private readonly touched = new Set<number>();
 
-  constructor(private readonly live: Live, welcome: Welcome, ask: Ask) {
+  constructor(private readonly live: Live, welcome: Welcome, connection: Connection, ask: Ask, showWay: (places_m: Float32Array) => void) {
     const { robot } = welcome;
-    this.planner = new PlannerOffer(live, welcome, ask);
+    this.planner = new PlannerOffer(live, welcome, connection, ask, showWay);
     const count = angleCount(robot);
     this.outputs = Array.from({ length: count }, () => h('output', {}));
     this.now = Array.from({ length: count }, () => h('span', { class: 'now' }));
