@@ -10,7 +10,6 @@
 #include "hil/arm/arm_physics.hpp"
 #include "hil/bench/bench.hpp"
 #include "hil/bench/data_sheet_file.hpp"
-#include "hil/bench/pushes.hpp"
 #include "hil/bus/embedded_bus.hpp"
 #include "hil/bus/socketcan_bus.hpp"
 
@@ -67,6 +66,7 @@ void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, b
   app.add_option("--truth", options.truth_path, "write truth rows here");
   app.add_option("--summary", options.summary_path, "write a JSON summary here at the end");
   app.add_option("--faults", paths.faults, "JSON list of faults to inject");
+  app.add_option("--practice", options.practice_socket, "listen here for faults that begin at once, while it runs");
   app.add_option("--start-pose", options.start_pose, "named pose to start from, or all angles in degrees, t1,t2,...")
       ->capture_default_str();
   app.add_option("--free-step", options.free_step_s,
@@ -228,7 +228,6 @@ int main(int argc, char** argv) {
     options.buses = liana::bench::load_buses(paths.buses);
     if (!paths.faults.empty())
       options.faults = liana::bench::load_faults(paths.faults, drives_of(options), angles_of(options));
-    if (!options.serial_robot) liana::bench::check_pushes(options.faults, options.robot.link_count(), options.arm);
     options.spread = !no_spread;
     if (!paths.scene_offset.empty()) options.scene_offset = scene_offset(paths.scene_offset);
     if (!paths.cross_wired.empty()) options.cross_wired = two_drives(paths.cross_wired, drives_of(options));

@@ -28,7 +28,6 @@ std::unique_ptr<Plant> make_plant(const BenchOptions& options, const SceneConfig
   if (options.serial_robot)
     return std::make_unique<SerialPlant>(*options.serial_robot, scene, options.buses, options, options.faults,
                                          options.seed);
-  refuse_payload_faults(options.faults, ", and this is a cable arm");
   return std::make_unique<CablePlant>(options.robot, scene, options.buses, options, options.faults, options.seed);
 }
 
@@ -50,6 +49,7 @@ Bench::Bench(const BenchOptions& options)
       scene_(displaced(options.scene, options.scene_offset, options.seed)),
       plant_(make_plant(options, scene_)),
       injector_(options.faults),
+      practice_(options.practice_socket),
       equipment_(make_equipment(scene_, *plant_, options.seed)),
       camera_link_(options.api_socket, {"camera", ""}),
       tool_link_(options.api_socket, {"tool", "tool"}),
@@ -60,6 +60,7 @@ Bench::Bench(const BenchOptions& options)
 
 // State at the start of a slot goes to truth and camera before anything in the slot happens.
 void Bench::begin_slot(std::uint32_t slot, double now_s) {
+  practice_.serve(slot, *plant_, injector_);
   plant_->inject(slot, injector_);
   record(slot);
   equipment_->suffer(camera_defects(), tool_defects());

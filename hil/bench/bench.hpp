@@ -9,6 +9,7 @@
 
 #include "hil/bench/fault_injector.hpp"
 #include "hil/bench/plant.hpp"
+#include "hil/bench/practice.hpp"
 #include "hil/bench/tip_equipment.hpp"
 #include "hil/bench/truth_log.hpp"
 #include "hil/bus/api_connection.hpp"
@@ -29,6 +30,7 @@ struct BenchOptions : ModelOptions {
   std::vector<FaultConfig> faults;
   std::uint64_t seed = 1;
   std::string api_socket;
+  std::string practice_socket;  // where a person's faults come from; empty: nowhere
   std::string truth_path;
   std::string summary_path;
   double run_on_s = 0.0;       // how long drives and arm go on by themselves after the bus has ended
@@ -59,6 +61,7 @@ class Bench {
   SceneConfig scene_;  // where it really is
   std::unique_ptr<Plant> plant_;
   FaultInjector injector_;
+  Practice practice_;
   std::unique_ptr<TipEquipment> equipment_;
   ApiConnection camera_link_;
   ApiConnection tool_link_;

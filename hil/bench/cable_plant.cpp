@@ -34,16 +34,7 @@ void require_base(const RobotConfig& robot, std::size_t drive, const std::string
   if (arm == "light") throw std::runtime_error(what + ": the light arm's base feels no force; give --arm full");
 }
 
-void refuse_cables_of_base(const RobotConfig& robot, const BusesConfig& buses, const ModelOptions& options,
-                           const std::vector<FaultConfig>& faults) {
-  for (const FaultConfig& fault : faults) {
-    const std::string what = "--faults: kind \"" + fault.name + "\"";
-    for (const std::size_t drive : fault.drives) {
-      if (fault_of(fault.kind) == FaultOf::kCable && fault.kind != FaultKind::kMotorSaturation)
-        require_cable(robot, drive, what);
-      if (fault_of(fault.kind) == FaultOf::kBase) require_base(robot, drive, options.arm, what);
-    }
-  }
+void refuse_cables_of_base(const RobotConfig& robot, const BusesConfig& buses, const ModelOptions& options) {
   for (const std::size_t drive : options.cross_wired) require_cable(robot, drive, "--cross-wired");
   for (const LoadCellNodeConfig& node : buses.load_cells)
     for (const std::size_t cable : node.cables)
@@ -86,9 +77,23 @@ CablePlant::CablePlant(const RobotConfig& robot, const SceneConfig& scene, const
       drives_(robot, buses, truth_, arm_->payouts_m(), options.spread, seed, options.cross_wired),
       load_cells_(buses, options.spread, seed),
       tip_before_m_(arm_->tip().position_m) {
-  refuse_cables_of_base(robot, buses, options, faults);
-  load_cells_.refuse_faults_of_others(faults);
+  refuse_cables_of_base(robot, buses, options);
+  refuse(faults);
   drives_.measure(motor_tensions_N());
+}
+
+void CablePlant::refuse(const std::vector<FaultConfig>& faults) const {
+  refuse_payload_faults(faults, ", and this is a cable arm");
+  for (const FaultConfig& fault : faults) {
+    const std::string what = "--faults: kind \"" + fault.name + "\"";
+    for (const std::size_t drive : fault.drives) {
+      if (fault_of(fault.kind) == FaultOf::kCable && fault.kind != FaultKind::kMotorSaturation)
+        require_cable(built_, drive, what);
+      if (fault_of(fault.kind) == FaultOf::kBase) require_base(built_, drive, options_.arm, what);
+    }
+  }
+  load_cells_.refuse_faults_of_others(faults);
+  check_pushes(faults, links_, options_.arm);
 }
 
 CableValues CablePlant::motor_tensions_N() const {

@@ -17,6 +17,7 @@ class CablePlant final : public Plant {
              const std::vector<FaultConfig>& faults, std::uint64_t seed);
 
   const Drives& drives() const override { return drives_; }
+  void refuse(const std::vector<FaultConfig>& faults) const override;
   void inject(std::uint32_t slot, FaultInjector& injector) override;
   void exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out) override;
   void integrate(double period_s) override;

@@ -4,10 +4,23 @@
 #include <cmath>
 #include <utility>
 
+#include "hil/config/fault_kinds.hpp"
+
 namespace liana::bench {
 
 FaultInjector::FaultInjector(std::vector<FaultConfig> faults)
     : faults_(std::move(faults)), courses_(faults_.size()), held_(faults_.size(), 0) {}
+
+void FaultInjector::add(const std::vector<FaultConfig>& more) {
+  faults_.insert(faults_.end(), more.begin(), more.end());
+  courses_.resize(faults_.size());
+  held_.resize(faults_.size(), 0);
+}
+
+void FaultInjector::end_all() {
+  for (std::size_t i = 0; i < faults_.size(); ++i)
+    if (is_on(i) && row_of(faults_[i].kind).can_end) faults_[i].for_slots = 0;
+}
 
 bool FaultInjector::holds(const FaultCondition& when, std::uint32_t slot, const TrueMotion& arm,
                           const Drives& drives) const {

@@ -36,6 +36,10 @@ class FaultInjector {
 
   explicit FaultInjector(std::vector<FaultConfig> faults);
 
+  // Adds faults to the list while the bench runs.
+  void add(const std::vector<FaultConfig>& more);
+  // Ends with the next step all that is on and can end.
+  void end_all();
   // At the start of every slot, in ascending order: the arm as it truly is now.
   void step(std::uint32_t slot, const TrueMotion& arm, Drives& drives);
 

@@ -35,6 +35,8 @@ class Plant {
   virtual ~Plant() = default;
 
   virtual const Drives& drives() const = 0;
+  // Throws std::runtime_error naming the first fault that cannot happen to this arm.
+  virtual void refuse(const std::vector<FaultConfig>& faults) const = 0;
   // Faults that begin or end with this slot.
   virtual void inject(std::uint32_t slot, FaultInjector& injector) = 0;
   // What the drives hear and say.

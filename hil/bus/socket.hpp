@@ -24,6 +24,10 @@ class Socket {
 // then. Throws std::runtime_error when the path is too long.
 Socket connect_local(const std::string& path, int patience_ms);
 
+// Listens at an AF_UNIX SOCK_SEQPACKET socket that only this user may use; accept does not wait. Throws
+// std::runtime_error when that cannot be.
+Socket listen_local(const std::string& path);
+
 // Asks all loops to end; set by SIGINT and SIGTERM after end_on_signals().
 bool end_requested();
 void end_on_signals();

@@ -160,10 +160,11 @@ bool names_drives(const KindOfFault& kind) {
   return kind.of == FaultOf::kDrive || kind.of == FaultOf::kCable || kind.of == FaultOf::kBase;
 }
 
-FaultConfig read_fault(const JsonFile& file, const std::string& field, std::size_t drive_count,
-                       std::size_t theta_count) {
+// What a fault is, without when it begins.
+FaultConfig read_what(const JsonFile& file, const std::string& field, std::size_t drive_count,
+                      std::vector<std::string> allowed) {
   const KindOfFault& kind = read_kind(file, field + "/kind");
-  std::vector<std::string> allowed{"kind", "at_slot", "when"};
+  allowed.emplace_back("kind");
   if (names_drives(kind)) allowed.emplace_back("drive");
   if (kind.can_end) allowed.emplace_back("for_slots");
   for (const FaultValue& parameter : kind.values) allowed.emplace_back(parameter.name);
@@ -173,12 +174,18 @@ FaultConfig read_fault(const JsonFile& file, const std::string& field, std::size
   if (names_drives(kind)) fault.drives = read_drives(file, field + "/drive", drive_count);
   fault.kind = kind.kind;
   fault.name = kind.name;
+  if (file.has(field + "/for_slots")) fault.for_slots = read_slots(file, field + "/for_slots", 1);
+  fault.parameters = read_parameters(file, field, kind);
+  return fault;
+}
+
+FaultConfig read_fault(const JsonFile& file, const std::string& field, std::size_t drive_count,
+                       std::size_t theta_count) {
+  FaultConfig fault = read_what(file, field, drive_count, {"at_slot", "when"});
   if (file.has(field + "/at_slot") == file.has(field + "/when"))
     file.fail(field, "needs exactly one of at_slot and when");
   if (file.has(field + "/at_slot")) fault.at_slot = read_slots(file, field + "/at_slot", 0);
   if (file.has(field + "/when")) fault.when = read_condition(file, field + "/when", theta_count);
-  if (file.has(field + "/for_slots")) fault.for_slots = read_slots(file, field + "/for_slots", 1);
-  fault.parameters = read_parameters(file, field, kind);
   return fault;
 }
 
@@ -203,6 +210,17 @@ std::vector<FaultConfig> load_faults(const std::string& path, std::size_t drive_
   std::vector<FaultConfig> faults;
   for (std::size_t i = 0; i < file.size(""); ++i)
     faults.push_back(read_fault(file, "/" + std::to_string(i), drive_count, theta_count));
+  return faults;
+}
+
+std::vector<FaultConfig> faults_at(std::uint32_t slot, const std::string& text, std::size_t drive_count) {
+  const JsonFile list = JsonFile::of_text("faults", text);
+  if (!list.is_list("")) list.fail("", "is no list of faults; send one");
+  std::vector<FaultConfig> faults;
+  for (std::size_t i = 0; i < list.size(""); ++i) {
+    faults.push_back(read_what(list, "/" + std::to_string(i), drive_count, {}));
+    faults.back().at_slot = slot;
+  }
   return faults;
 }
 

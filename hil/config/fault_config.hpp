@@ -129,4 +129,7 @@ void refuse_payload_faults(const std::vector<FaultConfig>& faults, const std::st
 // Reads a JSON list of faults; throws std::runtime_error naming file, field, value and what is allowed.
 std::vector<FaultConfig> load_faults(const std::string& path, std::size_t drive_count, std::size_t theta_count);
 
+// The same of a text whose faults all begin at `slot`: they have neither at_slot nor when.
+std::vector<FaultConfig> faults_at(std::uint32_t slot, const std::string& text, std::size_t drive_count);
+
 }  // namespace liana::bench

@@ -127,9 +127,11 @@ const std::vector<KindOfFault>& kinds_of_faults() {
   return all;
 }
 
-FaultOf fault_of(FaultKind kind) {
+const KindOfFault& row_of(FaultKind kind) {
   const auto& all = kinds_of_faults();
-  return std::find_if(all.begin(), all.end(), [kind](const KindOfFault& one) { return one.kind == kind; })->of;
+  return *std::find_if(all.begin(), all.end(), [kind](const KindOfFault& one) { return one.kind == kind; });
 }
+
+FaultOf fault_of(FaultKind kind) { return row_of(kind).of; }
 
 }  // namespace liana::bench

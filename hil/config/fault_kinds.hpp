@@ -28,4 +28,7 @@ struct KindOfFault {
 
 const std::vector<KindOfFault>& kinds_of_faults();
 
+// The row of a kind.
+const KindOfFault& row_of(FaultKind kind);
+
 }  // namespace liana::bench

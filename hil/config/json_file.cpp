@@ -44,7 +44,22 @@ JsonFile::JsonFile(std::string path, const std::string& kind)
     throw std::runtime_error(path_ + ": is no ordinary file; check the path");
   std::ifstream stream(path_);
   if (!stream) throw std::runtime_error(path_ + ": cannot be opened; check the path");
-  const std::string content{std::istreambuf_iterator<char>(stream), {}};
+  parse({std::istreambuf_iterator<char>(stream), {}});
+  if (kind.empty()) return;
+  if (text("/kind") != kind)
+    fail("/kind", "is \"" + text("/kind") + "\", expected \"" + kind + "\"; pass the right file");
+  integer("/format", 1, 1);
+}
+
+JsonFile::JsonFile(std::string name) : path_(std::move(name)), document_(std::make_unique<Document>()) {}
+
+JsonFile JsonFile::of_text(std::string name, const std::string& text) {
+  JsonFile file(std::move(name));
+  file.parse(text);
+  return file;
+}
+
+void JsonFile::parse(const std::string& content) {
   try {
     document_->root = json::parse(content);
   } catch (const json::out_of_range&) {
@@ -54,12 +69,9 @@ JsonFile::JsonFile(std::string path, const std::string& kind)
   } catch (const json::exception& error) {
     throw std::runtime_error(path_ + ": is not JSON: " + error.what() + "; write it with `liana-mission eval`");
   }
-  if (kind.empty()) return;
-  if (text("/kind") != kind)
-    fail("/kind", "is \"" + text("/kind") + "\", expected \"" + kind + "\"; pass the right file");
-  integer("/format", 1, 1);
 }
 
+JsonFile::JsonFile(JsonFile&&) noexcept = default;
 JsonFile::~JsonFile() = default;
 
 void JsonFile::fail(const std::string& field, const std::string& why) const {

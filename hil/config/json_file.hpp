@@ -15,7 +15,10 @@ class JsonFile {
   // Reads and parses; throws std::runtime_error when the file cannot be read, is no JSON, or its "kind" is not `kind`
   // (empty: not asked).
   JsonFile(std::string path, const std::string& kind);
+  // The same of a text that came otherwise; `name` is what complaints call it.
+  static JsonFile of_text(std::string name, const std::string& text);
   ~JsonFile();
+  JsonFile(JsonFile&&) noexcept;
   JsonFile(const JsonFile&) = delete;
   JsonFile& operator=(const JsonFile&) = delete;
 
@@ -39,6 +42,9 @@ class JsonFile {
 
  private:
   struct Document;
+  explicit JsonFile(std::string name);
+  void parse(const std::string& content);
+
   std::string path_;
   std::unique_ptr<Document> document_;
 };

@@ -62,12 +62,17 @@ TorquePlant::TorquePlant(const SerialRobotConfig& robot, const SceneConfig& scen
       rotors_(robot.joints.size()),
       sensor_(bus_of_nodes(buses), options.spread, seed),
       adapter_node_(bus_of_nodes(buses)) {
-  refuse_for_serial(options, faults);
-  if (!scene.payload) refuse_payload_faults(faults, "; the scene has none");
+  refuse_for_serial(options);
+  refuse(faults);
   if (const auto from_rad = fetch_rad(robot, scene))
     way_ = CarryTravel{*from_rad, robot.base->joint_rad, robot.base->carry_s};
   if (scene.payload) make_site(scene, seed);
   drives_.measure(chain_);
+}
+
+void TorquePlant::refuse(const std::vector<FaultConfig>& faults) const {
+  refuse_for_serial(faults);
+  if (!scene_.payload) refuse_payload_faults(faults, "; the scene has none");
 }
 
 // A payload that begins on the arm is before the adapter as the table has it, whatever else the arm truly is: the

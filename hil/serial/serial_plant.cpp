@@ -15,10 +15,13 @@ constexpr double kLongestStep_s = 0.001;  // of the position servos; their time 
 constexpr double kStribeck_rad_s = 1e-3;  // below this rate Coulomb friction fades
 }  // namespace
 
-void refuse_for_serial(const ModelOptions& options, const std::vector<FaultConfig>& faults) {
+void refuse_for_serial(const std::vector<FaultConfig>& faults) {
   refuse_faults(faults, {FaultOf::kCable, FaultOf::kBase, FaultOf::kBody},
                 "happens to cables, base or body of a cable arm, and this is a serial one; allowed are the drives' own "
                 "faults");
+}
+
+void refuse_for_serial(const ModelOptions& options) {
   if (options.gravity_share != 0.0 || options.linkage_error != 0.0)
     throw std::runtime_error("--gravity, --linkage-error: a serial arm's bench has neither; leave them out");
   if (!options.cross_wired.empty())
@@ -32,10 +35,15 @@ SerialPlant::SerialPlant(const SerialRobotConfig& robot, const SceneConfig& scen
       chain_(arm_.robot),
       drives_(arm_, buses, options.spread, seed),
       torque_Nm_(robot.joints.size(), 0.0) {
-  refuse_for_serial(options, faults);
-  refuse_payload_faults(faults, ": it needs torque drives and a scene with payload and adapter");
+  refuse_for_serial(options);
+  refuse(faults);
   chain_.place(drives_.joint_rad());
   drives_.measure(torque_Nm_);
+}
+
+void SerialPlant::refuse(const std::vector<FaultConfig>& faults) const {
+  refuse_for_serial(faults);
+  refuse_payload_faults(faults, ": it needs torque drives and a scene with payload and adapter");
 }
 
 void SerialPlant::inject(std::uint32_t slot, FaultInjector& injector) {

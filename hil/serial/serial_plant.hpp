@@ -10,8 +10,9 @@
 
 namespace liana::bench {
 
-// Throws std::runtime_error for options and faults that mean nothing to any serial arm.
-void refuse_for_serial(const ModelOptions& options, const std::vector<FaultConfig>& faults);
+// Throw std::runtime_error for options and faults that mean nothing to any serial arm.
+void refuse_for_serial(const ModelOptions& options);
+void refuse_for_serial(const std::vector<FaultConfig>& faults);
 
 class SerialPlant final : public Plant {
  public:
@@ -20,6 +21,7 @@ class SerialPlant final : public Plant {
               const ModelOptions& options, const std::vector<FaultConfig>& faults, std::uint64_t seed);
 
   const Drives& drives() const override { return drives_; }
+  void refuse(const std::vector<FaultConfig>& faults) const override;
   void inject(std::uint32_t slot, FaultInjector& injector) override;
   void exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out) override;
   void integrate(double period_s) override;

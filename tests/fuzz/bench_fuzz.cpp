@@ -12,6 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::string_view text = fuzz::text_of(data, size);
   const unsigned which = fuzz::choice(text) % 5;
   const std::string& path = file.with(text);
+  if (which == 0) fuzz::refusing([&] { bench::faults_at(7, std::string(text), 15); });
   return fuzz::refusing([&] {
     if (which == 0) bench::load_faults(path, 15, 10);
     if (which == 1) bench::load_robot(path);

@@ -5,7 +5,8 @@ import { ACTIONS, roleBlocked } from '../../host/apps/web/src/steer/actions';
 import { LEAD_S, nextGoal, sumOf, towards } from '../../host/apps/web/src/steer/jog';
 import { actionOf, isField, type Direction } from '../../host/apps/web/src/steer/keyboard';
 import { hasMoved, length_m, pointsOfPlan, tipWay_m, wayText } from '../../host/apps/web/src/steer/planner_offer';
-import { ARM, near } from './support';
+import { drivesFor, faultText, kindsFor } from '../../host/apps/web/src/steer/practice_panel';
+import { ARM, MICRO, near } from './support';
 
 const limits = { tip_speed_m_s: 0.1, tip_rate_deg_s: 20 };
 const speed = { tip_m_s: 0.05, turn_rad_s: 0.1, inTip: false };
@@ -110,4 +111,20 @@ test('a planned way is good for where the arm stands, and for nothing else', () 
 test('a plan is carried out only where it has points of this arm', () => {
   assert.deepEqual(pointsOfPlan('{"waypoints_deg":[[0,1],[2,3]]}', 2), [[0, 1], [2, 3]]);
   for (const text of ['{', '{}', '{"waypoints_deg":[]}', '{"waypoints_deg":[[0]]}', '{"waypoints_deg":[[0,null]]}', 'null']) assert.throws(() => pointsOfPlan(text, 2), /liana plan --out/);
+});
+
+test('faults to practise with are those that can happen to the arm', () => {
+  assert.deepEqual(kindsFor(MICRO).filter((kind) => kind.ofCable), []);
+  const [cable, drive] = [true, false].map((ofCable) => kindsFor(ARM).find((kind) => !!kind.ofCable === ofCable)!);
+  assert.deepEqual(drivesFor(ARM, cable), Array.from({ length: 15 }, (_, i) => i + 1));
+  assert.deepEqual(drivesFor(MICRO, drive), [1, 2, 3, 4, 5, 6, 7]);
+  const fed = { ...ARM, base: { slide_m_per_deg: 0.01, limit_deg: 90 } } as typeof ARM;
+  assert.deepEqual([drivesFor(fed, cable)[0], drivesFor(fed, drive)[0]], [3, 1]);
+});
+
+test('a fault that is on is said with its drive and how it ends', () => {
+  assert.equal(faultText({ kind: 'silent', drives: [4], can_end: true }, ARM), 'a drive is lost: drive 4 (node 4, segment 2), until it is repaired');
+  assert.match(faultText({ kind: 'cable_break', drives: [5], can_end: false }, ARM), /drive 5 .*, until the console is started again$/);
+  assert.match(faultText({ kind: 'fault', drives: [5], can_end: false }, ARM), /, once$/);
+  assert.equal(faultText({ kind: 'camera_frozen', drives: [], can_end: true }, ARM), 'camera frozen, until it is repaired');
 });

@@ -588,6 +588,11 @@ class TheCommandConsole(SystemTest):
         console = self.console(process.stdout.readline().strip())
         console.enable()
         self.assertEqual(console.facts["owner"], "test")
+        self.assertTrue(console.welcome["practice"])
+        self.assertEqual(
+            console.call("practice", faults=[{"kind": "late", "drive": 2, "cycles": 1}])["on"][0]["drives"], [2]
+        )
+        self.assertEqual(console.call("practice", end=True)["on"], [])
         (recorder,) = self.children_of(process, "liana-archive")
         os.kill(recorder, signal.SIGKILL)
         wait_until(lambda: self.children_of(process, "liana-archive") not in ([], [recorder]), "another recorder")
@@ -611,6 +616,8 @@ class TheCommandConsole(SystemTest):
         told = json.loads(process.stdout.readline())
         self.assertEqual(told["api"], api)
         console = self.console(told["address"]).until(lambda me: me.state)
+        self.assertNotIn("practice", console.welcome)  # this gateway knows of no simulator
+        self.assertEqual(console.ask("practice", faults=[])["code"], "refused")
         os.kill(*self.children_of(process, "liana-gateway"), signal.SIGKILL)
         with self.assertRaises(OSError):
             console.until(lambda me: False)

@@ -55,7 +55,9 @@ int attach(const ConsoleOptions& options, const std::string& api) {
 void simulate_and_show(const ConsoleOptions& options, const launcher::SystemLayout& plan) {
   launcher::ConsoleSession session(plan);
   session.start();
-  const launcher::GatewayProcess gateway(plan.api_socket(), options.gateway, plan.file("liana-gateway.log"));
+  launcher::GatewayOptions with = options.gateway;
+  with.practice = plan.practice_socket();
+  const launcher::GatewayProcess gateway(plan.api_socket(), with, plan.file("liana-gateway.log"));
   tell(options, plan.api_socket(), gateway.address());
   while (session.go_on()) {
   }
@@ -64,7 +66,7 @@ void simulate_and_show(const ConsoleOptions& options, const launcher::SystemLayo
 int simulate(const ConsoleOptions& options) {
   launcher::RunOptions run = options.wish.run;
   run.time = "paced";
-  run.is_session = true;
+  run.is_session = run.is_practice = true;
   const launcher::SystemLayout plan = launcher::make_layout(run);
   try {
     simulate_and_show(options, plan);

@@ -14,7 +14,7 @@ constexpr double kOld_s = 5.0;                  // a state that nothing followed
 }  // namespace
 
 Gateway::Gateway(const std::string& api, const std::string& devices, const Tokens* tokens, bool is_loopback,
-                 std::function<double()> now_s, std::string planner)
+                 std::function<double()> now_s, Programs programs)
     : now_s_(std::move(now_s)),
       feed_(poller_, api, [this] { wake_all(); }),
       house_{poller_,
@@ -27,7 +27,7 @@ Gateway::Gateway(const std::string& api, const std::string& devices, const Token
              [this](std::string_view what, const std::string& address, std::string_view detail) {
                refused(what, address, detail);
              },
-             std::move(planner)} {}
+             std::move(programs)} {}
 
 void Gateway::run_ready() {
   poller_.run_ready();

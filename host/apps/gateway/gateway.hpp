@@ -22,9 +22,9 @@ class Gateway {
   static constexpr std::size_t kMaxStrangers = 16;  // that have not; the oldest makes room for another
 
   // `api`, `devices`: sockets of lianad, which need not be there yet. `tokens` (nullptr: none asked for) must outlive
-  // this. `now_s`: any clock that never goes back. `planner`: path of `liana`.
+  // this. `now_s`: any clock that never goes back.
   Gateway(const std::string& api, const std::string& devices, const Tokens* tokens, bool is_loopback,
-          std::function<double()> now_s, std::string planner = {});
+          std::function<double()> now_s, Programs programs = {});
 
   // What the gateway waits for besides clients; its owner may add to it.
   Poller& poller() { return poller_; }

@@ -20,7 +20,7 @@ using namespace liana::gateway;
 constexpr int kNice = 5;  // whatever clients do here, lianad has its turn first
 
 struct Options {
-  std::string api, devices, listen = "127.0.0.1:8765", token_file, certificate, key, runs, page;
+  std::string api, devices, listen = "127.0.0.1:8765", token_file, certificate, key, runs, page, practice;
 };
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -56,7 +56,7 @@ int run(const Options& options) {
   ::setpriority(PRIO_PROCESS, 0, kNice);
   const std::string devices = options.devices.empty() ? liana::device::devices_path(options.api) : options.devices;
   Gateway gateway(options.api, devices, tokens ? &*tokens : nullptr, listen.is_loopback(), now_s,
-                  liana::install_paths::program_folder() + "/liana");
+                  {liana::install_paths::program_folder() + "/liana", options.practice});
   const std::string page = options.page.empty() ? liana::install_paths::page_file("console.html") : options.page;
   WebServer server({listen, options.certificate, options.key, page, options.runs}, gateway);
   std::puts(server.address().c_str());
@@ -77,6 +77,7 @@ int main(int argc, char** argv) {
   line.option("--key", options.key, "its key, PEM");
   line.option("--page", options.page, "file that / shows; where not given the built console");
   line.option("--runs", options.runs, "folder of recorded runs that /runs and /run/NAME show; none where not given");
+  line.option("--practice", options.practice, "socket of liana-bench --practice: clients may let faults happen");
   if (const auto code = line.parse(argc, argv)) return *code;
   try {
     return run(options);

@@ -106,7 +106,8 @@ void Session::hello(const Json& message) {
   operator_.emplace(house_.poller, house_.api, name_, "operator", reply);
   handles_.emplace(house_.poller, house_.devices, name_,
                    [this](const std::string& why) { answer(refusal(std::nullopt, "refused", why)); });
-  planner_.emplace(house_.planner, reply);
+  planner_.emplace(house_.programs.planner, reply);
+  practice_.emplace(house_.poller, house_.programs.practice, reply);
   something_to_send_();
 }
 
@@ -131,6 +132,7 @@ void Session::request(const Json& message, std::optional<std::int64_t> id, doubl
   }
   if (op == "device") return device(wanted, id);
   if (op == "plan" || op == "end_plan") return plan(wanted, id, now_s);
+  if (op == "practice") return practice_->ask(wanted, id);
   if (op == "use_device") choose(wanted);
   (op == "operator_says" ? operator_ : client_)->ask(wanted, id);
   if (op != "release") return;
@@ -265,6 +267,7 @@ std::string Session::welcome() const {
   message["role"] = access_name(access_);
   message["name"] = name_;
   if (!ticket_.empty()) message["ticket"] = ticket_;
+  if (!house_.programs.practice.empty()) message["practice"] = true;
   return message.dump();
 }
 

@@ -15,10 +15,17 @@
 #include "host/apps/gateway/feed.hpp"
 #include "host/apps/gateway/handles.hpp"
 #include "host/apps/gateway/planner.hpp"
+#include "host/apps/gateway/practice.hpp"
 #include "host/apps/gateway/requester.hpp"
 #include "host/apps/gateway/stop_call.hpp"
 
 namespace liana::gateway {
+
+// What a gateway knows besides lianad.
+struct Programs {
+  std::string planner = {};   // path of `liana`
+  std::string practice = {};  // socket of the bench that takes faults; empty: the arm is not simulated here
+};
 
 // What all sessions share; outlives them.
 struct House {
@@ -29,7 +36,7 @@ struct House {
   bool is_loopback = false;                                         // the gateway listens there
   std::function<std::string(const std::string& wanted)> free_name;  // one that no other client has
   std::function<void(std::string_view what, const std::string& address, std::string_view detail)> refused;
-  std::string planner = {};  // path of `liana`
+  Programs programs = {};
 };
 
 // What is to be sent next; good until the session is asked again.
@@ -103,6 +110,7 @@ class Session {
   std::optional<Requester> client_, operator_;
   std::optional<Handles> handles_;
   std::optional<Planner> planner_;
+  std::optional<Practice> practice_;
   End end_;
 
   std::deque<std::string> answers_;

@@ -72,6 +72,7 @@ void GatewayProcess::start(const std::string& listen) {
   add("--token-file", options_.token_file);
   add("--cert", options_.certificate);
   add("--key", options_.key);
+  add("--practice", options_.practice);
   add("--runs", runs_folder());
   child_ = std::make_unique<ChildProcess>("liana-gateway", argv, log_file_);
   wait_until_it_listens();

@@ -14,6 +14,7 @@ namespace liana::launcher {
 struct GatewayOptions {
   std::string listen;                        // ADDR:PORT; empty: 127.0.0.1:8765, where that is taken a free port
   std::string token_file, certificate, key;  // empty: none
+  std::string practice;                      // socket of the bench that takes faults; empty: none
 };
 
 // It is looked after: when it dies it is started again at the same address, at once, and then ever less often as long

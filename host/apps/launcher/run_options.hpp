@@ -33,6 +33,7 @@ struct RunOptions {
   std::string report_file;     // empty: a summary on standard output; "-": JSON on standard output
   bool has_console = false;    // liana-gateway runs beside it and its address is told
   bool is_session = false;     // a person steers it, live: recorded as a mission is, without logs of the buses
+  bool is_practice = false;    // the simulated arm takes faults by a socket
   bool is_lean = false;        // no archive, no traffic of the buses, nothing that lasts after a success
   bool is_dry_run = false;     // liana check: no logs of the buses, quicker physics, what verification took
   OperatorChoice people;       // who steers a mission

@@ -156,6 +156,7 @@ ProgramCall bench_call(const SystemLayout& plan, const RunOptions& options, bool
   if (!fixture.empty()) append(call.argv, {"--jig"});
   if (!options.cross_wired.empty()) append(call.argv, {"--cross-wired", options.cross_wired});
   if (!options.faults.empty()) append(call.argv, {"--faults", options.faults});
+  if (options.is_practice) append(call.argv, {"--practice", plan.practice_socket()});
   if (!options.scene_offset.empty()) append(call.argv, {"--scene-offset", options.scene_offset});
   if (options.gravity_share != 0.0) append(call.argv, {"--gravity", std::to_string(options.gravity_share)});
   if (options.linkage_error != 0.0) append(call.argv, {"--linkage-error", std::to_string(options.linkage_error)});

@@ -42,6 +42,7 @@ struct SystemLayout {
   std::string operator_file() const { return file("operator.json"); }
   std::string verify_times_file() const { return file("verify_times.txt"); }
   std::string bus_socket() const { return socket_dir + "/bus"; }
+  std::string practice_socket() const { return socket_dir + "/practice"; }
 };
 
 // Evaluates and checks tables and mission, makes the directories, writes the tables there. Without a mission there is

@@ -48,8 +48,7 @@ export function start(program, args) {
 // A simulated arm without a mission, and its console.
 export async function startConsole(...args) {
   const system = start(liana, ['console', '--simulate', '--listen', `127.0.0.1:${freePort()}`, '--json', ...args]);
-  const { address } = JSON.parse(await system.line(/"address"/));
-  return { ...system, address };
+  return { ...system, ...JSON.parse(await system.line(/"address"/)) }; // api, address
 }
 
 let nextPort = 20000 + (process.pid % 20000);

@@ -19,6 +19,7 @@ import { actionOf, isField } from '../steer/keyboard';
 import { MissionPanel } from '../steer/mission_panel';
 import { MotionPanel } from '../steer/motion_panel';
 import type { PlannerOffer } from '../steer/planner_offer';
+import { PracticePanel } from '../steer/practice_panel';
 import { ShapePanel } from '../steer/shape_panel';
 import { h, setText } from '../ui/dom';
 import { PushCard } from '../ui/push_card';
@@ -149,8 +150,9 @@ export class LivePage {
     const jog = new JogPanel(this.live, this.jogger, ask);
     const shape = welcome.robot.kind === 'serial' ? null : new ShapePanel(this.live, welcome.robot, ask);
     this.panels = [motion, mission, device, joints, ...(shape ? [shape] : [])];
+    const practice = welcome.practice ? [new PracticePanel(welcome.robot, this.connection)] : [];
     this.pushCard = new PushCard(welcome.scene);
-    const cards = [mission, motion, this.pushCard, device, jog, joints, ...(shape ? [shape] : [])];
+    const cards = [mission, motion, this.pushCard, device, jog, joints, ...(shape ? [shape] : []), ...practice];
     const steer = h('div', { class: 'panel' }, ...cards.map(({ element }) => element));
     const goTo = (time_s: number) => this.historyScrubber.goTo(time_s);
     this.plots = new LivePlots(this.live, welcome, theme, goTo);

@@ -20,6 +20,7 @@ export interface Welcome {
   time_mode: string;
   layout: Layout;
   ticket?: string; // for recorded runs, where tokens are asked for
+  practice?: boolean; // the arm is simulated, and faults can be let happen
 }
 
 export interface Answer {
@@ -38,6 +39,13 @@ export interface PlannedWay {
   duration_s: number;
   min_clearance_m: number | null; // null: nothing is in the scene
   nearest: string;
+}
+
+// A fault of the simulated arm that is on.
+export interface FaultOn {
+  kind: string;
+  drives: number[]; // from 1
+  can_end: boolean;
 }
 
 export type FromPlanner = { op: 'plan' } & ({ phase: 'planning'; for_s: number; text: string } | { phase: 'none'; text: string } | ({ phase: 'found' } & PlannedWay));
