@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "host/base/file/in_file.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::server {
@@ -31,6 +32,7 @@ LossFile::LossFile(std::string path, std::string robot, std::size_t drives)
     : path_(std::move(path)), robot_(std::move(robot)) {
   if (!std::filesystem::exists(path_)) return;
   try {
+    file::require_ordinary(path_);
     std::ifstream file(path_);
     std::ostringstream text;
     text << file.rdbuf();
