@@ -70,7 +70,7 @@ TEST(FeedMonitor, AForceBeyondWhatMotionAndLoadExplainIsNamedAfterFiveTicks) {
       {"a hair beyond, pulling, long enough", kPrepared, 1.0, 1, kFeedDebounceTicks, true},
       {"a hair beyond, pushing, long enough", kPrepared, -1.0, -1, kFeedDebounceTicks, true},
       {"beyond, a tick too short", kPrepared, 1.0, 1, kFeedDebounceTicks - 1, false},
-      {"before the arm is prepared nobody knows the load", kPowered, 2.0, 0, 100, false},
+      {"not prepared: load is unknown", kPowered, 2.0, 0, 100, false},
       {"brakes carry what they carry", kOff, 2.0, 0, 100, false},
   };
   for (const std::int32_t drive : {0, 1}) {

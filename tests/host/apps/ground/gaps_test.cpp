@@ -101,7 +101,7 @@ TEST(Gaps, OfAnOnBoardEndThatCountsAnewAreNoLoss) {
   };
   const Row rows[] = {
       {"from its first packet on", 9000, 0},        {"its first packets had no reader yet", 9000, 20},
-      {"after a wrap of the old counts", 40000, 3}, {"near the end of the old counts", 16380, 2},
+      {"after a wrap of the old counts", 40000, 3}, {"old counts near their end", 16380, 2},
       {"it has sent for a while", 9000, 8000},
   };
   for (const Row& row : rows) {
