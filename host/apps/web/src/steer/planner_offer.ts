@@ -10,7 +10,7 @@ import { refusalText } from '../model/outcome_text';
 import { angleCount, type Robot } from '../model/robot';
 import { lengthText, spoken } from '../model/text';
 import { distance } from '../model/vector';
-import { h, setText } from '../ui/dom';
+import { h, setClass, setText } from '../ui/dom';
 
 const FILE = 'way.json';
 const MAX_POINTS = 500; // of move_path
@@ -71,7 +71,7 @@ type Step = 'none' | 'refused' | 'planning' | 'found';
 
 export class PlannerOffer {
   readonly element: HTMLElement;
-  private readonly says = h('p', { class: 'warning', role: 'status' });
+  private readonly says = h('p', { role: 'status' });
   private readonly plan = h('button', { type: 'button', 'data-action': 'plan a way', title: 'nothing moves yet', onclick: () => void this.begin() }, 'plan a way');
   private readonly cancel = h('button', { type: 'button', 'data-action': 'cancel plan', onclick: () => void this.connection.request({ op: 'end_plan' }) }, 'cancel');
   private readonly carry = h('button', { type: 'button', 'data-action': 'carry out', title: 'checked as a whole, then carried out', onclick: () => this.carryOut() }, 'carry it out');
@@ -151,6 +151,7 @@ export class PlannerOffer {
     if (this.way) this.show(new Float32Array());
     this.way = null;
     setText(this.says, text);
+    setClass(this.says, 'warning', step === 'refused');
     this.offer.hidden = step === 'none';
     this.plan.hidden = step !== 'refused';
     this.cancel.hidden = step !== 'planning';
