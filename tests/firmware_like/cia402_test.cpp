@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "firmware_like/drive/ideal_drive.hpp"
 
 namespace liana {
 namespace {
@@ -167,6 +170,8 @@ TEST(Cia402, FaultResetMakesARisingEdgeEverySecondTickAndNeverHoldsTheBit) {
     word = controlword_for(DriveState::kFault, DriveGoal::kFaultReset, word);
     sent.push_back(word);
   }
+  EXPECT_EQ(controlword_for(DriveState::kReadyToSwitchOn, DriveGoal::kSwitchedOn, 0x0080), kSwitchOn)
+      << "an old edge spends no other word";
   EXPECT_EQ(sent, (std::vector<std::uint16_t>{0x0000, 0x0080, 0x0000, 0x0080}));
 }
 
@@ -209,10 +214,49 @@ TEST(Cia402, EveryStateHasItsOwnNameAndAtMostOneOfTorqueAndOff) {
     EXPECT_FALSE(has_torque(static_cast<DriveState>(state)) && is_off(static_cast<DriveState>(state)));
   }
   EXPECT_EQ(names.size(), static_cast<std::size_t>(kDriveStateCount));
-  EXPECT_TRUE(has_torque(DriveState::kOperationEnabled));
-  EXPECT_TRUE(has_torque(DriveState::kQuickStopActive));
-  EXPECT_FALSE(is_off(DriveState::kUnknown));
-  EXPECT_FALSE(is_off(DriveState::kSwitchedOn));
+}
+
+TEST(Cia402, TorqueAndOffAreThoseStatesAndNoOthers) {
+  // In the order of the figure, from kUnknown: t torque, o off, - neither.
+  const std::string expected = "-ooo-ttto";
+  for (std::int32_t i = 0; i < kDriveStateCount; ++i) {
+    const auto state = static_cast<DriveState>(i);
+    EXPECT_EQ(has_torque(state), expected[static_cast<std::size_t>(i)] == 't') << drive_state_name(state);
+    EXPECT_EQ(is_off(state), expected[static_cast<std::size_t>(i)] == 'o') << drive_state_name(state);
+  }
+}
+
+// A drive as the twin imagines it, answering what it is told a tick later.
+TEST(IdealDrive, TakesTargetAndTorqueWhileItIsEnabledAndKeepsBothOtherwise) {
+  const DriveFeedback last{0x1637, 30, 1000, 0, 9, 9, 0x8130, 1};
+  for (const std::uint16_t word : {kEnableOperation, kSwitchOn, kShutdown, kQuickStopCommand, kDisableVoltage}) {
+    const DriveFeedback next = ideal_feedback(last, {word, 1500}, 80);
+    const bool enabled = word == kEnableOperation;
+    EXPECT_EQ(next.position_counts, enabled ? 1500 : 1000) << word;
+    EXPECT_EQ(next.torque_permille, enabled ? 80 : 30) << word;
+    EXPECT_EQ(next.statusword == last.statusword, enabled) << "a drive that is there keeps its word";
+    EXPECT_EQ(next.feedback_age_ticks, 1);
+    EXPECT_EQ(next.heartbeat_age_ticks, 0);
+    EXPECT_EQ(next.emergency_code, 0);
+  }
+  EXPECT_EQ(ideal_feedback({0x0233}, {kEnableOperation, 7}, 0).statusword, 0x1237) << "from Switched on";
+  EXPECT_EQ(statusword_after(kSwitchOn, 0x0633), 0x0633) << "there already";
+}
+
+TEST(IdealDrive, ATorqueDriveMovesAsItsTargetDoesAndCatchesUpByATwentieth) {
+  struct Row {
+    std::int32_t position, target_before, target, next;
+  };
+  constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
+  constexpr std::int32_t kLeast = std::numeric_limits<std::int32_t>::min();
+  for (const Row& row : {Row{1000, 1400, 1450, 1070}, Row{1000, 600, 550, 930}, Row{1000, 1019, 1019, 1000},
+                         Row{1000, 1020, 1020, 1001}, Row{kMost, 0, kMost, kMost}, Row{kLeast, 0, kLeast, kLeast}}) {
+    DriveFeedback last{0x0237};
+    last.position_counts = row.position;
+    EXPECT_EQ(ideal_torque_feedback(last, {kEnableOperation, row.target}, row.target_before, 0).position_counts,
+              row.next);
+    EXPECT_EQ(ideal_torque_feedback(last, {kSwitchOn, row.target}, row.target_before, 0).position_counts, row.position);
+  }
 }
 
 }  // namespace

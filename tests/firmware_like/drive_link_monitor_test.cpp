@@ -60,11 +60,26 @@ TEST_F(WatchdogsOfAnArm, AHeartbeatMayBe300MillisecondsOld) {
   EXPECT_TRUE(has(faults_, FaultNumber::kDriveMissing, 5));
 }
 
-TEST_F(WatchdogsOfAnArm, ADriveUnderWhoseIdentifiersSomebodyElseSpeaksIsNamed) {
-  inputs_.twice_mask = 1u << 4;
-  EXPECT_EQ(run(kUnpowered), 1);
-  EXPECT_TRUE(has(faults_, FaultNumber::kNodeTwice, 4));
-  EXPECT_EQ(faults_.immediate, 1);
+// One age over its bound does not make the other wrong that is at its own.
+TEST_F(WatchdogsOfAnArm, AnAgeAtItsBoundIsNotBlamedForTheOther) {
+  inputs_.drive[0].feedback_age_ticks = 2;
+  inputs_.drive[0].heartbeat_age_ticks = 76;
+  inputs_.drive[kDrives - 1].feedback_age_ticks = 3;
+  inputs_.drive[kDrives - 1].heartbeat_age_ticks = 75;
+  EXPECT_EQ(run(kRunning), 2);
+  EXPECT_TRUE(has(faults_, FaultNumber::kDriveMissing, 0));
+  EXPECT_TRUE(has(faults_, FaultNumber::kDriveSilent, kDrives - 1));
+}
+
+TEST_F(WatchdogsOfAnArm, ADriveUnderWhoseIdentifiersSomebodyElseSpeaksIsNamedTheFirstAndTheLast) {
+  for (const int drive : {0, 4, kMaxDrives - 1}) {
+    faults_ = {};
+    inputs_.twice_mask = 1u << static_cast<std::uint32_t>(drive);
+    EXPECT_EQ(run(kUnpowered), 1);
+    EXPECT_TRUE(has(faults_, FaultNumber::kNodeTwice, static_cast<std::int16_t>(drive)));
+    EXPECT_EQ(faults_.fault[0].detail, 0);
+    EXPECT_EQ(faults_.immediate, 1);
+  }
 }
 
 // 6061 counts only with power: before, a drive may be in any mode.
@@ -84,6 +99,13 @@ TEST_F(WatchdogsOfAnArm, ADriveWithPowerThatShowsAnotherModeIsNamedTheFirstAndTh
     run(kRunning);
     EXPECT_FALSE(has(faults_, FaultNumber::kDriveOtherMode, static_cast<std::int16_t>(drive))) << "3004 says it";
   }
+}
+
+TEST(WatchFromStart, EveryDriveHasABitUpToTheLastThatFits) {
+  EXPECT_EQ(all_drives(0), 0U);
+  EXPECT_EQ(all_drives(1), 1U);
+  EXPECT_EQ(all_drives(kMaxDrives - 1), 0x7FFFFFFFU);
+  EXPECT_EQ(all_drives(kMaxDrives), 0xFFFFFFFFU);
 }
 
 TEST(WatchFromStart, ADriveThatIsNeverHeardIsWatchedAfterTheTimeOfAHeartbeat) {
@@ -108,6 +130,7 @@ TEST_F(WatchdogsOfAnArm, ADriveThatLeavesNmtOperationalIsReported) {
   inputs_.drive[0].operational = 0;
   run(kUnpowered);
   EXPECT_TRUE(has(faults_, FaultNumber::kDriveNotOperational, 0));
+  EXPECT_EQ(faults_.fault[0].detail, 0);
 }
 
 TEST_F(WatchdogsOfAnArm, FaultsOfOneTickAreLatchedBusesFirstThenDriveByDriveAsThePageOfPrioritiesSays) {
@@ -184,6 +207,17 @@ TEST_F(WatchdogsOfAnArm, AnOldEmergencyCodeIsNotBlamedForALaterFault) {
   EXPECT_EQ(faults_.fault[0].detail, 0);
 }
 
+TEST_F(WatchdogsOfAnArm, NorIsThatOfADriveWithoutPower) {
+  inputs_.drive[1].statusword = kStatusDisabled;
+  inputs_.drive[1].emergency_code = 0x8130;
+  run(kUnpowered);
+  inputs_.drive[1].emergency_code = 0;
+  run(kUnpowered);
+  inputs_.drive[1].statusword = kStatusFault;
+  run(kUnpowered);
+  EXPECT_EQ(faults_.fault[0].detail, 0);
+}
+
 TEST_F(WatchdogsOfAnArm, EveryStateButOperationEnabledIsLeavingOperationWhilePowered) {
   for (const std::uint16_t status :
        {kStatusDisabled, kStatusReady, kStatusSwitchedOn, kStatusQuickStop, std::uint16_t{0x0001}}) {
@@ -211,6 +245,31 @@ TEST_F(WatchdogsOfAnArm, TheFollowingWindowAllowsTheServosLagAtFullCableSpeed) {
     EXPECT_EQ(run(kRunning), 1);
     EXPECT_TRUE(has(faults_, FaultNumber::kFollowingError, 2));
   }
+}
+
+TEST_F(WatchdogsOfAnArm, EveryDriveHasItsOwnFollowingWindow) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i)
+    watchdogs_.link_limits.following_counts[i] = 100 * static_cast<std::int64_t>(i + 1);
+  for (const int side : {1, -1}) {
+    for (std::int16_t drive = 0; drive < kDrives; ++drive) {
+      const auto i = static_cast<std::size_t>(drive);
+      faults_ = {};
+      inputs_.drive[i].position_counts = 1000000 + side * 100 * (drive + 1);
+      for (int tick = 0; tick < kFollowingDebounceTicks; ++tick) EXPECT_EQ(run(kRunning), 0) << drive;
+      inputs_.drive[i].position_counts += side;
+      for (int tick = 0; tick < kFollowingDebounceTicks; ++tick) run(kRunning);
+      EXPECT_TRUE(has(faults_, FaultNumber::kFollowingError, drive));
+      EXPECT_EQ(faults_.count, 1);
+      EXPECT_EQ(faults_.fault[0].detail, 0);
+      inputs_.drive[i].position_counts = 1000000;
+    }
+  }
+}
+
+TEST_F(WatchdogsOfAnArm, ACauseThatStaysForMinutesStaysActive) {
+  inputs_.drive[0].position_counts = 0;
+  for (int tick = 0; tick < kFollowingDebounceTicks; ++tick) run(kRunning);
+  for (int tick = 0; tick < 0x10000; ++tick) ASSERT_EQ(run(kRunning), 1) << tick;
 }
 
 TEST_F(WatchdogsOfAnArm, ExtremePositionsDoNotOverflowTheFollowingError) {
@@ -297,11 +356,14 @@ TEST_F(WatchdogsOfAnArm, AMotorThatLetItsCableGoIsNoBreak) {
   EXPECT_TRUE(has(faults_, FaultNumber::kFollowingError, 3));
 }
 
-TEST_F(WatchdogsOfAnArm, EveryLostBusIsNamed) {
-  inputs_.lost_bus_mask = 0x80000002U;
-  EXPECT_EQ(run(kUnpowered), 2);
-  EXPECT_TRUE(has(faults_, FaultNumber::kBusLost, 1));
-  EXPECT_TRUE(has(faults_, FaultNumber::kBusLost, 31));
+TEST_F(WatchdogsOfAnArm, EveryLostBusIsNamedTheFirstAndTheLast) {
+  for (const int bus : {0, 1, 31}) {
+    faults_ = {};
+    inputs_.lost_bus_mask = 1u << static_cast<std::uint32_t>(bus);
+    EXPECT_EQ(run(kUnpowered), 1);
+    EXPECT_TRUE(has(faults_, FaultNumber::kBusLost, static_cast<std::int16_t>(bus)));
+    EXPECT_EQ(faults_.fault[0].detail, 0);
+  }
 }
 
 TEST_F(WatchdogsOfAnArm, TwoLostTicksInARowAreToleratedThreeAreNot) {

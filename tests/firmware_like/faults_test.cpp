@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <optional>
 #include <set>
 #include <string>
@@ -128,6 +129,18 @@ TEST(Faults, AFullListCountsTheRestAndStillRaisesTheStopCategory) {
   EXPECT_EQ(faults.immediate, 1);
 }
 
+TEST(Faults, ALesserFaultThatComesLaterDoesNotLowerTheStopCategory) {
+  FaultList faults{};
+  latch(faults, {FaultNumber::kDriveSilent, 0, 0, 1});
+  latch(faults, {FaultNumber::kCableSlack, 1, 0, 2});
+  EXPECT_EQ(faults.category, StopCategory::kStop);
+  EXPECT_EQ(faults.immediate, 1);
+  faults.dropped = std::numeric_limits<std::uint32_t>::max();
+  faults.count = FaultList::kCapacity;
+  latch(faults, {FaultNumber::kCableOverload, 0, 0, 3});
+  EXPECT_EQ(faults.dropped, std::numeric_limits<std::uint32_t>::max()) << "never none again";
+}
+
 TEST(Faults, ARetractNeedsEveryLatchedFaultToAllowItAndNoneThatIsUnknown) {
   FaultList faults{};
   EXPECT_TRUE(allow_retract(faults));
@@ -158,6 +171,9 @@ TEST(FaultCauses, ALostDriveIsTheCauseOfWhatMissesItAndOfNothingElse) {
   EXPECT_EQ(cause_of(list, 1), 0);
   EXPECT_EQ(cause_of(list, 2), std::nullopt) << "another drive";
   EXPECT_EQ(cause_of(list, 3), 0);
+  latch(list, {FaultNumber::kDriveLeftOperation, 4, 0, 401});
+  latch(list, {FaultNumber::kFollowingError, 4, 0, 402});
+  EXPECT_EQ(cause_of(list, 5), 4) << "the cause is not the first of the list";
 }
 
 TEST(FaultCauses, AConsequenceIsNotOlderThanItsCause) {

@@ -131,6 +131,53 @@ TEST_F(Gate, ADriveThatLetsGoMayTakeItsTargetBackToWhereTheMotorStands) {
   proposal_[1].target_counts = kZeroCounts + 600.0;
   proposal_[1].lets_go = false;
   expect_refused(GateCheck::kStepTooLarge, 1, "it does not say so");
+  proposal_[1].lets_go = true;
+  limits_.drive[1].let_go_counts = 0;
+  expect_refused(GateCheck::kStepTooLarge, 1, "no cable to let go");
+}
+
+TEST_F(Gate, TheWayBackToTheMotorIsBoundedOnBothSides) {
+  struct Row {
+    std::int32_t motor, target;  // from the target sent last
+    bool passes;
+    const char* why;
+  };
+  for (const std::int32_t sign : {1, -1}) {
+    limits_.drive[1].let_go_counts = -sign;  // its own jump is shorter than a step
+    proposal_[1].lets_go = true;
+    for (const Row& row : {Row{600, 651, true, "a step past the motor"}, Row{600, 652, false, "one count more"},
+                           Row{600, 52, true, "on the way"}, Row{600, -52, false, "away from it"},
+                           Row{0, 51, true, "a step"}, Row{0, 52, false, "the motor stands at the target"}}) {
+      feedback_[1].position_counts = kZeroCounts + sign * row.motor;
+      proposal_[1].target_counts = kZeroCounts + sign * row.target;
+      if (row.passes) {
+        expect_passed(row.why);
+      } else {
+        expect_refused(GateCheck::kStepTooLarge, 1, row.why);
+      }
+    }
+  }
+}
+
+TEST_F(Gate, EveryDriveIsJudgedByItsOwnLimitsAndLastCommand) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) {
+    const auto own = static_cast<double>(i);
+    limits_.drive[i].step_counts = kStep + static_cast<std::int64_t>(i);
+    limits_.drive[i].max_permille = kMost_permille + own;
+    previous_[i].target_counts = kZeroCounts + 1000 * static_cast<std::int32_t>(i);
+    proposal_[i].target_counts = previous_[i].target_counts + static_cast<double>(kStep) + own;
+    proposal_[i].torque_permille = kMost_permille + own;
+  }
+  expect_passed("each at its own limits");
+  goal_ = DriveGoal::kFaultReset;
+  for (DriveFeedback& drive : feedback_) drive.statusword = kStatusFault;
+  previous_[0].controlword = kFaultResetBit;
+  for (const bool live : {true, false}) {
+    live_ = live;
+    const GateResult result = judge();
+    EXPECT_EQ(result.command[0].controlword, kDisableVoltage) << "the edge of this drive is spent";
+    EXPECT_EQ(result.command[kDrives - 1].controlword, kFaultResetBit);
+  }
 }
 
 TEST_F(Gate, TargetsUpToTheRangeAreAllowedAndTheNextNumberIsNot) {

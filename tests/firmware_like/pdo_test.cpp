@@ -28,6 +28,20 @@ TEST(Pdo, Tpdo1IsStatuswordPositionTorqueLittleEndian) {
   EXPECT_EQ(encode_tpdo1(report), bytes);
 }
 
+TEST(Pdo, ATorqueDriveHasTorqueAndRateInItsCommandAndItsRateInASecondReport) {
+  const DriveCommand sent{0x800F, 77, -2, 0x12345678};
+  const std::array<std::uint8_t, 8> bytes{0x0F, 0x80, 0xFE, 0xFF, 0x78, 0x56, 0x34, 0x12};
+  EXPECT_EQ(encode_torque_rpdo1(sent), bytes);
+  DriveCommand received{};
+  ASSERT_TRUE(decode_torque_rpdo1(bytes, received));
+  EXPECT_EQ(received.controlword, sent.controlword);
+  EXPECT_EQ(received.torque_permille, sent.torque_permille);
+  EXPECT_EQ(received.rate_counts_s, sent.rate_counts_s);
+  std::int32_t rate_counts_s = 0;
+  ASSERT_TRUE(decode_tpdo2(std::array<std::uint8_t, 4>{0xFE, 0xFF, 0xFF, 0xFF}, rate_counts_s));
+  EXPECT_EQ(rate_counts_s, -2);
+}
+
 TEST(Pdo, WhatIsEncodedIsDecodedForExtremesAndRandomValues) {
   std::mt19937 random(402);
   std::vector<std::int32_t> positions{0, 1, -1, kIntMax, kIntMin};
@@ -60,6 +74,12 @@ TEST(Pdo, AFrameOfAnyOtherLengthIsRefusedAndChangesNothing) {
     Tpdo1 without{7, 7, 7};
     EXPECT_EQ(decode_tpdo1(data, without, false), length == 6) << "of a drive that reports no torque";
     EXPECT_EQ(without.torque_permille, length == 6 ? 0 : 7);
+    DriveCommand of_torque{7, 7, 7, 7};
+    std::int32_t rate_counts_s = 7;
+    EXPECT_EQ(decode_torque_rpdo1(data, of_torque), length == 8);
+    EXPECT_EQ(decode_tpdo2(data, rate_counts_s), length == 4);
+    EXPECT_EQ(of_torque.rate_counts_s == 7, length != 8);
+    EXPECT_EQ(rate_counts_s == 7, length != 4);
   }
 }
 

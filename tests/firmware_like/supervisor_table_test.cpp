@@ -142,12 +142,32 @@ TEST(SupervisorTable, NothingMovesWithAFaultWhileADriveIsNotHeardOrTheArmNotHome
 }
 
 TEST(SupervisorTable, WhatMayMoveIsAskedOfTheKindOfCommand) {
-  for (const CommandKind kind : {CommandKind::kNone, CommandKind::kTip, CommandKind::kJoint, CommandKind::kHold,
-                                 CommandKind::kStop, CommandKind::kRetract}) {
+  // In the order of CommandKind: t tip, j joint, f force, - no goal.
+  const std::string kinds = "-tj--jff";
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    const auto kind = static_cast<CommandKind>(i);
+    EXPECT_EQ(is_joint(kind), kinds[i] == 'j') << i;
+    EXPECT_EQ(is_force(kind), kinds[i] == 'f') << i;
     EXPECT_FALSE(is_let_move(MayMove::kNothing, kind));
     EXPECT_EQ(is_let_move(MayMove::kRetract, kind), kind == CommandKind::kRetract);
-    EXPECT_EQ(is_let_move(MayMove::kEverything, kind), is_motion(kind));
+    EXPECT_EQ(is_let_move(MayMove::kEverything, kind), kinds[i] != '-') << i;
   }
+}
+
+TEST(SupervisorTable, AnArmWithoutACableOnlyRetractsAndNothingMovesBesideFaultsThatWereDropped) {
+  SupervisorState state{Phase::kEnabled, 0, 0, 0, {}};
+  FaultList faults{};
+  ArmStatus arm{true, true, true};
+  const auto ordered = [&] {
+    return supervise(kLimits, healthy(kStatusEnabled), arm, CommandKind::kNone, 0, state, faults).may_move;
+  };
+  EXPECT_EQ(ordered(), MayMove::kEverything);
+  arm.recovers = true;
+  EXPECT_EQ(ordered(), MayMove::kRetract);
+  latch(faults, {FaultNumber::kCableSlip, 1, 0, 1});
+  EXPECT_EQ(ordered(), MayMove::kRetract);
+  faults.dropped = 1;
+  EXPECT_EQ(ordered(), MayMove::kNothing);
 }
 
 TEST(Conditions, EveryBitHasItsOwnName) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "firmware_like/safety/gate.hpp"
@@ -117,16 +118,18 @@ TEST_F(Operation, NoBrakeOpensBeforeEveryDriveIsSwitchedOn) {
 }
 
 TEST_F(Operation, OneDriveThatDoesNotEnableAbortsAllWithinTheBudgetAndIsNamed) {
-  for (const std::uint16_t status : {kStatusDisabled, kStatusReady, kStatusSwitchedOn}) {
+  const std::pair<std::int16_t, std::uint16_t> cases[] = {
+      {0, kStatusDisabled}, {4, kStatusReady}, {kDrives - 1, kStatusSwitchedOn}};
+  for (const auto& [drive, status] : cases) {
     state_ = SupervisorState{};
     faults_ = FaultList{};
     inputs_ = healthy(kStatusDisabled, 0);
-    inputs_.drive[4].statusword = status;
-    stuck_drive_ = 4;
+    stuck_drive_ = static_cast<std::size_t>(drive);
+    inputs_.drive[stuck_drive_].statusword = status;
     tick(Request::kEnable);
     const int limit = static_cast<int>(2 * kTimeout_s.powering);
     EXPECT_LE(ticks_until(OperatingState::kStopping, limit), limit);
-    EXPECT_TRUE(has(faults_, FaultNumber::kDriveEnableTimeout, 4));
+    EXPECT_TRUE(has(faults_, FaultNumber::kDriveEnableTimeout, drive));
     EXPECT_EQ(faults_.fault[0].detail, status);
     EXPECT_EQ(faults_.count, 1);
     stuck_drive_ = kNoDrive;
@@ -147,6 +150,9 @@ TEST(PatienceOfTheSupervisor, IsTheSameInSecondsAtEveryRate) {
     EXPECT_EQ(ticks.off_budget, rate_hz);
     EXPECT_EQ(ticks.reset_budget, rate_hz);
   }
+  EXPECT_EQ(ticks_in(0.0, 1.0), 1U) << "at least one";
+  EXPECT_EQ(ticks_in(2.48, 1.0), 2U) << "the nearest whole tick";
+  EXPECT_EQ(ticks_in(2.52, 1.0), 3U);
 }
 
 TEST_F(Operation, APretensionRampThatNeverEndsIsATimeout) {
@@ -157,15 +163,43 @@ TEST_F(Operation, APretensionRampThatNeverEndsIsATimeout) {
   EXPECT_TRUE(has(faults_, FaultNumber::kDriveEnableTimeout, -1));
 }
 
-TEST_F(Operation, ACableThatTakesNoTensionIsNamedWithItsDrive) {
-  arm_.prepared = false;
-  arm_.slack = kDrives - 1;
-  tick(Request::kEnable);
-  const int limit = static_cast<int>(kTimeout_s.preparing) + 100;
-  EXPECT_LE(ticks_until(OperatingState::kFault, limit), limit);
-  ASSERT_EQ(faults_.count, 1);
-  EXPECT_EQ(faults_.fault[0].index, kDrives - 1);
-  EXPECT_EQ(decode(faults_.fault[0].detail), DriveState::kOperationEnabled) << "its statusword";
+TEST_F(Operation, ACableThatTakesNoTensionIsNamedWithItsDriveTheFirstAndTheLast) {
+  for (const int slack : {0, kDrives - 1, -1}) {
+    state_ = SupervisorState{Phase::kPreparing, kTimeout_s.preparing, 0, 0, {}};
+    faults_ = {};
+    arm_.prepared = false;
+    arm_.slack = static_cast<std::int16_t>(slack);
+    for (std::int16_t i = 0; i < kDrives; ++i)
+      inputs_.drive[static_cast<std::size_t>(i)].statusword = static_cast<std::uint16_t>(kStatusEnabled + (i << 8));
+    tick();
+    ASSERT_EQ(faults_.count, 1);
+    EXPECT_EQ(faults_.fault[0].index, slack);
+    EXPECT_EQ(faults_.fault[0].detail, slack < 0 ? 0 : kStatusEnabled + (slack << 8)) << "its statusword";
+  }
+}
+
+TEST_F(Operation, AnArmThatIsPreparedInTheLastTickOfItsTimeIsInTime) {
+  state_ = SupervisorState{Phase::kPreparing, kTimeout_s.preparing, 0, 0, {}};
+  inputs_ = healthy(kStatusEnabled);
+  EXPECT_EQ(tick().state, OperatingState::kEnabled);
+  EXPECT_EQ(faults_.count, 0);
+}
+
+TEST_F(Operation, SlackIsLookedForFromTheEndOfTheRampToTheBrakes) {
+  for (std::int32_t i = 0; i < kPhaseCount; ++i) {
+    SupervisorState state;
+    state.phase = static_cast<Phase>(i);
+    const WatchScope scope = watch_scope(state);
+    const bool moves = state.phase == Phase::kEnabled || state.phase == Phase::kPathStop;
+    EXPECT_EQ(scope.prepared, moves) << i;
+    EXPECT_EQ(scope.powered, moves || state.phase == Phase::kPreparing) << i;
+  }
+}
+
+TEST_F(Operation, AgesAtTheirBoundsDoNotKeepTheArmFromEnabling) {
+  inputs_.drive[0].feedback_age_ticks = inputs_.drive[kDrives - 1].feedback_age_ticks = 2;
+  inputs_.drive[0].heartbeat_age_ticks = inputs_.drive[kDrives - 1].heartbeat_age_ticks = 75;
+  EXPECT_EQ(tick(Request::kEnable).state, OperatingState::kEnabling);
 }
 
 struct Blocker {
@@ -396,6 +430,40 @@ TEST_F(Operation, AClearWhoseCauseIsStillThereReportsItAndStaysInFault) {
   EXPECT_EQ(orders_.state, OperatingState::kFault);
   EXPECT_EQ(state_.clear.missing, kNoDriveInFault | kCausesGone);
   EXPECT_EQ(faults_.count, 1);
+}
+
+TEST_F(Operation, AClearIsJudgedWhenTheDrivesHadTheirResetAndNotBefore) {
+  for (const Request asked : {Request::kClear, Request::kRecover}) {
+    state_ = SupervisorState{};
+    faults_ = {};
+    inputs_ = healthy(kStatusDisabled, 0);
+    latch(faults_, {FaultNumber::kDriveMissing, 0, 0, 1});
+    tick();
+    state_.stopped = StopCategory::kOff;  // of the stop that led here
+    tick(asked);
+    for (std::uint32_t i = 1; i < kResetTicks; ++i) {
+      EXPECT_EQ(orders_.stop_category, StopCategory::kOff) << "until it is cleared";
+      EXPECT_EQ(faults_.count, 1);
+      EXPECT_EQ(state_.clear.tick, 0U);
+      tick();
+    }
+    tick();
+    EXPECT_EQ(faults_.count, 0);
+    EXPECT_EQ(state_.clear.tick, inputs_.tick);
+  }
+}
+
+TEST_F(Operation, ADriveThatStaysInFaultHasTheWholeBudgetBeforeAClearIsRefused) {
+  inputs_.drive[0].statusword = kStatusFault;
+  stuck_drive_ = 0;
+  tick();
+  tick();
+  tick(Request::kClear);
+  for (std::uint32_t i = 1; i < kTimeout_s.reset_budget; ++i) tick();
+  EXPECT_EQ(state_.clear.tick, 0U);
+  tick();
+  EXPECT_EQ(state_.clear.tick, inputs_.tick);
+  EXPECT_EQ(state_.clear.missing, kNoDriveInFault | kCausesGone);
 }
 
 TEST_F(Operation, ClearingChecksHomingAgain) {

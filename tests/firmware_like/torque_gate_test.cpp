@@ -56,6 +56,11 @@ TEST(TorqueGate, EveryBoundIsRefusedJustOutsideAndThenNothingIsAskedForButRest) 
       {"beyond its range, on outwards", 0, 1.0, 1001, 0, 0, GateCheck::kRateOutOfRange},
       {"beyond its range, back inside", 0, -1.0, 1001, 0, 0, GateCheck::kPassed},
       {"beyond its lower end, on outwards", 0, -1.0, -1001, 0, 0, GateCheck::kRateOutOfRange},
+      {"beyond its lower end, back inside", 0, 1.0, -1001, 0, 0, GateCheck::kPassed},
+      {"beyond its range, at rest", 0, 0, 1001, 0, 0, GateCheck::kPassed},
+      {"beyond its lower end, at rest", 0, 0, -1001, 0, 0, GateCheck::kPassed},
+      {"at the end of its range", 0, 1.0, 1000, 0, 0, GateCheck::kPassed},
+      {"at its lower end", 0, -1.0, -1000, 0, 0, GateCheck::kPassed},
   };
   for (const Row& row : rows) {
     TorqueGate at;
