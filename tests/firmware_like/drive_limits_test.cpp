@@ -37,5 +37,34 @@ TEST(DriveLimits, ACableMayPullUpToTheCeilingOfFreeMotionAndNeverPush) {
   }
 }
 
+// Segments and drives of which no two are alike.
+TEST(DriveLimits, EveryDriveHasTheLimitsOfItsOwnSegmentDriveAndCable) {
+  RobotParams robot = table();
+  robot.segment[1].modules = 5;
+  robot.segment[1].theta_limit_rad = 0.20;
+  robot.segment[1].hole_radius_m = 0.015;
+  robot.segment[1].face_offset_m = 0.020;
+  CableVector payout_m{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) {
+    const auto place = static_cast<double>(i);
+    robot.drive[i].metres_per_count = 1e-6 * (1.0 + place);
+    robot.drive[i].newtons_per_permille = 0.5 + 0.1 * place;
+    payout_m[i] = 1.0 + 0.1 * place;
+  }
+  const GateLimits gate = make_gate_limits(robot, payout_m);
+  const LinkLimits link = make_link_limits(robot);
+  const double bend_m[] = {2.0 * std::hypot(0.025, 0.010) * 8 * 0.35,
+                           2.0 * std::hypot(0.015, 0.020) * (8 * 0.35 + 5 * 0.20)};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) {
+    const DriveParams& drive = robot.drive[i];
+    const double bend = bend_m[i / 3], range_m = bend + (payout_m[i] + bend) * 600.0 / 240000.0;
+    EXPECT_NEAR(gate.drive[i].min_counts, 1000000.0 - range_m / drive.metres_per_count, 1e-6) << i;
+    EXPECT_NEAR(gate.drive[i].max_counts, 1000000.0 + range_m / drive.metres_per_count, 1e-6) << i;
+    EXPECT_EQ(gate.drive[i].step_counts, std::lround(50e-6 / drive.metres_per_count) + 1) << i;
+    EXPECT_EQ(gate.drive[i].max_permille, 150.0 / drive.newtons_per_permille) << i;
+    EXPECT_EQ(link.following_counts[i], std::lround(775e-6 / drive.metres_per_count)) << i;
+  }
+}
+
 }  // namespace
 }  // namespace liana::cable

@@ -118,6 +118,11 @@ TEST(Estimator, OneWildMeasurementIsBoundedAndForgotten) {
   const ThetaVector before = state.theta_rad;
   run(robot, wild, 1, state);
   EXPECT_LE(zhu2022::largest_difference(state.theta_rad, before), 0.1 + 1e-15);
+  EXPECT_EQ(state.largest_step_rad, 0.1);
+  run(robot, measured, 60, state);
+  wild.payout_m[0] -= 10.0;
+  run(robot, wild, 1, state);
+  EXPECT_EQ(state.largest_step_rad, 0.1) << "the other way";
   run(robot, measured, 60, state);
   EXPECT_LE(zhu2022::largest_difference(state.theta_rad, theta), 1e-9);
 }

@@ -146,6 +146,22 @@ TEST(FrictionWatch, TwiceOrHalfOfWhatWasDeclaredIsFlaggedWithinTenSecondsAndAFif
   }
 }
 
+TEST(FrictionWatch, ASegmentTurnsWhenTheRatesOfItsTwoAxesTogetherAreBeyondTheLimit) {
+  const RobotParams robot = zhu2022::table();
+  for (size_t k = 0; k < 10; ++k) {
+    for (const double sign : {1.0, -1.0}) {
+      ThetaVector rate_rad_s{};
+      rate_rad_s[k] = sign * kSlidingRate_rad_s;
+      EXPECT_EQ(turning_segments(robot, rate_rad_s), 0U);
+      rate_rad_s[k] = std::nextafter(rate_rad_s[k], sign);
+      EXPECT_EQ(turning_segments(robot, rate_rad_s), 1U << k / 2);
+      rate_rad_s[k] = 0.6 * sign * kSlidingRate_rad_s;
+      rate_rad_s[k ^ 1U] = -rate_rad_s[k];
+      EXPECT_EQ(turning_segments(robot, rate_rad_s), 1U << k / 2) << "they do not cancel";
+    }
+  }
+}
+
 TEST(FrictionWatch, AnArmAtRestTeachesNothing) {
   Swaying arm(0.10, 0.05);
   arm.run(30.0, false);

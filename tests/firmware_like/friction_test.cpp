@@ -87,6 +87,33 @@ TEST(Friction, SlipDependsOnTheWayAndNotOnTheTicksItTakes) {
   }
 }
 
+// Only the last segment bends, by as much up as down: what slips one way slips as much the other way.
+TEST(Friction, SlipOfEitherWayMirrorsTheOthers) {
+  const Arm arm;
+  ThetaVector up{}, down{};
+  up[8] = 0.05 * kDegree;
+  down[8] = -up[8];
+  const SlipState a = slip_along(arm, ThetaVector{}, up, 50), b = slip_along(arm, ThetaVector{}, down, 50);
+  for (std::size_t c = 12; c < 15; ++c) {
+    for (std::size_t j = 0; j < 5; ++j) {
+      EXPECT_NEAR(a.sigma[c][j], -b.sigma[c][j], 1e-3) << c << " " << j;
+      EXPECT_GT(std::fabs(a.sigma[c][j]), 0.02) << c << " " << j;
+      EXPECT_LT(std::fabs(a.sigma[c][j]), 0.98) << c << " " << j;
+    }
+  }
+}
+
+TEST(Friction, FadingTakesAShareOfEveryCablesSlipUpToItsOwnSegment) {
+  const Arm arm;
+  SlipState slip;
+  for (std::size_t c = 0; c < kMaxCables; ++c) slip.sigma[c].fill(0.01 * static_cast<double>(c + 1));
+  fade_slip(arm.layout, 0.25, slip);
+  for (std::size_t c = 0; c < kMaxCables; ++c) {
+    for (std::size_t j = 0; j < slip.sigma[c].size(); ++j)
+      EXPECT_NEAR(slip.sigma[c][j], 0.01 * static_cast<double>(c + 1) * (c < 15 && j <= c / 3 ? 0.75 : 1.0), 1e-15);
+  }
+}
+
 TEST(Friction, ReversalGoesThroughPreslidingInsteadOfJumping) {
   const Arm arm;
   ThetaVector far{}, back{};
