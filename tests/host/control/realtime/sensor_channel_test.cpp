@@ -76,6 +76,31 @@ TEST(SensorChannel, WhatDoesNotComeGrowsOlderByLostTicksToo) {
   line.begin_tick(3);
   EXPECT_EQ(line.sensors().adapter.age_ticks, 5);
   EXPECT_EQ(line.sensors().wrist.age_ticks, serial::kNeverHeard);
+  line.on_frame(kBus, force(1));
+  line.on_frame(kBus, torque(1));
+  line.begin_tick(0);
+  line.on_frame(kBus, torque(1));
+  EXPECT_EQ(line.sensors().wrist.age_ticks, 1) << "half a sample is none";
+  line.begin_tick(3);
+  EXPECT_EQ(line.sensors().wrist.age_ticks, 5);
+}
+
+TEST(SensorChannel, EachNodeIsStartedByItsOwnHeartbeatOnItsOwnBus) {
+  config::BusesConfig tables = buses();
+  tables.buses[kBus].load_cells = {{0x28, {0}, {0.0}}, {0x29, {1}, {0.0}}};
+  SensorChannel line(tables);
+  Listener bus;
+  for (const std::uint32_t node : {0x20U, 0x28U, 0x29U, 0x30U}) {
+    line.on_frame(0, {0x700U + node, 1, {0x7F}, 0});
+    line.on_frame(kBus, {0x700U + node, 2, {0x7F}, 0});
+    line.step(bus, 1, serial::AdapterCommand::kNone, 0);
+    EXPECT_TRUE(bus.sent.empty()) << "another bus, another length";
+    line.on_frame(kBus, {0x700U + node, 1, {0x7F}, 0});
+    line.step(bus, 1, serial::AdapterCommand::kNone, 0);
+    ASSERT_EQ(bus.sent.size(), 1U);
+    EXPECT_EQ(bus.sent[0].data[1], node);
+    bus.sent.clear();
+  }
 }
 
 // Two nodes: cables 1 and 3 on one bus, cable 32 on the other.

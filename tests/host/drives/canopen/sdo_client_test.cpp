@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace liana::canopen {
@@ -275,6 +278,154 @@ TEST(SdoClient, IgnoresAnswersToAnotherObjectAndAnswersNobodyAskedFor) {
   EXPECT_EQ(client.status(), SdoStatus::kBusy);
   client.on_response(response({0x43, 0x00, 0x10, 0, 1, 2, 3, 4}));
   EXPECT_EQ(client.value(), 0x04030201U);
+}
+
+// A client whose segmented read of 10 bytes has just failed, in its second segment.
+SdoClient after_a_failed_read() {
+  SdoClient client(kNode, kTimeoutTicks);
+  client.start_upload(0x1008, 0);
+  request_of(client);
+  client.on_response(response({0x41, 0x08, 0x10, 0, 10, 0, 0, 0}));
+  request_of(client);
+  client.on_response(response({0x00, 'a', 'b', 'c', 'd', 'e', 'f', 'g'}));
+  request_of(client);
+  client.on_response(response({0x00, 'h'}));
+  EXPECT_EQ(client.abort_code(), kAbortToggle);
+  EXPECT_EQ(request_of(client)[0], 0x80);
+  return client;
+}
+
+TEST(SdoClient, AReadKnowsNothingOfTheTransferBefore) {
+  SdoClient client = after_a_failed_read();
+  client.start_upload(0x1008, 0);
+  EXPECT_EQ(request_of(client)[0], 0x40);
+  client.on_response(response({0x40, 0x08, 0x10, 0}));
+  EXPECT_EQ(request_of(client)[0], 0x60);
+  client.on_response(response({(4 << 1) | 1, 'x', 'y', 'z'}));
+  EXPECT_EQ(client.status(), SdoStatus::kDone);
+  EXPECT_EQ(client.abort_code(), 0U);
+  EXPECT_EQ(client.said_bytes(), 0U);
+  EXPECT_EQ(std::string(client.data().begin(), client.data().end()), "xyz");
+}
+
+TEST(SdoClient, AWriteKnowsNothingOfTheTransferBefore) {
+  SdoClient client = after_a_failed_read();
+  const std::vector<std::uint8_t> bytes{1, 2, 3, 4, 5, 6, 7, 8, 9};
+  for (int round = 0; round < 2; ++round) {
+    client.start_download(0x2000, 1, bytes);
+    EXPECT_EQ(request_of(client), (std::vector<int>{0x21, 0x00, 0x20, 1, 9, 0, 0, 0}));
+    client.on_response(response({0x60, 0x00, 0x20, 1}));
+    EXPECT_EQ(request_of(client), (std::vector<int>{0x00, 1, 2, 3, 4, 5, 6, 7}));
+    client.on_response(response({0x20}));
+    EXPECT_EQ(request_of(client), (std::vector<int>{0x10 | (5 << 1) | 1, 8, 9, 0, 0, 0, 0, 0}));
+    EXPECT_EQ(client.status(), SdoStatus::kBusy);
+    client.on_response(response({0x30}));
+    EXPECT_EQ(client.status(), SdoStatus::kDone);
+  }
+}
+
+TEST(SdoClient, AnEmptyWriteIsRefusedAndLeavesNoRequest) {
+  SdoClient client(kNode, kTimeoutTicks);
+  client.start_upload(0x2000, 1);
+  client.start_download(0x2000, 1, {});
+  EXPECT_EQ(client.status(), SdoStatus::kAborted);
+  EXPECT_EQ(client.abort_code(), kAbortMemory);
+  EXPECT_TRUE(request_of(client).empty());
+}
+
+TEST(SdoClient, FiveBytesAreOneMoreThanARequestHolds) {
+  SdoClient client(kNode, kTimeoutTicks);
+  client.start_download(0x2000, 1, std::vector<std::uint8_t>{1, 2, 3, 4, 5});
+  EXPECT_EQ(request_of(client), (std::vector<int>{0x21, 0x00, 0x20, 1, 5, 0, 0, 0}));
+  client.on_response(response({0x60, 0x00, 0x20, 1}));
+  EXPECT_EQ(request_of(client), (std::vector<int>{(2 << 1) | 1, 1, 2, 3, 4, 5, 0, 0}));
+}
+
+TEST(SdoClient, ItsBufferMayBeFull) {
+  const std::vector<std::uint8_t> bytes(kSdoBufferBytes, 7);
+  SdoClient client(kNode, kTimeoutTicks);
+  client.start_download(0x2000, 1, bytes);
+  EXPECT_EQ(client.status(), SdoStatus::kBusy);
+  for (const bool sized : {true, false}) {
+    client.start_upload(0x2000, 1);
+    request_of(client);
+    client.on_response(response({sized ? 0x41 : 0x40, 0x00, 0x20, 1, kSdoBufferBytes & 0xFF, kSdoBufferBytes >> 8}));
+    std::size_t read = 0;
+    for (int toggle = 0; read < kSdoBufferBytes; toggle ^= 0x10) {
+      ASSERT_EQ(request_of(client)[0], 0x60 | toggle);
+      const int count = static_cast<int>(std::min<std::size_t>(7, kSdoBufferBytes - read));
+      read += static_cast<std::size_t>(count);
+      client.on_response(
+          response({toggle | (7 - count) << 1 | (read == kSdoBufferBytes ? 1 : 0), 7, 7, 7, 7, 7, 7, 7}));
+    }
+    EXPECT_EQ(client.status(), SdoStatus::kDone);
+    EXPECT_EQ(client.data().size(), kSdoBufferBytes);
+  }
+}
+
+TEST(SdoClient, AReadEndsWithAnEmptySegmentButNotWithAnotherLengthThanWasSaid) {
+  for (const int said : {0, 7, 8}) {
+    SdoClient client(kNode, kTimeoutTicks);
+    client.start_upload(0x1008, 0);
+    request_of(client);
+    client.on_response(response({said == 0 ? 0x40 : 0x41, 0x08, 0x10, 0, said}));
+    request_of(client);
+    client.on_response(response({0x00, 1, 2, 3, 4, 5, 6, 7}));
+    request_of(client);
+    client.on_response(response({0x10 | (7 << 1) | 1}));
+    EXPECT_EQ(client.status(), said == 8 ? SdoStatus::kAborted : SdoStatus::kDone) << said;
+    EXPECT_EQ(client.abort_code(), said == 8 ? kAbortGeneral : 0U) << said;
+  }
+}
+
+TEST(SdoClient, AnAnswerIsOneOnlyAfterItsRequestAndUntilThereWasOne) {
+  SdoClient client(kNode, kTimeoutTicks);
+  client.start_upload(0x1018, 2);
+  const bus::CanFrame answer = response({0x43, 0x18, 0x10, 2, 1});
+  client.on_response(answer);
+  EXPECT_EQ(client.status(), SdoStatus::kBusy) << "the bus has not taken the request";
+  request_of(client);
+  client.on_response(answer);
+  client.on_response(response({0x43, 0x18, 0x10, 2, 9}));
+  EXPECT_EQ(client.value(), 1U);
+}
+
+TEST(SdoClient, AnAbortAmongSegmentsIsThatOfItsObject) {
+  SdoClient client(kNode, kTimeoutTicks);
+  client.start_upload(0x1008, 0);
+  request_of(client);
+  client.on_response(response({0x40, 0x08, 0x10, 0}));
+  request_of(client);
+  client.on_response(response({0x80, 0x08, 0x10, 1, 0, 0, 2, 6}));
+  EXPECT_EQ(client.status(), SdoStatus::kBusy) << "another tool's";
+  client.on_response(response({0x80, 0x08, 0x10, 0, 0, 0, 2, 6}));
+  EXPECT_EQ(client.status(), SdoStatus::kAborted);
+}
+
+TEST(SdoClient, ALateAnswerIsOwedByItsOwnObjectOnly) {
+  for (const auto& [index, sub] : {std::pair{0x2001, 1}, std::pair{0x2000, 2}}) {
+    SdoClient client(kNode, kTimeoutTicks);
+    client.start_download(0x2000, 1, std::vector<std::uint8_t>{1});
+    request_of(client);
+    pass(client, kTimeoutTicks);
+    request_of(client);
+    client.start_upload(static_cast<std::uint16_t>(index), static_cast<std::uint8_t>(sub));
+    request_of(client);
+    client.on_response(response({0x80, index & 0xFF, 0x20, sub, 0, 0, 2, 6}));
+    EXPECT_EQ(client.status(), SdoStatus::kAborted) << index << " " << sub;
+  }
+}
+
+TEST(SdoClient, ABriefFrameIsKeptWhenItNamesNoObjectOrThisOne) {
+  for (const auto& [length, sub, kept] : {std::tuple{3, 3, true}, std::tuple{4, 3, false}, std::tuple{4, 2, true}}) {
+    SdoClient client(kNode, kTimeoutTicks);
+    client.start_upload(0x1018, 2);
+    request_of(client);
+    bus::CanFrame brief = response({0x43, 0x18, 0x10, sub});
+    brief.length = static_cast<std::uint8_t>(length);
+    client.on_response(brief);
+    EXPECT_EQ(client.odd_length().has_value(), kept) << length << " " << sub;
+  }
 }
 
 }  // namespace

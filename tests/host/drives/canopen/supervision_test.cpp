@@ -1,6 +1,7 @@
 // Heartbeats both ways, emergencies, frame routing, and what is expected of the drives of a table.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -100,6 +101,11 @@ TEST(Emergencies, TheOldestIsDroppedAndCountedWhenNobodyFetchesThem) {
   ASSERT_TRUE(log.take(emergency));
   EXPECT_EQ(emergency.tick, 6U);
   EXPECT_EQ(log.last_code(1), 69);
+  for (std::uint64_t tick = 7; tick < 70; ++tick) {
+    ASSERT_TRUE(log.take(emergency));
+    EXPECT_EQ(emergency.tick, tick);
+  }
+  EXPECT_FALSE(log.take(emergency));
 }
 
 TEST(Emergencies, HaveATextForTheCodeOrItsClass) {
@@ -201,6 +207,18 @@ TEST(Master, TakesItsOwnFramesAndLeavesProcessDataToTheCaller) {
   EXPECT_EQ(master.emergencies().last_code(3), 0x8130);
 }
 
+TEST(Master, AHeartbeatMayBeMissedTwiceButNotThreeTimes) {
+  RecordingBus bus;
+  Master master(drive_expectations(robot_with_three_cables(), buses_at(250)), buses_at(250));
+  master.on_frame(0, bus::CanFrame{0x701, 1, {0x05}, 0}, 1);
+  for (int tick = 0; tick < 75; ++tick) master.step(bus);
+  EXPECT_FALSE(master.heartbeats().lost(1));
+  master.step(bus);
+  EXPECT_TRUE(master.heartbeats().lost(1));
+  const auto own = [](const bus::ReceivedFrame& sent) { return sent.frame.id == 0x77F && sent.bus == 1; };
+  EXPECT_EQ(std::count_if(bus.sent.begin(), bus.sent.end(), own), 4) << "its own in ticks 0, 25, 50 and 75";
+}
+
 TEST(Master, CommandsAllDrivesOfAllBuses) {
   RecordingBus bus;
   Master::command_all(bus, kNmtStop);
@@ -232,8 +250,8 @@ struct ModeBench {
       ++asked;
       bus::CanFrame answer{0x580U + static_cast<std::uint32_t>(i + 1), 8, {0x4F, 0x61, 0x60, 0}, 0};
       answer.data[4] = static_cast<std::uint8_t>(shown[i]);
-      if (has_none) answer.data = {0x80, 0x61, 0x60, 0, 0, 0, 0x02, 0x06};
-      monitor->on_frame(0, answer);
+      if (has_none) answer.data = {0x80, 0x61, 0x60, 0, 0, 0, refusal, 0x06};
+      monitor->on_frame(answers_on.value_or(sent.bus), answer);
     }
     monitor->step(bus, in_operation);
   }
@@ -245,6 +263,8 @@ struct ModeBench {
   std::vector<int> shown;
   int asked = 0;
   bool has_none = false;
+  std::uint8_t refusal = 0x02;      // of 0x0602'0000: the object does not exist
+  std::optional<int> answers_on{};  // instead of the bus on which it was asked
 };
 
 TEST(ModeMonitor, SeesAnotherModeOfAnyDriveWithinTenTicksHoweverManyThereAre) {
@@ -279,6 +299,80 @@ TEST(ModeMonitor, AsksOnlyInOperationAndForgetsWhatWasShownBefore) {
   for (int i = 0; i < 20; ++i) bench.tick(2);
   EXPECT_EQ(bench.monitor->other_mode(), 2U);
   bench.tick(0);
+  EXPECT_EQ(bench.monitor->other_mode(), 0U);
+}
+
+TEST(ModeMonitor, ADriveIsAskedFromItsThirdTickInOperationOn) {
+  for (int ticks = 1; ticks <= 4; ++ticks) {
+    ModeBench bench(8);  // one of them is asked in every tick
+    for (int i = 0; i < 8; ++i) bench.tick(0xFF);
+    bench.tick(0);
+    bench.tick(0);
+    bench.asked = 0;
+    for (int i = 0; i < ticks; ++i) bench.tick(0xFF);
+    bench.tick(0);
+    EXPECT_EQ(bench.asked, std::max(0, ticks - 2)) << ticks;
+  }
+}
+
+// A csp and a cst drive, each on a bus of its own.
+struct TwoBusModes : ModeBench {
+  TwoBusModes() : ModeBench(2) {
+    buses.buses = {{"can0", 1000000, {1}}, {"can1", 1000000, {2}}};
+    drives[1].bus = 1;
+    drives[1].type.is_cst = true;
+    shown = {8, 10};
+    monitor.emplace(drives, buses);
+  }
+  std::uint32_t after(int ticks) {
+    for (int i = 0; i < ticks; ++i) tick(3);
+    return monitor->other_mode();
+  }
+};
+
+TEST(ModeMonitor, EachDriveHasItsOwnModeAndBus) {
+  TwoBusModes bench;
+  EXPECT_EQ(bench.after(40), 0U);
+  bench.shown = {10, 8};
+  EXPECT_EQ(bench.after(20), 3U);
+  bench.shown = {10, 10};
+  EXPECT_EQ(bench.after(20), 1U);
+  bench.answers_on = 0;
+  bench.shown = {8, 8};
+  EXPECT_EQ(bench.after(20), 0U) << "what the second one says on the first bus is not its answer";
+  TwoBusModes narrow;
+  narrow.buses.buses[1].bitrate = 10000;
+  narrow.monitor.emplace(narrow.drives, narrow.buses);
+  EXPECT_FALSE(narrow.monitor->bus_is_full(0));
+  EXPECT_TRUE(narrow.monitor->bus_is_full(1));
+  EXPECT_TRUE(narrow.monitor->is_asked(0));
+  EXPECT_FALSE(narrow.monitor->is_asked(1));
+}
+
+TEST(ModeMonitor, ARefusalForAnotherReasonOrALostAnswerIsAskedAgain) {
+  ModeBench refused(2);
+  refused.has_none = true;
+  refused.refusal = 0x01;
+  for (int i = 0; i < 40; ++i) refused.tick(3);
+  EXPECT_GT(refused.asked, 4);
+  TwoBusModes lost;
+  lost.answers_on = 2;
+  lost.after(20);
+  const int before = lost.asked;
+  EXPECT_EQ(before, 2) << "each waits half a second for its answer";
+  lost.after(150);
+  EXPECT_EQ(lost.asked, 4);
+}
+
+TEST(ModeMonitor, AnAnswerToAQuestionFromBeforeAPauseDoesNotCount) {
+  ModeBench bench(1);
+  const auto answer = [&](int mode) {
+    bus::CanFrame frame{0x581, 8, {0x4F, 0x61, 0x60, 0, static_cast<std::uint8_t>(mode)}, 0};
+    bench.monitor->on_frame(0, frame);
+  };
+  while (bench.bus.sent.empty()) bench.monitor->step(bench.bus, 1);
+  bench.monitor->step(bench.bus, 0);
+  answer(0);
   EXPECT_EQ(bench.monitor->other_mode(), 0U);
 }
 
