@@ -30,7 +30,12 @@ from run_scenario import FAILURES  # noqa: E402
 from scenario_file import Failed  # noqa: E402
 
 IN = " in "  # between a test and its program
-TEST_PROGRAMS = {"core_tests": "tests/firmware_like", "liana_hil_tests": "tests/hil"}  # and where its tests are
+TEST_PROGRAMS = {  # and where its tests are
+    "core_tests": "tests/firmware_like",
+    "liana_hil_tests": "tests/hil",
+    "realtime_tests": "tests/host/control/realtime",
+    "canopen_tests": "tests/host/drives/canopen",
+}
 PATIENCE_S = 60  # wall clock after which a program counts as hung; a mutant may hang
 
 # A bug: `edits` in `file`; `planted`: another bug that only the mutated line keeps from the drives; `caught_by`:

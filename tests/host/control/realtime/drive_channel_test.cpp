@@ -100,7 +100,8 @@ class ThreeBuses final : public test::QuietBus {
   std::array<bus::DriveBusStats, 3> shown{};
 };
 
-// Drives 1 and 2 on the first bus, of which 2 reports no torque; 3, a torque drive, on the second; none on the third.
+// Drive 1, a torque drive, and 2, which reports no torque, on the first bus; 3, a torque drive, on the second; none on
+// the third. A load cell of the first cable on the second bus.
 class DrivesOnTwoBuses : public ::testing::Test {
  protected:
   DrivesOnTwoBuses() : line_(drives(), buses(), bus_) {}
@@ -110,13 +111,14 @@ class DrivesOnTwoBuses : public ::testing::Test {
     buses.rate_hz = 250.0;
     buses.heartbeat_ms = 100;
     buses.buses = {{"can0", 1000000, {1, 2}}, {"can1", 1000000, {3}}, {"can2", 1000000, {}}};
+    buses.buses[1].load_cells = {{0x28, {0}, {0.0}}};
     return buses;
   }
   static std::vector<canopen::ExpectedDrive> drives() {
     std::vector<canopen::ExpectedDrive> drives(3);
     for (std::size_t i = 0; i < 3; ++i) drives[i].node = static_cast<std::uint8_t>(i + 1);
     drives[1].type.has_torque = false;
-    drives[2].type.is_cst = true;
+    drives[0].type.is_cst = drives[2].type.is_cst = true;
     drives[2].bus = 1;
     return drives;
   }
@@ -169,11 +171,21 @@ TEST_F(DrivesOnTwoBuses, WhatDoesNotComeGrowsOlderByLostTicksToo) {
 
 TEST_F(DrivesOnTwoBuses, RatesAreTakenFromTorqueDrivesOnly) {
   const auto rate = [](std::uint32_t id) { return bus::CanFrame{id, 4, {7, 0, 0, 0}, 0}; };
-  tick({{0, rate(0x281)}, {0, rate(0x283)}, {1, rate(0x281)}, {1, rate(0x280)}, {1, rate(0x300)}});
+  tick({{0, rate(0x282)}, {0, rate(0x283)}, {1, rate(0x281)}, {1, rate(0x280)}, {1, rate(0x300)}});
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(of(i).rate_counts_s, 0);
   tick({{1, rate(0x283)}});
   EXPECT_EQ(of(2).rate_counts_s, 7);
   EXPECT_EQ(of(0).rate_counts_s, 0);
+  tick({{0, rate(0x281)}});
+  EXPECT_EQ(of(0).rate_counts_s, 7);
+}
+
+TEST_F(DrivesOnTwoBuses, SensorsHearTheSameFramesAndGrowOlderToo) {
+  tick({{1, {0x1A8, 2, {5, 0}, 0}}});
+  EXPECT_EQ(line_.sensor_channel().load_cells().steps[0], 5);
+  EXPECT_EQ(line_.sensor_channel().load_cells().age_ticks[0], 0);
+  tick({}, 2);
+  EXPECT_EQ(line_.sensor_channel().load_cells().age_ticks[0], 3);
 }
 
 TEST_F(DrivesOnTwoBuses, ABusIsLostInTheThirdTickInWhichNoneOfItsDrivesReports) {
@@ -224,15 +236,17 @@ TEST_F(DrivesOnTwoBuses, ASilentBusGetsItsCommandsFor25TicksAndTheOtherOnesGoOn)
   for (int i = 1; i <= 26; ++i) {
     tick({{1, report_of(3)}});
     bus_.sent.clear();
-    line_.command({});
+    line_.command({DriveCommand{0x11}, DriveCommand{0x22}, DriveCommand{0x33}});
     ASSERT_EQ(bus_.sent.size(), i <= 25 ? 3U : 1U) << i;
     EXPECT_EQ(bus_.sent.back().bus, 1);
     EXPECT_EQ(bus_.sent.back().frame.id, 0x203U);
     EXPECT_EQ(bus_.sent.back().frame.length, 8) << "a torque drive's";
+    EXPECT_EQ(bus_.sent.back().frame.data[0], 0x33);
     if (i > 25) continue;
     EXPECT_EQ(bus_.sent[1].bus, 0);
     EXPECT_EQ(bus_.sent[1].frame.id, 0x202U);
     EXPECT_EQ(bus_.sent[1].frame.length, 6);
+    EXPECT_EQ(bus_.sent[1].frame.data[0], 0x22);
   }
 }
 

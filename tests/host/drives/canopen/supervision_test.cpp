@@ -340,13 +340,15 @@ TEST(ModeMonitor, EachDriveHasItsOwnModeAndBus) {
   bench.answers_on = 0;
   bench.shown = {8, 8};
   EXPECT_EQ(bench.after(20), 0U) << "what the second one says on the first bus is not its answer";
-  TwoBusModes narrow;
-  narrow.buses.buses[1].bitrate = 10000;
-  narrow.monitor.emplace(narrow.drives, narrow.buses);
-  EXPECT_FALSE(narrow.monitor->bus_is_full(0));
-  EXPECT_TRUE(narrow.monitor->bus_is_full(1));
-  EXPECT_TRUE(narrow.monitor->is_asked(0));
-  EXPECT_FALSE(narrow.monitor->is_asked(1));
+  for (const std::size_t full : {0U, 1U}) {
+    TwoBusModes narrow;
+    narrow.buses.buses[full].bitrate = 10000;
+    narrow.monitor.emplace(narrow.drives, narrow.buses);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(narrow.monitor->bus_is_full(i), i == full);
+      EXPECT_EQ(narrow.monitor->is_asked(i), i != full);
+    }
+  }
 }
 
 TEST(ModeMonitor, ARefusalForAnotherReasonOrALostAnswerIsAskedAgain) {
