@@ -56,6 +56,22 @@ TEST(HandMonitor, AQuickHandThatTremblesIsAHandAtEveryRate) {
   }
 }
 
+TEST(HandMonitor, ASampleWithoutAPoseOrNoLaterThanTheLastIsUnseen) {
+  const device::Sample good{.t_us = 1'000'000, .deadman = true, .pose = {{0.1, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}};
+  HandMonitor watch;
+  ASSERT_EQ(watch.judge(good), Finding::kHand);
+  device::Sample next = good;
+  EXPECT_EQ(watch.judge(next), Finding::kUnseen) << "of the same time";
+  next.t_us = 1'010'000;
+  next.valid = false;
+  EXPECT_EQ(watch.judge(next), Finding::kUnseen);
+  next.valid = true;
+  next.pose.quaternion = {};
+  EXPECT_EQ(watch.judge(next), Finding::kUnseen);
+  next.pose = good.pose;
+  EXPECT_EQ(watch.judge(next), Finding::kHand);
+}
+
 struct Jump {
   Vec3 way_m{};
   Vec3 turn_rad{};

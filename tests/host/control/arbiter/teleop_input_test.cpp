@@ -317,5 +317,77 @@ TEST_F(Steering, EverySampleIsCounted) {
   EXPECT_EQ(steer_.samples(), 20u);
 }
 
+TEST_F(Steering, ADeviceIsSilentInTheFourthIntervalWithoutASample) {
+  for (const bool refused : {false, true}) {
+    steer_.use(use_);
+    steer_.note_refused(1);
+    interval(0.3);  // a sample that is believed: what was refused before is over
+    if (refused) steer_.note_refused(1);
+    for (int i = 1; i <= 3; ++i) {
+      steer_.finish_interval(now_, kInterval_s);
+      EXPECT_TRUE(steer_.engaged()) << i;
+    }
+    EXPECT_FALSE(steer_.finish_interval(now_, kInterval_s));
+    EXPECT_FALSE(steer_.engaged());
+    EXPECT_STREQ(steer_.reason(), refused ? "samples refused" : "device silent");
+  }
+}
+
+TEST_F(Steering, ADeviceThatIsGoneHasToLetGoWhenItIsBack) {
+  interval(0.3);
+  steer_.lose_device();
+  EXPECT_STREQ(steer_.reason(), "device gone");
+  EXPECT_FALSE(interval(0.3));
+  interval(0.3, false);
+  EXPECT_TRUE(interval(0.3));
+}
+
+TEST_F(Steering, AnotherDeviceKnowsNothingOfTheOneBefore) {
+  const std::vector<std::function<void()>> ends{
+      [&] {
+        for (int i = 0; i < 10; ++i) steer_.finish_interval(now_, kInterval_s);
+      },
+      [&] {
+        steer_.add({.t_us = ++t_us_, .deadman = true, .stale = true, .pose = {{0.3, 0.0, 0.0}}});
+      },
+      [&] { steer_.add({.t_us = t_us_ + 1, .hand = 1, .deadman = true, .stale = true, .pose = {}}); },
+      [&] { steer_.lose_device(); },
+      [&] { steer_.leave_slit(); },
+  };
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    steer_.use(use_);
+    interval(0.3);
+    ASSERT_TRUE(steer_.engaged()) << i;
+    ends[i]();
+    steer_.use(use_);
+    EXPECT_FALSE(steer_.engaged()) << i;
+    EXPECT_STREQ(steer_.reason(), "") << i;
+    EXPECT_LT(steer_.made_of_us(), 0) << i;
+    t_us_ += 10'000'000;  // its clock is another one
+    steer_.add({.t_us = t_us_ + 1, .hand = 1, .deadman = true, .pose = {}});
+    const auto goal = interval(0.3);
+    ASSERT_TRUE(goal) << i;
+    EXPECT_EQ(goal->node.node, 3) << i;
+  }
+}
+
+TEST_F(Steering, TheLeftHandLeadsOnlyANodeThatIsChosenAndAfterALieOnlyWhenItHasLetGo) {
+  const auto left = [&](double x, bool pressed, bool stale = false) {
+    steer_.add({.t_us = t_us_ + 1, .hand = 1, .deadman = pressed, .stale = stale, .pose = {{x, 0.0, 0.0}}});
+    return interval(0.3)->node;
+  };
+  left(0.0, true);
+  const double before_m = left(0.002, true).position_m[0];
+  left(0.002, true, true);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(left(0.002 + 0.001 * i, true).position_m[0], before_m) << i;
+  left(0.006, false);
+  left(0.006, true);
+  EXPECT_NEAR(left(0.007, true).position_m[0], before_m + 0.002, 1e-12);
+  use_.node = 0;
+  steer_.use(use_);
+  left(0.0, true);
+  EXPECT_EQ(left(0.005, true).node, 0);
+}
+
 }  // namespace
 }  // namespace liana::arbiter
