@@ -26,6 +26,7 @@ std::string refusal_of(const std::function<void()>& ask) {
 TEST(Owner, OnlyOneClientOwnsMotion) {
   Owner owner;
   EXPECT_THROW(owner.require(1), api::RequestError) << "nobody owns motion at the start";
+  EXPECT_THROW(owner.require(0), api::RequestError) << "nor does nobody";
   owner.acquire(kMission);
   owner.acquire(kMission);
   EXPECT_NO_THROW(owner.require(1));

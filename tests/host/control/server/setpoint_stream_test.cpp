@@ -106,5 +106,28 @@ TEST_F(Stream, NobodyIsMissedAtTheGoalAfterAMoveOrWithoutATimeToLive) {
   EXPECT_FALSE(stream_.overdue(11.0, tip_));
 }
 
+TEST_F(Stream, TheQuickestSetpointSaysHowLateTheOthersAre) {
+  const auto at = [&](double clock_s, double now_s) { return servo(1, now_s, {{"time_s", clock_s}, {"ttl_s", 0.2}}); };
+  EXPECT_EQ(at(5.0, 2000.3), "") << "a clock that is behind";
+  EXPECT_EQ(at(5.0, 2000.32), "") << "the same time twice";
+  EXPECT_EQ(at(5.5, 2000.5), "") << "quicker by 0.3 s";
+  EXPECT_EQ(at(5.6, 2000.79), "");
+  EXPECT_EQ(at(5.7, 2000.91).substr(0, 8), "refused:");
+  for (int second = 1; second < 1000; ++second) ASSERT_EQ(at(6.0 + second, 2001.0 + second), "") << second;
+  EXPECT_EQ(at(1006.0, 2001.0 + 1000.21).substr(0, 8), "refused:") << "clocks drift from the last one on, not for ever";
+  stream_.restart();
+  EXPECT_EQ(at(1.0, 3001.0), "") << "another owner's clock";
+}
+
+TEST_F(Stream, AGoalIsReachedWithinTenMicrometresAndTheNewestTimeToLiveCounts) {
+  servo(1.0 + 0.95e-5, 10.0, {{"ttl_s", 0.2}});
+  EXPECT_FALSE(stream_.overdue(11.0, tip_));
+  servo(1.0 + 1.05e-5, 10.0, {{"ttl_s", 0.2}});
+  EXPECT_EQ(stream_.overdue(11.0, tip_), 0.2);
+  servo(1.02, 10.0, {{"ttl_s", 0.2}});
+  servo(1.02, 10.1);
+  EXPECT_FALSE(stream_.overdue(11.0, tip_)) << "the last one has none";
+}
+
 }  // namespace
 }  // namespace liana::server
