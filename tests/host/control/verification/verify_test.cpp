@@ -73,6 +73,55 @@ TEST(Verify, TheModelMayBeOffByTheFrictionOfTheWholeBendAndTheWayBackIsFree) {
   EXPECT_EQ(model_refusal(111.0, 0.34, 0.34, true), Refusal::kNone) << "back";
 }
 
+// A straight arm at its plan, with one thing changed.
+Refusal model_refusal_of(const std::function<void(cable::Outputs&)>& change) {
+  cable::Outputs now{};
+  now.state = OperatingState::kEnabled;
+  now.tension_plan_N.fill(40.0);
+  now.tension_measured_N.fill(40.0);
+  change(now);
+  ExecutionVerdict verdict;
+  judge_model(kTable, now, now, false, verdict);
+  return verdict.code;
+}
+
+TEST(Verify, EveryCableAndJointOfTheModelIsComparedOnBothSides) {
+  const double band_N = kModelTension_N + kModelTensionShare * 40.0;
+  for (std::size_t c = 0; c < cable::zhu2022::kCables; ++c) {
+    for (const double measured_N : {0.9, 1.1}) {
+      EXPECT_EQ(model_refusal_of([&](auto& o) { o.tension_measured_N[c] += measured_N * band_N; }),
+                measured_N < 1.0 ? Refusal::kNone : Refusal::kModel)
+          << c;
+    }
+    const auto under = [c](double plan_N) {
+      return model_refusal_of([&](auto& o) {
+        o.tension_plan_N[c] = plan_N;
+        o.tension_measured_N[c] = 40.0;
+      });
+    };
+    EXPECT_EQ(under(139.0), Refusal::kNone) << c;
+    EXPECT_EQ(under(141.0), Refusal::kModel) << c;
+  }
+  for (std::size_t k = 0; k < 10; ++k) {
+    for (const double side : {1.0, -1.0}) {
+      EXPECT_EQ(model_refusal_of([&](auto& o) { o.theta_measured_rad[k] = side * kModelAngle_rad; }), Refusal::kNone);
+      EXPECT_EQ(model_refusal_of([&](auto& o) { o.theta_measured_rad[k] = side * 1.01 * kModelAngle_rad; }),
+                Refusal::kModel)
+          << k;
+    }
+  }
+  const auto far_off = [](auto& o) { o.theta_measured_rad[0] = 0.1; };
+  for (const auto& unwatched :
+       {std::function<void(cable::Outputs&)>([](auto& o) { o.state = OperatingState::kEnabling; }),
+        std::function<void(cable::Outputs&)>([](auto& o) { o.faults.count = 1; })}) {
+    EXPECT_EQ(model_refusal_of([&](auto& o) {
+                far_off(o);
+                unwatched(o);
+              }),
+              Refusal::kNone);
+  }
+}
+
 // req:C8
 TEST(Verify, ASpeedJustOverTheLimitIsRefusedAndJustUnderPasses) {
   const double rate = kTable.limits.theta_rate_rad_s;
