@@ -101,13 +101,22 @@ TEST(Verify, EveryCableAndJointOfTheModelIsComparedOnBothSides) {
     };
     EXPECT_EQ(under(139.0), Refusal::kNone) << c;
     EXPECT_EQ(under(141.0), Refusal::kModel) << c;
+    const double floor_N = kTable.tension.floor_motor_N + 10.0 * kTable.tension.scale();
+    for (const double beside_N : {-0.1, 0.1}) {
+      const Refusal said = model_refusal_of([&](auto& o) {
+        o.tension_plan_N[c] = 300.0;
+        o.tension_measured_N[c] = floor_N + beside_N;
+      });
+      EXPECT_EQ(said, beside_N < 0.0 ? Refusal::kNone : Refusal::kModel) << c << ", near its floor";
+    }
   }
   for (std::size_t k = 0; k < 10; ++k) {
-    for (const double side : {1.0, -1.0}) {
-      EXPECT_EQ(model_refusal_of([&](auto& o) { o.theta_measured_rad[k] = side * kModelAngle_rad; }), Refusal::kNone);
-      EXPECT_EQ(model_refusal_of([&](auto& o) { o.theta_measured_rad[k] = side * 1.01 * kModelAngle_rad; }),
-                Refusal::kModel)
-          << k;
+    for (const double share : {0.99, -0.99, 1.01, -1.01}) {
+      const Refusal said = model_refusal_of([&](auto& o) {
+        o.theta_command_rad[k] = 0.05;
+        o.theta_measured_rad[k] = 0.05 + share * kModelAngle_rad;
+      });
+      EXPECT_EQ(said, std::fabs(share) < 1.0 ? Refusal::kNone : Refusal::kModel) << k << " " << share;
     }
   }
   const auto far_off = [](auto& o) { o.theta_measured_rad[0] = 0.1; };
