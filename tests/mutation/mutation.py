@@ -136,6 +136,20 @@ def programs_for(wanted):
     return sorted({name.split(IN)[1] if IN in name else "lianad" for name in names})
 
 
+def files_of_tree():
+    """Names of all that belongs to the tree, committed or not."""
+    call = ["git", "-C", str(ROOT), "ls-files", "--cached", "--others", "--exclude-standard"]
+    listed = subprocess.run(call, capture_output=True, text=True, check=True)
+    return [name for name in listed.stdout.splitlines() if (ROOT / name).is_file()]
+
+
+def write_changed(path, content):
+    """Touches the file only where it changes: what has not changed is not built again."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if not path.exists() or path.read_bytes() != content:
+        path.write_bytes(content)
+
+
 class Workshop:
     """A copy of the tree with a build directory and programs of its own."""
 
@@ -146,15 +160,8 @@ class Workshop:
         for program in binaries.glob("liana*"):
             if program.name not in self.programs:
                 shutil.copy2(program, self.bin)
-        listed = subprocess.run(
-            ["git", "-C", str(ROOT), "ls-files", "--cached", "--others", "--exclude-standard"],
-            capture_output=True,
-            text=True,
-            check=True,
-        )
-        for name in listed.stdout.splitlines():
-            if (ROOT / name).is_file():
-                self.write(name, (ROOT / name).read_bytes())
+        for name in files_of_tree():
+            self.write(name, (ROOT / name).read_bytes())
         subprocess.run(
             [
                 "cmake",
@@ -173,11 +180,7 @@ class Workshop:
         )
 
     def write(self, name, content):
-        """Touches the file only where it changes: what has not changed is not built again."""
-        path = self.tree / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        if not path.exists() or path.read_bytes() != content:
-            path.write_bytes(content)
+        write_changed(self.tree / name, content)
 
     @contextlib.contextmanager
     def with_edits(self, edits):

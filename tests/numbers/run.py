@@ -17,13 +17,13 @@ sys.path.insert(0, str(ROOT / "tests"))
 import tiers
 
 NAMES = """mission made_up archive clearance in_slit ik planning distances verdicts detectors force replay golden faults
-mutations gateway frames latency sources worst fuzz stability filter human hands random_requests payload insertion
+mutations rooms gateway frames latency sources worst fuzz stability filter human hands random_requests payload insertion
 feeding install recover acceptance""".split()
 # Programs that sections are measured with, beside those of users.
 PROGRAMS = """planning_goals planning_shape planning_teleop plan_from_straight detectors force_friction distances verdicts
 stability filter pushes insertion_speeds bench_core bench_worst bits_tape
 recover""".split()
-PACKAGES = {"frames": ["chromium", "npm"], "made_up": ["bits"], "fuzz": ["clang"]}
+PACKAGES = {"frames": ["chromium", "npm"], "made_up": ["bits"], "fuzz": ["clang"], "rooms": ["clang"]}
 
 
 def fuzz_targets():
@@ -81,7 +81,7 @@ def build(sections):
         good = tiers.does("host/apps/web/bundle", "--dev") and good
     if "fuzz" in sections:
         good = tiers.build("checked", "fuzz_targets") and tiers.build("fuzz-fast", "fuzz_targets") and good
-    if set(sections) - {"install", "fuzz"}:
+    if set(sections) - {"install", "fuzz", "rooms"}:
         good = tiers.build_tests(*PROGRAMS) and good
     return good
 
