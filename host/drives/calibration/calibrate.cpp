@@ -23,17 +23,23 @@ using Index = std::size_t;
 constexpr Eigen::Index column(Index i) { return static_cast<Eigen::Index>(i); }
 using Changes = Eigen::Ref<const Eigen::VectorXd>;  // of one length, pose by pose, about their mean [m]
 
-constexpr double kRadiusToChange = 5.0;   // in a hole radius: 5 mm of the published arm, whose holes have 25 mm
-constexpr double kChangeToApart = 5.0;    // in min_change_m: between two cables, to tell them apart
-constexpr double kChangeToMisfit = 10.0;  // in it: of a fitted drum; elongation and hole radius bring a tenth of that
+// Shares of the hole radius, which is 25 mm at the published arm.
+constexpr double kChangeShare = 0.16;
+constexpr double kApartShare = 0.04;   // between two cables, to tell them apart
+constexpr double kMisfitShare = 0.02;  // of a fitted drum; elongation and hole radius bring a tenth of that
 constexpr double kDrumShare = 0.02;
 
-double min_change_of_cable_m(const config::RobotConfig& robot, Index cable) {
-  return min_change_m(robot.table, as_index(config::DriveNames(robot.table).segment_of(cable) - 1));
+// Of a segment (0-based); a base goes by the segment beyond it.
+double hole_radius_m(const RobotParams& robot, Index segment) {
+  return robot.segment[std::max(segment, as_index(robot.first_bending()))].hole_radius_m;
+}
+
+Index segment_of(const config::RobotConfig& robot, Index cable) {
+  return as_index(config::DriveNames(robot.table).segment_of(cable) - 1);
 }
 
 double max_misfit_m(const config::RobotConfig& robot, Index cable) {
-  return min_change_of_cable_m(robot, cable) / kChangeToMisfit;
+  return kMisfitShare * hole_radius_m(robot.table, segment_of(robot, cable));
 }
 
 // Largest |a scale - b| over the poses.
@@ -176,7 +182,7 @@ bool are_opposite(const RobotParams& robot, Index a, Index b) {
 }  // namespace
 
 double min_change_m(const RobotParams& robot, std::size_t segment) {
-  return robot.segment[std::max(segment, as_index(robot.first_bending()))].hole_radius_m / kRadiusToChange;
+  return kChangeShare * hole_radius_m(robot, segment);
 }
 
 void check_poses(const config::RobotConfig& robot, std::span<const ThetaVector> poses_rad) {
@@ -187,14 +193,14 @@ void check_poses(const config::RobotConfig& robot, std::span<const ThetaVector> 
   for (const ThetaVector& theta_rad : poses_rad) readings.push_back({theta_rad, {}, tension_N});
   const Eigen::MatrixXd cables = lengths_of(robot, readings).expected;
   for (Index a = 0; a < Index(cables.cols()); ++a) {
-    const double min_m = min_change_of_cable_m(robot, a);
+    const double min_m = min_change_m(robot.table, segment_of(robot, a));
     if (cables.col(column(a)).lpNorm<Eigen::Infinity>() < min_m)
       throw std::runtime_error(
           config::DriveNames(robot.table).cable(a) +
           text(" changes by less than %.2g mm between these poses: add one that bends its segment more", 1e3 * min_m));
     for (Index b = 0; b < Index(cables.cols()); ++b) {
       const Fit alike = fit(cables.col(column(a)), cables.col(column(b)));
-      if (a != b && alike.misfit_m < min_change_of_cable_m(robot, b) / kChangeToApart &&
+      if (a != b && alike.misfit_m < kApartShare * hole_radius_m(robot.table, segment_of(robot, b)) &&
           std::fabs(std::fabs(alike.scale) - 1.0) <= 2.0 * kDrumShare)
         refuse_alike(robot.table, a, b);
     }

@@ -25,12 +25,12 @@ struct CalibrationResult {
   std::vector<std::string> problems;  // each names drive or cable, what was found and what to do
 };
 
-// The poses tell every two cables apart, by a fifth of min_change_m, and every cable changes enough to see its
+// The poses tell every two cables apart, by 4 % of the hole radius, and every cable changes enough to see its
 // direction; throws std::runtime_error naming what is missing. At least two poses.
 void check_poses(const config::RobotConfig& robot, std::span<const cable::ThetaVector> poses_rad);
 
 // By which the length of every cable of `segment` (0-based) has to differ from its mean over the poses, for its
-// direction to be seen: as much as 0.2 rad make at the segment's holes. A base goes by the segment beyond it.
+// direction to be seen: as much as 0.16 rad make at the segment's holes. A base goes by the segment beyond it.
 double min_change_m(const cable::RobotParams& robot, std::size_t segment);
 
 // Fits a drum radius and a zero to every drive. A drive that counts backwards gets the other direction and is a problem
