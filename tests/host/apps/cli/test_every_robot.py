@@ -196,11 +196,17 @@ class EveryRobot(Messages, unittest.TestCase):
         table = json.loads(liana("robot", "export", file)[1])
         self.assertEqual(table["module"]["radius_m"], 0.0063)
         checked = liana_json("robot", "check", file)
-        self.assertEqual(checked["problems"], [])
-        self.assert_names(checked["notes"][0], "segment 1", "4.0 mm", "liana calibrate", "5 mm")
+        self.assertEqual((checked["problems"], checked["notes"]), ([], []))
+        code, out, error = liana("calibrate", "--robot", file, "--poses", "zero,bent,back", "--json")
+        self.assertEqual(code, 0, out + error)
         mission = self.folder / "tour.lua"
         mission.write_text(TOUR.replace('"first"', '"bent"').replace('"second"', '"back"'))
         self.crosses(file, mission, "none")
+
+    def test_an_arm_whose_cables_move_too_little_to_be_calibrated_says_so(self):
+        file = self.new("stiff", "--modules", 1, "--theta-limit", 5)
+        notes = liana_json("robot", "check", file)["notes"]
+        self.assert_names(notes[0], "segment 1", "liana calibrate")
 
     def test_a_new_arm_of_four_cables_a_segment_can_be_calibrated(self):
         file = self.new("four", "--segments", 2, "--cables", 4)
