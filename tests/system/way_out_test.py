@@ -155,6 +155,8 @@ class TheWayOut(SystemTest):
                 client.call("state_command", command=command, **words)
         client.call("state_command", command="clear", whole=5)
         client.go_on(0.5)
+        client.call("state_command", command="clear")  # which makes no cable whole that was only called so
+        client.go_on(0.5)
         client.call("state_command", command="enable")  # it takes no tension all the same
         client.until(lambda state: state["state"] == "ENABLING")
         begin = client.state["tick"]
@@ -165,11 +167,20 @@ class TheWayOut(SystemTest):
             client.call("state_command", command="enable")
         second.kill("lianad")
 
+        claimed = System(**kept)
+        client = self.booted(claimed)
+        client.call("state_command", command="clear", whole=5)
+        client.go_on(0.5)
+        claimed.kill("lianad")  # before anything has shown that it is
+
         third = System(**kept)
         client = self.booted(third)
+        with self.assertRaisesRegex(LianaError, "cable 5 .*lost before"):
+            client.call("state_command", command="enable")
         client.call("state_command", command="clear", whole=5)  # repaired
         client.go_on(0.5)
         client.enable()
+        client.go_on(0.1)
         third.kill("lianad")
         fourth = System(**kept)
         self.booted(fourth).enable()

@@ -87,7 +87,8 @@ class ArmServer {
   virtual std::string why_not_recover() const { return "this arm has no cables that it could go back without"; }
   // Whether it does so now: the core has cleared the fault for that.
   virtual bool recovers() const { return false; }
-  // Cables that are lost, as this lianad has seen; 0-based, ascending.
+  // Cables that are lost, as this lianad has seen, and those that were called whole and have not taken tension since;
+  // 0-based.
   virtual std::vector<std::size_t> lost() const { return {}; }
   // Somebody has looked at a cable that an earlier lianad has lost, and it is whole.
   virtual void call_whole(std::size_t /*cable*/) {}

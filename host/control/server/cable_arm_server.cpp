@@ -143,7 +143,6 @@ void CableArmServer::watch_loss() {
 }
 
 std::string CableArmServer::why_not_clear(std::int64_t whole) {
-  called_whole_.clear();
   std::string why = why_loss_stands(loss());
   const std::vector<std::size_t> lost = lost_cables(loss());
   const auto cable = static_cast<std::size_t>(whole - 1);
@@ -151,8 +150,19 @@ std::string CableArmServer::why_not_clear(std::int64_t whole) {
   if (whole < 1 || std::find(lost.begin(), lost.end(), cable) == lost.end())
     return "cable " + std::to_string(whole) + " is not lost" + (why.empty() ? "" : ": " + why);
   if (lost.size() > 1) return why;
-  if (!why.empty()) called_whole_ = lost;
+  if (!why.empty()) call_whole(cable);
   return "";
+}
+
+std::vector<std::size_t> CableArmServer::lost() const {
+  std::vector<std::size_t> cables = lost_cables(loss());
+  cables.insert(cables.end(), called_whole_.begin(), called_whole_.end());
+  return cables;
+}
+
+void CableArmServer::call_whole(std::size_t cable) {
+  if (std::find(called_whole_.begin(), called_whole_.end(), cable) == called_whole_.end())
+    called_whole_.push_back(cable);
 }
 
 std::string CableArmServer::why_not_recover() const { return server::why_not_recover(loss(), arbiter_.path_history()); }

@@ -37,8 +37,8 @@ class CableArmServer final : public TypedArmServer<cable::CableArm, arbiter::Cab
   std::string why_not_clear(std::int64_t whole) override;
   std::string why_not_recover() const override;
   bool recovers() const override;
-  std::vector<std::size_t> lost() const override { return lost_cables(loss()); }
-  void call_whole(std::size_t cable) override { called_whole_.push_back(cable); }
+  std::vector<std::size_t> lost() const override;
+  void call_whole(std::size_t cable) override;
   std::string why_not_taut() const override;
   bool is_untrue() const override;
   int devices_fd() const override { return devices_.fd(); }

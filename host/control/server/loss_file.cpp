@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "host/base/file/in_file.hpp"
+#include "host/base/file/out_file.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::server {
@@ -44,20 +44,23 @@ LossFile::LossFile(std::string path, std::string robot, std::size_t drives)
   }
 }
 
-// A rename is whole or not there. Who is killed loses nothing by it; who loses power may, and finds the arm by hand.
+// Who is killed loses nothing by it; who loses power may, and finds the arm by hand.
 bool LossFile::note(const std::vector<std::size_t>& cables) {
+  try {
+    if (cables.empty()) {
+      std::filesystem::remove(path_);
+    } else {
+      Json numbers = Json::array();
+      for (const std::size_t cable : cables) numbers.push_back(cable + 1);
+      file::OutFile out(path_);
+      out.write(Json{{"robot", robot_}, {"lost_cables", numbers}}.dump() + "\n");
+      out.finish();
+    }
+  } catch (const std::runtime_error&) {
+    return false;
+  }
   cables_ = cables;
-  std::error_code failed;
-  if (cables.empty()) return std::filesystem::remove(path_, failed) || !failed;
-  Json numbers = Json::array();
-  for (const std::size_t cable : cables) numbers.push_back(cable + 1);
-  const std::string next = path_ + ".next";
-  std::ofstream file(next, std::ios::trunc);
-  file << Json{{"robot", robot_}, {"lost_cables", numbers}}.dump() << '\n';
-  file.close();
-  if (!file) return false;
-  std::filesystem::rename(next, path_, failed);
-  return !failed;
+  return true;
 }
 
 }  // namespace liana::server

@@ -14,7 +14,7 @@ class LossFile {
   // robot's, says nothing. Throws std::runtime_error where the file can't be read as one of these.
   LossFile(std::string path, std::string robot, std::size_t drives);
 
-  // Cables that are lost; 0-based, ascending.
+  // Cables that are lost, as the file says; 0-based, ascending.
   const std::vector<std::size_t>& cables() const { return cables_; }
   // From now on these are; none: the file goes. False where the disk refuses it.
   bool note(const std::vector<std::size_t>& cables);

@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kLockstepPatience_s = 10.0;  // a client that stays silent longer is dead
 constexpr double kEnabling_s = 4.5;           // after which an enable says what it waits for: the ramp takes 3 s
+constexpr double kWriteAgain_s = 1.0;         // a disk that has refused the file of lost cables
 constexpr double kHoming_s = 0.5;             // of arm time after booting: homing takes 0.1 s
 
 }  // namespace
@@ -51,6 +52,7 @@ Service::Service(const ServiceConfig& config, ArmServer& desk)
                     desk.joint_count());
   desk.restore_way(way_file_->kept());
   losses_.emplace(config.way_file + ".lost", robot.at("name").text(), desk.drive_count());
+  remembered_ = losses_->cables();
 }
 
 // In real time finer than ticks: both ways of a device's packets are measured with it.
@@ -161,7 +163,8 @@ void Service::watch_enabling() {
         .number = event::number_of(event::HostTroubleEvent::kEnablingWaits),
         .text = "enabling waits: " + notes_.enabling_waits});
   if (!desk_.is_untrue()) return;
-  if (losses_ && !recalled_.empty()) losses_->note(std::exchange(recalled_, {}));
+  remembered_.insert(remembered_.end(), recalled_.begin(), recalled_.end());
+  recalled_.clear();
   note({.kind = event::EventKind::kHostWarning,
         .number = event::number_of(event::HostTroubleEvent::kEnablingWaits),
         .text = "enabling ends: a cable that was called whole takes no tension, and counts as lost again"});
@@ -293,19 +296,24 @@ void Service::keep_way() {
   keep_losses();
 }
 
-// What is lost stays so beyond this lianad, until somebody has called it whole or it has taken tension again.
+// What is lost stays so beyond this lianad until the arm has been enabled with it: that somebody calls a cable whole is
+// no proof.
 void Service::keep_losses() {
   if (now().state == OperatingState::kEnabled) recalled_.clear();
-  const std::vector<std::size_t> lost = desk_.lost();
-  if (!loss_told_ && !why_remembered().empty()) {
+  std::vector<std::size_t> lost = desk_.lost();
+  for (const auto* more : {&remembered_, &recalled_}) lost.insert(lost.end(), more->begin(), more->end());
+  std::sort(lost.begin(), lost.end());
+  lost.erase(std::unique(lost.begin(), lost.end()), lost.end());
+  if (!loss_told_ && !remembered_.empty()) {
     note({.kind = event::EventKind::kHostWarning,
           .number = event::number_of(event::HostTroubleEvent::kEnablingWaits),
           .text = "enabling is refused: " + why_remembered()});
   }
   loss_told_ = true;
-  if (lost.empty() && !has_lost_) return;
-  has_lost_ = !lost.empty();
-  if (lost == losses_->cables() || losses_->note(lost)) return;
+  if (lost == losses_->cables() || tick() < next_loss_tick_) return;
+  const bool is_written = losses_->note(lost), was_written = next_loss_tick_ == 0;
+  next_loss_tick_ = is_written ? 0 : tick() + ticks_in(kWriteAgain_s);
+  if (is_written || !was_written) return;
   note({.kind = event::EventKind::kHostWarning,
         .number = event::number_of(event::HostTroubleEvent::kEnablingWaits),
         .text = "a lianad that is started anew will not know of the lost cables: their file cannot be written"});
@@ -313,24 +321,21 @@ void Service::keep_losses() {
 
 // What an earlier lianad has left: the core of this one does not know of it.
 std::string Service::why_remembered() const {
-  if (!losses_ || has_lost_ || losses_->cables().empty()) return "";
-  const std::size_t cable = losses_->cables().front();
+  if (remembered_.empty()) return "";
+  const std::size_t cable = remembered_.front();
   return config_.drive_names.cable(cable) +
          " was lost before this lianad was started. If you have looked and it is whole, liana clear --whole " +
          std::to_string(cable + 1) + "; else take the arm out by hand (docs/how-to/a-cable-broke.md)";
 }
 
 bool Service::remembers(std::int64_t cable) const {
-  if (why_remembered().empty()) return false;
-  const std::vector<std::size_t>& lost = losses_->cables();
-  return cable >= 1 && std::find(lost.begin(), lost.end(), static_cast<std::size_t>(cable - 1)) != lost.end();
+  return cable >= 1 &&
+         std::find(remembered_.begin(), remembered_.end(), static_cast<std::size_t>(cable - 1)) != remembered_.end();
 }
 
 // A cable that an earlier lianad has lost is whole again.
 void Service::recall(std::size_t cable) {
-  std::vector<std::size_t> left = losses_->cables();
-  std::erase(left, cable);
-  losses_->note(left);
+  std::erase(remembered_, cable);
   recalled_.push_back(cable);
   desk_.call_whole(cable);
 }

@@ -152,9 +152,10 @@ class Service : private api::ApiHandler {
   std::optional<CommandLog> dispatch_;
   std::optional<RetractPathFile> way_file_;
   std::optional<LossFile> losses_;
-  bool has_lost_ = false;              // in this life; else losses_ has what an earlier one has left
-  bool loss_told_ = false;             // what an earlier one has left
-  std::vector<std::size_t> recalled_;  // cables of these that were called whole, until the arm has been enabled
+  std::vector<std::size_t> remembered_;  // that an earlier lianad has lost, as far as nobody has called them whole
+  std::vector<std::size_t> recalled_;    // cables of these that were called whole, until the arm has been enabled
+  bool loss_told_ = false;               // what an earlier one has left
+  std::uint64_t next_loss_tick_ = 0;     // when the file is tried again; 0: it has taken all
   std::optional<event::LineFile> verify_times_;
   realtime::BootPhase boot_seen_ = realtime::BootPhase::kBooting;
   bool homed_told_ = false;

@@ -137,7 +137,8 @@ Json Service::on_state_command(const api::ClientInfo&, const api::Arguments& fie
   } else if (command == "clear") {
     const std::int64_t whole = fields.has("whole") ? fields.integer("whole") : 0;
     const bool is_recalled = remembers(whole);
-    std::string why = is_recalled ? "" : why_remembered();
+    const bool boots_again = boot_seen_ == realtime::BootPhase::kFailed;
+    std::string why = is_recalled || boots_again ? "" : why_remembered();
     if (why.empty()) why = desk_.why_not_clear(is_recalled ? 0 : whole);
     if (!why.empty()) throw api::RequestError("fault", "not cleared: " + why);
     if (is_recalled) recall(static_cast<std::size_t>(whole - 1));

@@ -29,7 +29,9 @@ TEST_F(FileOfLosses, IsReadAsItWasWrittenAndGoneWhenNothingIsLost) {
   EXPECT_TRUE(file().note({}));
   EXPECT_FALSE(std::filesystem::exists(path_));
   EXPECT_TRUE(file().note({})) << "nothing to remove";
-  EXPECT_FALSE(LossFile("/nowhere/losses.json", "an arm", 15).note({2}));
+  LossFile nowhere("/nowhere/losses.json", "an arm", 15);
+  EXPECT_FALSE(nowhere.note({2}));
+  EXPECT_EQ(nowhere.cables(), Cables{}) << "what is not written is tried again";
 }
 
 TEST_F(FileOfLosses, ThatSaysNothingIsNoWholeArm) {
