@@ -30,11 +30,16 @@ void Gaps::take(const Telemetry& packet, double now_s) {
     gap.missing.insert(static_cast<std::uint16_t>(each % kCountModulus));
   if (before.count == count || gap.missing.empty()) return;
   found_ += gap.missing.size();
-  if (gaps_.size() < kMaxGaps) {
-    gaps_.push_back(std::move(gap));
-  } else {
-    lost_ += gap.missing.size();
+  add(std::move(gap));
+}
+
+// The oldest makes room: it has been asked for most often, or by a store of an earlier life.
+void Gaps::add(Gap gap) {
+  if (gaps_.size() == kMaxGaps) {
+    lost_ += gaps_.front().missing.size();
+    gaps_.pop_front();
   }
+  gaps_.push_back(std::move(gap));
 }
 
 void Gaps::take_together(std::vector<Telemetry> packets, double now_s) {
@@ -68,9 +73,9 @@ void Gaps::begin_life(std::uint16_t apid, const Span& between, double now_s) {
     if (is_between) found_ -= each.missing.size();
     return is_between;
   });
-  std::erase_if(newest_, [&](const auto& each) { return each.second.time_us <= between.from_us; });
+  std::erase_if(newest_, [&](const auto& each) { return each.second.time_us < between.to_us; });
   newest_message_.clear();
-  if (gaps_.size() < kMaxGaps) gaps_.push_back({apid, {}, between, now_s + kGrace_s, kMaxTries - 1});
+  add({apid, {}, between, now_s + kGrace_s, kMaxTries - 1});
 }
 
 bool Gaps::fill(std::uint16_t apid, std::uint16_t count, std::uint64_t time_us) {

@@ -21,7 +21,7 @@ class Gaps {
   static constexpr double kGrace_s = 1.0;        // packets may overtake each other for so long
   static constexpr double kAgain_s = 5.0;        // from one question to the next
   static constexpr int kMaxTries = 10;           // then what is missing counts as lost
-  static constexpr std::size_t kMaxGaps = 1024;  // at a time; further ones count as lost
+  static constexpr std::size_t kMaxGaps = 1024;  // at a time; the oldest of more counts as lost
 
   struct Span {
     std::uint64_t from_us = 0, to_us = 0;
@@ -41,6 +41,7 @@ class Gaps {
   std::size_t open() const { return gaps_.size(); }
 
  private:
+  struct Gap;
   struct Newest {
     std::uint16_t count;
     std::uint64_t time_us;
@@ -58,6 +59,7 @@ class Gaps {
   bool fill(std::uint16_t apid, std::uint16_t count, std::uint64_t time_us);
   unsigned ahead(const Telemetry& packet) const;
   bool is_of_a_new_life(const Telemetry& packet, const Newest& before) const;
+  void add(Gap gap);
   void begin_life(std::uint16_t apid, const Span& between, double now_s);
 
   std::map<std::uint16_t, Newest> newest_;                                   // by APID

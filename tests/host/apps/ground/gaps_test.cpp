@@ -90,6 +90,10 @@ TEST(Gaps, BeyondTheirNumberCountAsLostAtOnce) {
   for (unsigned i = 0; i < Gaps::kMaxGaps + 10; ++i) take(gaps, 2 * i, 2 * i, 0.0);
   EXPECT_EQ(gaps.open(), Gaps::kMaxGaps);
   EXPECT_EQ(gaps.lost(), 9u);
+  take(gaps, 1, 1, 0.0);
+  EXPECT_EQ(gaps.open(), Gaps::kMaxGaps) << "the oldest was given up";
+  take(gaps, 2 * Gaps::kMaxGaps + 17, 2 * Gaps::kMaxGaps + 17, 0.0);
+  EXPECT_EQ(gaps.open(), Gaps::kMaxGaps - 1) << "the newest was kept";
 }
 
 constexpr std::uint64_t kLater_us = 10000000000;  // the on-board end was started anew then
@@ -124,6 +128,7 @@ TEST(Gaps, OfAnotherApidAcrossTheStartAreNoneEither) {
     Gaps gaps;
     for (unsigned i = 0; i < 200; ++i) gaps.take(time_sent(i), 0.0);
     take(gaps, 0, 200, 0.0);
+    for (unsigned i = 200; i < 250; ++i) gaps.take(time_sent(i), 5.0);  // the last that the first life says
     if (time_comes_first) gaps.take(time_sent(0, kLater_us - 2 * kStep_us), 10.0);
     take(gaps, 0, 10, 10.0, kLater_us);
     for (unsigned i = 1; i < 10; ++i) gaps.take(time_sent(i, kLater_us), 10.0);
