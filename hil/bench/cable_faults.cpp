@@ -11,11 +11,14 @@ constexpr double kBroken_m = 1.0;         // more than a drum winds up in an hou
 
 }  // namespace
 
+// Of slack that has ended and is not all taken up.
+int DriveBank::slots_to_take_up(std::size_t i) const { return creep_[i].per_slot_m < 0.0 ? creep_[i].slots_left : 0; }
+
 void DriveBank::begin_behind(const FaultConfig& fault, std::size_t i) {
   const FaultParameters& with = fault.parameters;
   switch (fault.kind) {
     case FaultKind::kSlack:
-      creep_[i] = {kSlackPerSlot_m, kSlackSlots};
+      creep_[i] = {kSlackPerSlot_m, kSlackSlots - slots_to_take_up(i)};
       return;
     case FaultKind::kCableSlip:
       creep_[i] = {with.length_m / with.slots, static_cast<int>(with.slots)};

@@ -106,11 +106,8 @@ void CablePlant::inject(std::uint32_t slot, FaultInjector& injector) {
   injector.step(slot, {arm_->theta_rad(), arm_->rate_rad_s(), depth_m()}, drives_);
   load_cells_.suffer(injector.faults(), [&injector](std::size_t fault) { return injector.is_on(fault); });
   arm_->set_pushes(pushes_at(slot, injector, links_));
-  for (std::size_t i = 0; i < injector.faults().size(); ++i) {
-    const FaultConfig& fault = injector.faults()[i];
-    if (fault.kind != FaultKind::kJammed) continue;
-    for (const std::size_t drive : fault.drives) arm_->set_jammed(drive, injector.is_on(i));
-  }
+  for (std::size_t drive = 0; drive < built_.base_drives(); ++drive)
+    arm_->set_jammed(drive, injector.has(FaultKind::kJammed, drive));
 }
 
 double CablePlant::fastest_rad_s() const {

@@ -36,6 +36,7 @@ class DriveBank final : public Drives {
 
   void begin_behind(const FaultConfig& fault, std::size_t drive) override;
   void end_behind(const FaultConfig& fault, std::size_t drive) override;
+  int slots_to_take_up(std::size_t drive) const;
   void creep();
   double permille(double tension_N) const;
 

@@ -17,6 +17,15 @@ void FaultInjector::add(const std::vector<FaultConfig>& more) {
   held_.resize(faults_.size(), 0);
 }
 
+bool FaultInjector::has(FaultKind kind, std::size_t drive) const {
+  for (std::size_t i = 0; i < faults_.size(); ++i) {
+    const std::vector<std::size_t>& drives = faults_[i].drives;
+    if (faults_[i].kind == kind && is_on(i) && std::find(drives.begin(), drives.end(), drive) != drives.end())
+      return true;
+  }
+  return false;
+}
+
 void FaultInjector::end_all() {
   for (std::size_t i = 0; i < faults_.size(); ++i)
     if (is_on(i) && row_of(faults_[i].kind).can_end) faults_[i].for_slots = 0;

@@ -46,6 +46,8 @@ class FaultInjector {
   const std::vector<FaultConfig>& faults() const { return faults_; }
   // The fault has begun and not ended.
   bool is_on(std::size_t fault) const { return courses_[fault].begun && !courses_[fault].ended; }
+  // One of this kind is on at the drive.
+  bool has(FaultKind kind, std::size_t drive) const;
   // One per fault of the list.
   const std::vector<Course>& courses() const { return courses_; }
 

@@ -47,6 +47,11 @@ std::string practise(const std::string& packet, std::uint32_t slot, const Plant&
       return refused("the bench has had " + std::to_string(injector.faults().size()) +
                      " faults; allowed are 200: start it again");
     plant.refuse(faults);
+    for (const FaultConfig& fault : faults)
+      for (const std::size_t drive : fault.drives)
+        if (injector.has(fault.kind, drive))
+          return refused("drive " + std::to_string(drive + 1) + " has a fault of kind \"" + fault.name +
+                         "\" already; repair that first");
     injector.add(faults);
     return ok(injector, slot);
   } catch (const std::runtime_error& error) {
