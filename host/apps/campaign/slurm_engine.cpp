@@ -32,7 +32,7 @@ constexpr int kLooksAfter = 8;             // results of the last task may come 
 
 // The words of a program that is looked up on PATH; one that hangs is ended.
 Captured ask(std::vector<std::string> words) {
-  words.insert(words.begin(), {kEnv, "timeout", "--foreground", kPatience_s});
+  words.insert(words.begin(), {kEnv, "timeout", "--foreground", "--kill-after=5", kPatience_s});
   Captured said = launcher::run_and_capture(words);
   if (said.code == kTimedOut) said.error = "no answer within " + std::string(kPatience_s) + " s";
   return said;
