@@ -53,8 +53,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     rest.remove_prefix(part.size());
     receive(end, part);
     end.tick();
-    if (const auto telemetry = ground::read_telemetry(part))
-      gaps.take(*telemetry, now_s);
+    if (const auto telemetry = ground::read_telemetry(part)) gaps.take(*telemetry, now_s);
     (void)gaps.ask(now_s);
   }
   // What a decoder answers: values or a refusal in words.
