@@ -18,7 +18,7 @@ except ImportError:  # Debian's, when another Python than Debian's runs
 LIBRARY = "libclang-14.so.1"
 SWITCH = "LIANA_MUTANT"  # environment: number of the one that is on; none: 0
 REACHED = "LIANA_MUTANTS_REACHED"  # environment: file that gets a byte for each number, 1 where the program came by
-HEADER = """\
+SWITCHES = """\
 #pragma once
 #ifdef __cplusplus
 extern "C" char* getenv(const char*) noexcept;
@@ -29,9 +29,9 @@ extern "C" int close(int);
 inline unsigned char liana_mutants_reached[%(count)d + 1];
 struct LianaMutant {
   int on = 0;
-  LianaMutant() { if (const char* number = getenv("LIANA_MUTANT")) on = atoi(number); }
+  LianaMutant() { if (const char* number = getenv("%(switch)s")) on = atoi(number); }
   ~LianaMutant() {
-    const char* path = getenv("LIANA_MUTANTS_REACHED");
+    const char* path = getenv("%(reached)s");
     const int file = path != nullptr ? open(path, 0101, 0644) : -1;
     if (file >= 0 && write(file, liana_mutants_reached, sizeof liana_mutants_reached) > 0) close(file);
   }
@@ -44,6 +44,12 @@ inline bool liana_mutant_asked(int number) noexcept {
 constexpr bool lm(int number) noexcept { return !__builtin_is_constant_evaluated() && liana_mutant_asked(number); }
 #endif
 """
+
+
+def header(count):
+    """What every source includes first: the switches of so many."""
+    return SWITCHES % {"count": count, "switch": SWITCH, "reached": REACHED}
+
 
 Kind, Type = cindex.CursorKind, cindex.TypeKind
 FUNCTIONS = {Kind.FUNCTION_DECL, Kind.CXX_METHOD, Kind.CONSTRUCTOR, Kind.DESTRUCTOR, Kind.FUNCTION_TEMPLATE}

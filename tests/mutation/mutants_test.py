@@ -50,7 +50,7 @@ class Rules(unittest.TestCase):
         cls.root = pathlib.Path(cls.folder)
         (cls.root / "sum.cpp").write_text(SOURCE)
         cls.mutants = mutants.all_mutants(cls.root, ["sum.cpp"], ["-std=c++20"])
-        (cls.root / "lm.hpp").write_text(mutants.HEADER % {"count": len(cls.mutants)})
+        (cls.root / "lm.hpp").write_text(mutants.header(len(cls.mutants)))
         (cls.root / "sum.cpp").write_bytes(mutants.rewritten(cls.root, cls.mutants)["sum.cpp"])
         call = ["g++", "-std=c++20", "-w", "-include", "lm.hpp", "sum.cpp", "-o", "sum"]
         subprocess.run(call, cwd=cls.root, check=True)

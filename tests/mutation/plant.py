@@ -79,12 +79,12 @@ class Bench:
         self.tree, self.build = PLACE / "tree", PLACE / "build"
         for name in files_of_tree():
             write_changed(self.tree / name, (ROOT / name).read_bytes())
-        write_changed(self.tree / SWITCHES, (mutants.HEADER % {"count": 0}).encode())
+        write_changed(self.tree / SWITCHES, mutants.header(0).encode())
         self.configure()
         self.mutants = mutants.all_mutants(self.tree, names, self.arguments())
         for name, text in mutants.rewritten(self.tree, self.mutants).items():
             write_changed(self.tree / name, text)
-        write_changed(self.tree / SWITCHES, (mutants.HEADER % {"count": len(self.mutants)}).encode())
+        write_changed(self.tree / SWITCHES, mutants.header(len(self.mutants)).encode())
         self.programs = sorted({program_of(name) for name in names})
 
     def configure(self):

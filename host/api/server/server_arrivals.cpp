@@ -72,15 +72,12 @@ void ApiServer::accept_new() {
 }
 
 UniqueFd ApiServer::accept_one() {
-  const auto accept = [this] {
-    return UniqueFd(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
-  };
-  UniqueFd fd = accept();
+  UniqueFd fd = accept_now(listener_.get());
   if (fd.get() >= 0 || (errno != EMFILE && errno != ENFILE)) return fd;
   const std::size_t others = strangers().size();
   if (others == 0) spare_ = UniqueFd();
   if (others > 0) close_oldest_strangers(others - 1, "made room for others: no file descriptor was left");
-  return accept();
+  return accept_now(listener_.get());
 }
 
 // A newcomer has mostly said already what it wants.
@@ -127,7 +124,7 @@ void ApiServer::drop_unidentified() {
     if (seconds_since(stranger->since) > kStrangerPatience_s) close(*stranger, "did not say hello within 2 s");
   }
   forget_closed_strangers();
-  if (spare_.get() < 0) spare_ = UniqueFd(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+  keep_spare(spare_);
 }
 
 void ApiServer::greet(Client& client, const Json& request) {

@@ -33,8 +33,6 @@ std::optional<std::int64_t> id_of(const Json& message) {
   return id.get<std::int64_t>();
 }
 
-Json done(std::int64_t id) { return {{"op", "answer"}, {"id", id}, {"ok", true}, {"answer", Json::object()}}; }
-
 }  // namespace
 
 Session::Session(House& house, std::string address, double now_s, std::function<void()> something_to_send)
@@ -130,8 +128,8 @@ void Session::request(const Json& message, std::optional<std::int64_t> id, doubl
     house_.refused("wrong_role", address_, name_ + " (" + access_name(access_) + ") asked for " + op);
     return answer(refusal(id, "not_allowed", "'" + op + "' is not for the role " + access_name(access_)));
   }
-  if (op == "device") return device(wanted, id);
-  if (op == "plan" || op == "end_plan") return plan(wanted, id, now_s);
+  if (op == "device") return carry_out(id, [&] { handles_->take(wanted); });
+  if (op == "plan" || op == "end_plan") return carry_out(id, [&] { plan(wanted, now_s); });
   if (op == "practice") return practice_->ask(wanted, id);
   if (op == "use_device") choose(wanted);
   (op == "operator_says" ? operator_ : client_)->ask(wanted, id);
@@ -140,28 +138,20 @@ void Session::request(const Json& message, std::optional<std::int64_t> id, doubl
   handles_->leave();
 }
 
-// Samples of the page's own handles.
-void Session::device(const Json& wanted, std::optional<std::int64_t> id) {
+// What the gateway does by itself, such as taking samples of the page's own handles, is answered at once.
+void Session::carry_out(std::optional<std::int64_t> id, const std::function<void()>& wanted) {
   try {
-    handles_->take(wanted);
-    if (id) answer(done(*id));
+    wanted();
+    if (id) answer({{"op", "answer"}, {"id", *id}, {"ok", true}, {"answer", Json::object()}});
   } catch (const api::RequestError& error) {
     answer(refusal(id, error.code(), error.what()));
   }
 }
 
 // A way to a goal of angles: what becomes of it comes as messages.
-void Session::plan(const Json& wanted, std::optional<std::int64_t> id, double now_s) {
-  try {
-    if (text_of(wanted, "op") == "plan") {
-      planner_->start(wanted, house_.feed.welcome(), Json::parse_or_null(house_.feed.state()), name_, now_s);
-    } else {
-      planner_->end("Planning was cancelled.");
-    }
-    if (id) answer(done(*id));
-  } catch (const api::RequestError& error) {
-    answer(refusal(id, error.code(), error.what()));
-  }
+void Session::plan(const Json& wanted, double now_s) {
+  if (text_of(wanted, "op") != "plan") return planner_->end("Planning was cancelled.");
+  planner_->start(wanted, house_.feed.welcome(), Json::parse_or_null(house_.feed.state()), name_, now_s);
 }
 
 // lianad looks for a device before it lets one steer: the page's handles are there before they are asked for. Where

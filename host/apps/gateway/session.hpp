@@ -88,9 +88,9 @@ class Session {
   void hello(const class Json& message);
   bool is_proven(const Json& message);
   void request(const Json& message, std::optional<std::int64_t> id, double now_s);
-  void device(const Json& wanted, std::optional<std::int64_t> id);
+  void carry_out(std::optional<std::int64_t> id, const std::function<void()>& wanted);
   void choose(const Json& wanted);
-  void plan(const Json& wanted, std::optional<std::int64_t> id, double now_s);
+  void plan(const Json& wanted, double now_s);
   void stop(const Json& message, std::optional<std::int64_t> id, double now_s);
   void pace(const Json& message);
   void malformed(double now_s, std::optional<std::int64_t> id, const std::string& why);

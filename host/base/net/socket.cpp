@@ -164,16 +164,21 @@ bool wait_for(int fd, short events, double timeout_s) {
 }
 }  // namespace
 
-UniqueFd accept_or_turn_away(int listener, UniqueFd& spare) {
-  const auto accept = [listener] {
-    return UniqueFd(::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
-  };
+UniqueFd accept_now(int listener) {
+  return UniqueFd(::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+}
+
+void keep_spare(UniqueFd& spare) {
   if (spare.get() < 0) spare = UniqueFd(::open("/dev/null", O_RDONLY | O_CLOEXEC));
-  UniqueFd fd = accept();
+}
+
+UniqueFd accept_or_turn_away(int listener, UniqueFd& spare) {
+  keep_spare(spare);
+  UniqueFd fd = accept_now(listener);
   if (fd.get() >= 0 || (errno != EMFILE && errno != ENFILE)) return fd;
   spare = UniqueFd();
-  accept();  // and closed
-  spare = UniqueFd(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+  accept_now(listener);  // and closed
+  keep_spare(spare);
   return UniqueFd();
 }
 

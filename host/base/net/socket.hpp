@@ -70,7 +70,11 @@ void limit_wait(int fd, double timeout_s);
 // Reads one packet of at most kMaxPacketBytes, waiting for it; kWouldBlock when none came, or a signal did.
 SocketResult await_packet(int fd, std::string& packet);
 
-// A connection that waits at `listener`, non-blocking; none where nobody waits. Where this process may have no further
+// A connection that waits at `listener`, non-blocking; none where nobody waits, and errno says why.
+UniqueFd accept_now(int listener);
+// Opens `spare`, where it is not open, on nothing: to be given up where a connection finds no other descriptor.
+void keep_spare(UniqueFd& spare);
+// The same as accept_now(). Where this process may have no further
 // descriptor, `spare` is given up for a moment to turn the connection away: who polls the listener would never sleep.
 UniqueFd accept_or_turn_away(int listener, UniqueFd& spare);
 

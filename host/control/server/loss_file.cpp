@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
-#include "host/base/file/in_file.hpp"
 #include "host/base/file/out_file.hpp"
 #include "host/base/json/json.hpp"
+#include "host/model/config/field.hpp"
 
 namespace liana::server {
 namespace {
@@ -32,11 +30,7 @@ LossFile::LossFile(std::string path, std::string robot, std::size_t drives)
     : path_(std::move(path)), robot_(std::move(robot)) {
   if (!std::filesystem::exists(path_)) return;
   try {
-    file::require_ordinary(path_);
-    std::ifstream file(path_);
-    std::ostringstream text;
-    text << file.rdbuf();
-    const Json content = Json::parse(text.str());
+    const Json content = Json::parse(config::read_text_file(path_));
     if (content.at("robot").text() == robot_) cables_ = cables_in(content, drives);
   } catch (const std::exception& error) {
     throw std::runtime_error("'" + path_ + "' should say which cables the arm has lost: " + error.what() +

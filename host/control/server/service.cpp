@@ -301,7 +301,7 @@ void Service::keep_way() {
 void Service::keep_losses() {
   if (now().state == OperatingState::kEnabled) recalled_.clear();
   std::vector<std::size_t> lost = desk_.lost();
-  for (const auto* more : {&remembered_, &recalled_}) lost.insert(lost.end(), more->begin(), more->end());
+  lost.insert(lost.end(), remembered_.begin(), remembered_.end());
   std::sort(lost.begin(), lost.end());
   lost.erase(std::unique(lost.begin(), lost.end()), lost.end());
   if (!loss_told_ && !remembered_.empty()) {
