@@ -1,8 +1,9 @@
 """Hands that nobody has looked at, each drawn from its seed, lead a cable arm on the bench for 10 s: waves, chirps, steps,
 walks and tempers (to and fro, with tremor, letting go and gripping in motion), along and about any axis, asking the tip for
-up to 3 times the speeds of the robot's table and up to 10 times its accelerations.
+up to 3 times the speeds of the robot's table and up to 10 times its accelerations. They begin at the poses that the robot's
+table names, or with --corners where all of its angles are bent at 0.6 of their limits and more.
 
-Alone: hands.py [--bin DIR] [--count HANDS] [--first SEED] [--json].
+Alone: hands.py [--bin DIR] [--count HANDS] [--first SEED] [--corners] [--json].
 """
 import argparse
 import concurrent.futures
@@ -31,6 +32,7 @@ REACH_DEG = 30.0
 TREMOR_M, TREMOR_HZ = 0.0005, (8.0, 12.0)
 INTERVAL_S, STEP_S = 0.02, 0.001
 AFTER_FAULT_S = 1.0
+CORNER_SHARE = 0.6
 LAG_MOST_S, LAG_LEAST_WAY_M = 2.0, 0.01
 STILL_M = 1e-4  # in ten intervals
 
@@ -94,8 +96,9 @@ def let_go_times(draw):
 class Hand:
     """What a seed draws: the arm, where it begins, and what the hand does."""
 
-    def __init__(self, seed):
+    def __init__(self, seed, in_corner=False):
         draw = random.Random(f"hand {seed}")
+        self.in_corner = in_corner
         self.seed, self.kind = seed, draw.choice(KINDS)
         self.robot, self.bus = draw.choice(ARMS)
         self.physics = draw.choice(("nominal", "worn"))
@@ -121,8 +124,18 @@ class Hand:
             self.way_deg = way_of(self.kind, self.draw, speed, accel, REACH_DEG)
 
     def pose_of(self, robot):
+        if self.in_corner:
+            return ",".join(f"{deg:.1f}" for deg in self.corner(robot["segments"]))
         poses = sorted(robot["named_poses_deg"])
         return poses[int(self.pose_share * len(poses))]
+
+    def corner(self, segments):
+        """Neighbouring segments bend to opposite sides, so that the arm does not meet itself."""
+        draw, sides = random.Random(f"corner {self.seed}"), [1, 1]
+        for segment in segments:
+            for k in range(2):
+                sides[k] = -sides[k] if draw.random() < 0.8 else sides[k]
+                yield sides[k] * draw.uniform(CORNER_SHARE, 1.0) * segment["theta_limit_deg"]
 
     def has_grip(self, t):
         return not self.open_s[0] <= t < self.open_s[1]
@@ -256,13 +269,13 @@ def told(hand, session):
     }
 
 
-def one_hand(seed):
+def one_hand(seed, in_corner):
     """The figures of one hand."""
-    hand = Hand(seed)
+    hand = Hand(seed, in_corner)
     robot = json.loads(tables.table("robot", hand.robot))
     hand.plan(robot)
     physics = ["--physics", hand.physics]
-    bench = [*physics, "--start-pose", hand.pose_of(robot)]
+    bench = [*physics, f"--start-pose={hand.pose_of(robot)}"]
     figures = {"seed": seed, "robot": hand.robot, "kind": hand.kind, "moves": hand.moves, "physics": hand.physics}
     with System(seed=seed, robot=hand.robot, bus=hand.bus, scene="none", lianad=physics, bench=bench) as system:
         session = Session(system, hand)
@@ -273,10 +286,10 @@ def one_hand(seed):
         return {**figures, **told(hand, session), **truth_of(system.truth(), robot, rows)}
 
 
-def named_hand(seed):
+def named_hand(seed, in_corner=False):
     """What a client raises does not pass from one process to another, and does not say whose hand it was."""
     try:
-        return one_hand(seed)
+        return one_hand(seed, in_corner)
     except LianaError as error:
         raise RuntimeError(f"hand {seed}: {error}") from None
 
@@ -329,11 +342,11 @@ def text_of(found):
     return text + "\n\n" + faults_text(found)
 
 
-def measure(binaries, count=HANDS, first=FIRST_SEED):
+def measure(binaries, count=HANDS, first=FIRST_SEED, in_corner=False):
     os.environ["LIANA_BIN"] = str(binaries.resolve())
     with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
         found = []
-        for one in pool.map(named_hand, range(first, first + count)):
+        for one in pool.map(named_hand, range(first, first + count), [in_corner] * count):
             found.append(one)
             told_of = f"{one['robot']} {one['kind']}: faults {one['faults']}, {one['refusals']:.1f} refusals in 10 s"
             print(f"   {one['seed']} {told_of}", file=sys.stderr, flush=True)
@@ -345,9 +358,10 @@ def main():
     line.add_argument("--bin", type=pathlib.Path, default=folders.ROOT / "build/bin", help="where the programs are")
     line.add_argument("--count", type=int, default=HANDS)
     line.add_argument("--first", type=int, default=FIRST_SEED, help="seed of the first hand")
+    line.add_argument("--corners", action="store_true", help="begin where all angles are bent far")
     line.add_argument("--json", action="store_true")
     options = line.parse_args()
-    values, text = measure(options.bin, options.count, options.first)
+    values, text = measure(options.bin, options.count, options.first, options.corners)
     print(json.dumps(values) if options.json else text)
 
 

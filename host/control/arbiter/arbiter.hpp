@@ -110,6 +110,9 @@ class Arbiter {
   void ask_anew();
   // Of `limit_m_s`, what a tip that is led along `way_m` may have now.
   virtual double speed_left_m_s(const Vec3& way_m, double limit_m_s);
+  // Of the speed of planned motions, what the arm leaves in this interval, 0..1.
+  virtual double pace_left(const Now&) { return 1.0; }
+  double pace() const { return pace_; }
   void limit_tip_speed(double speed_m_s) { tip_speed_m_s_ = speed_m_s; }
   // In place of the one that the arbiter was made with.
   void check_paths_by(PathCheck<Arm> check) { path_check_ = std::move(check); }
@@ -120,7 +123,7 @@ class Arbiter {
   // Nothing is asked for.
   struct Idle {
     static constexpr bool kIsPlanned = false;
-    Goal<Arm> next(const Now&) { return {}; }
+    Goal<Arm> next(const Now&, double) { return {}; }
     bool is_over() const { return false; }
     bool refused() { return false; }
   };
@@ -139,6 +142,7 @@ class Arbiter {
   SpeedZone zone_;
   double tip_speed_m_s_;
   visual_servo::TargetServo servo_{interval_s(table_)};
+  double pace_ = 1.0;
   Vec3 command_at_m_{};  // the tip, an interval ago
   StartRamp start_ramp_;
   GoalRamp goal_ramp_{Kind::goal_ramp(table_)};

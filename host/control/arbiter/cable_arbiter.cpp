@@ -43,6 +43,7 @@ CableArbiter::CableArbiter(const cable::RobotParams& table, const SpeedZone& zon
       interval_s_(interval_s(table)),
       lead_(table, taken),
       catch_up_(interval_s_),
+      taut_pace_(this->table(), interval_s_),
       guidance_(guidance) {}
 
 void CableArbiter::require_free(const cable::Outputs& now) const {
@@ -248,6 +249,13 @@ cable::Setpoint CableArbiter::dithering_setpoint() {
   return setpoint;
 }
 
+// What is slack with a fault, or released, stays so on the way back.
+double CableArbiter::pace_left(const cable::Outputs& now) {
+  if (now.faults.count == 0 && !Kind::recovers(table(), now)) return taut_pace_.next(now.tension_measured_N);
+  taut_pace_.forget();
+  return 1.0;
+}
+
 std::optional<cable::Setpoint> CableArbiter::steered_setpoint(const cable::Outputs& now, const TeleopGoal& goal) {
   was_engaged_ = true;
   lead_.ask_anew();
@@ -265,6 +273,7 @@ std::optional<cable::Setpoint> CableArbiter::steered_setpoint(const cable::Outpu
   virtual_fixtures::Ease eased = virtual_fixtures::ease(table(), now.theta_command_rad, held, led);
   if (eased.share > most) eased = {most, ease_.cause, ease_.theta, ease_.limit};
   ease_ = eased;
+  if (pace() < ease_.share) ease_ = {pace(), virtual_fixtures::SlowdownCause::kTension};
   if (refusal_wait_.speed_share() < ease_.share)
     ease_ = {refusal_wait_.speed_share(), virtual_fixtures::SlowdownCause::kRefused, 0, refusal_wait_.limit()};
   slower_ways_ = 0;

@@ -13,6 +13,7 @@
 #include "host/control/arbiter/refusal_wait.hpp"
 #include "host/control/arbiter/shape_transition.hpp"
 #include "host/control/arbiter/speed_zone.hpp"
+#include "host/control/arbiter/taut_pace.hpp"
 #include "host/control/arbiter/teleop_input.hpp"
 #include "host/control/virtual_fixtures/ease.hpp"
 #include "host/control/virtual_fixtures/guidance.hpp"
@@ -100,6 +101,7 @@ class CableArbiter final : public Arbiter<cable::CableArm> {
   void ask_speed();
   Vec3 tip_of(const cable::ThetaVector& theta_rad) const;
   double speed_left_m_s(const Vec3& way_m, double limit_m_s) override;
+  double pace_left(const cable::Outputs& now) override;
 
   double asked_speed_m_s_;  // limit of the device in use, or of the robot's tip
   double robot_speed_m_s_;
@@ -115,6 +117,7 @@ class CableArbiter final : public Arbiter<cable::CableArm> {
   bool was_engaged_ = false;
   RefusalWait refusal_wait_;
   CatchUp catch_up_;
+  TautPace taut_pace_;
   double lag_share_ = 1.0;       // of the tip's speed, what an arm that lags leaves
   Pose led_from_{}, led_to_{};   // last setpoint of the hand: where the tip was commanded to be, and its goal
   std::size_t slower_ways_ = 0;  // that were tried in its interval

@@ -42,11 +42,13 @@ const simulation::BodyBeside* entered(const simulation::Distances& distances, do
 }
 
 // An arm that touches itself, or all but does, may unfold, and no more than rounding the other way. One that stood so
-// when it was enabled may stay as well.
-bool leads_apart(const simulation::Distances& distances, const TooNearTo& itself) {
-  const double start_m = distances.self_at_start_m;
-  const double least_m = itself.stands() ? itself.least_m(false) : start_m - kRounded_m;
-  return distances.self_at_end_m >= least_m && distances.self.distance_m >= start_m - kGivenAway_m;
+// when it was enabled may stay as well. What a stop has folded further than it may stay goes apart all the same.
+bool leads_apart(const simulation::Distances& distances, double travel_m, const TooNearTo& itself) {
+  const double start_m = distances.self_at_start_m, end_m = distances.self_at_end_m;
+  if (distances.self.distance_m < start_m - kGivenAway_m) return false;
+  if (!itself.stands()) return end_m >= start_m - kRounded_m;
+  const double least_m = itself.least_m(false);
+  return end_m >= least_m || (start_m < least_m && end_m >= start_m + kAwayShare * travel_m);
 }
 
 }  // namespace
@@ -108,10 +110,13 @@ void judge_distances(const config::SceneConfig& scene, const simulation::Distanc
     refuse_contact(body->nearest.distance_m, body->at_start_m, at_scene(scene, body->nearest, link_name));
   } else if (!(distances.self.distance_m > 0.0)) {
     const First self = at_itself(distances.self, link_name);
-    if (leads_apart(distances, too_near.itself))
+    if (leads_apart(distances, travel_m, too_near.itself))
       verdict.touches_itself = self.body;
     else
-      refuse(verdict, Refusal::kSelfContact, "the arm would touch itself: " + self.body, self);
+      refuse(verdict, Refusal::kSelfContact,
+             "the arm would touch itself: " + self.body + ": predicted " + in_millimetres(distances.self.distance_m) +
+                 "; it stands " + in_millimetres(distances.self_at_start_m) + " off",
+             self);
   }
 }
 

@@ -219,7 +219,7 @@ class System:
 
     def start_bench(self) -> None:
         words = ["--bus-socket", self.bus_socket, "--api", self.api, "--seed", self.seed, *self.reports_of_bench()]
-        if "--start-pose" not in self.bench_words:
+        if not any(str(word).split("=")[0] == "--start-pose" for word in self.bench_words):
             words += ["--start-pose", start_pose_of(self.robot, self.robot_table)]
         self.start("liana-bench", *self.tables(), *words, *self.optional("--faults", "faults"), *self.bench_words)
 

@@ -43,6 +43,8 @@ class AnArmBesideABody : public testing::Test {
   // The same between links of its own, the scene far away.
   Refusal folds(double start_m, double least_m, double end_m) {
     simulation::Motion motion;
+    if (travel_m_ > 0.0) motion.moments.resize(2);
+    if (travel_m_ > 0.0) motion.moments.back().node_in_base_m[0] = {travel_m_, 0.0, 0.0};
     motion.solved = true;
     motion.distances.scene = {1.0, 3, 0, 0.1};
     motion.distances.scene_at_start_m = motion.distances.scene_at_end_m = 1.0;
@@ -185,6 +187,14 @@ TEST_F(AnArmBesideABody, ThatOverlapsItselfMayStayAndUnfoldAndFoldsNoFurtherByOn
   EXPECT_EQ(folds(-0.0209, -0.0209, -0.0050), Refusal::kNone);
   EXPECT_EQ(folds(-0.0050, -0.0061, -0.0050), Refusal::kSelfContact) << "on the way";
   EXPECT_EQ(folds(-0.0050, -0.0050, -0.0061), Refusal::kSelfContact) << "it has been less deep meanwhile";
+}
+
+TEST_F(AnArmBesideABody, ThatAStopHasFoldedFurtherThanItMayStayGoesApartAndDoesNotCreep) {
+  moves(0.010);
+  EXPECT_EQ(folds(-0.0010, -0.0010, -0.0010), Refusal::kNone);
+  EXPECT_EQ(folds(-0.0045, -0.0050, -0.0036), Refusal::kSelfContact) << "0.9 mm apart of 10 that it moves";
+  EXPECT_EQ(folds(-0.0045, -0.0050, -0.0034), Refusal::kNone);
+  EXPECT_EQ(folds(-0.0045, -0.0056, -0.0034), Refusal::kSelfContact) << "over 1 mm deeper on the way";
 }
 
 }  // namespace
