@@ -89,7 +89,12 @@ def one_pair(seed):
     physics = ["--physics", pair.physics]
     figures = {"seed": seed, "robot": pair.robot, "physics": pair.physics, "at_limit": pair.at_limit}
     with System(
-        seed=seed, robot=pair.robot, bus=pair.bus, scene="none", lianad=physics, bench=[*physics, f"--start-pose={first}"]
+        seed=seed,
+        robot=pair.robot,
+        bus=pair.bus,
+        scene="none",
+        lianad=physics,
+        bench=[*physics, f"--start-pose={first}"],
     ) as system:
         client, ways = system.client(), []
         client.enable()

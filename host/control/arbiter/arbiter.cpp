@@ -235,11 +235,10 @@ void Arbiter<Arm>::end_motion() {
   if (const auto* back = std::get_if<RetractMove<Arm>>(&way_)) return stop_asking(back->why_ended());
   const auto* move = std::get_if<JointMove<Arm>>(&way_);
   if (move != nullptr && !move->refusal().empty())
-    path_news_.push_back(
-        {event::PathEvent::kRefused,
-         {"move_jp", 0.0},
-         0.0,
-         "move_jp is refused: " + move->refusal() + ". Plan a way that keeps clear (liana plan), or retract"});
+    path_news_.push_back({event::PathEvent::kRefused,
+                          {"move_jp", 0.0},
+                          0.0,
+                          "move_jp is refused: " + move->refusal() + ". " + Kind::kOtherWay + ", or retract"});
   const auto* path = std::get_if<PathMove<Arm>>(&way_);
   if (path != nullptr && path->outlook()->refusal.empty()) tell(event::PathEvent::kArrives, *path, " has arrived");
   stop_asking();

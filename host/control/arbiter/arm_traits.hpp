@@ -43,6 +43,8 @@ concept SupportedArm = requires(const typename Arm::Table& table, const Joints<A
   { ArmTraits<Arm>::move_accel_rad_s2(table, joint) } -> std::same_as<double>;
   { ArmTraits<Arm>::range_rad(table, joint) } -> std::same_as<JointRange>;
   { ArmTraits<Arm>::kJointName } -> std::convertible_to<const char*>;  // for messages
+  // What to do instead where a straight way is refused, for messages.
+  { ArmTraits<Arm>::kOtherWay } -> std::convertible_to<const char*>;
   // Greatest distance [m] of any node, or joint, and the tip between two poses.
   { ArmTraits<Arm>::apart_m(table, joint_rad, joint_rad) } -> std::same_as<double>;
   // Shortest time [s] that drives need from one pose to the other, where they have limits besides those of the joints.

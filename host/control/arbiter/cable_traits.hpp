@@ -46,6 +46,7 @@ struct ArmTraits<cable::CableArm> {
     return {-max_rad, max_rad};
   }
   static constexpr const char* kJointName = "theta";
+  static constexpr const char* kOtherWay = "Plan a way that keeps clear (liana plan)";
   static double apart_m(const cable::RobotParams& table, const Joints& a, const Joints& b);
   // Of the cables, by their lengths along the arm.
   static double drive_time_s(const cable::RobotParams& table, const Joints& a, const Joints& b);

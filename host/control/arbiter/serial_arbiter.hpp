@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "host/control/arbiter/arbiter.hpp"
 #include "host/control/arbiter/serial_traits.hpp"
@@ -21,8 +22,12 @@ class SerialArbiter final : public Arbiter<serial::SerialArm> {
   void push(const Now& now, const serial::Push& push);
   // From now on the joints give way to what pushes them; throws as push.
   void follow(const Now& now);
-  // What the arm carries from now on, as a body in the tip's frame; without mass: nothing.
-  void carry(const serial::LinkMass& payload_at_tip) { payload_at_tip_ = payload_at_tip; }
+  // What the arm carries from now on, as a body in the tip's frame; without mass: nothing. `check` looks at the ways of
+  // an arm that carries it.
+  void carry(const serial::LinkMass& payload_at_tip, PathCheck<serial::SerialArm> check) {
+    payload_at_tip_ = payload_at_tip;
+    check_paths_by(std::move(check));
+  }
   const serial::LinkMass& carried() const { return payload_at_tip_; }
 
   void hold(const std::string& why = "held") override;

@@ -32,6 +32,7 @@ struct ArmTraits<serial::SerialArm> {
     return {table.joint[joint].low_rad, table.joint[joint].high_rad};
   }
   static constexpr const char* kJointName = "joint";
+  static constexpr const char* kOtherWay = "Go through points that keep clear (move_path)";
   static double apart_m(const serial::RobotParams& table, const Joints& a, const Joints& b) {
     const serial::ArmKinematics from = serial::forward_kinematics(table, a), to = serial::forward_kinematics(table, b);
     double most_m = 0.0;

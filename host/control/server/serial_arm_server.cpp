@@ -6,6 +6,7 @@
 #include "host/control/force_control/requests.hpp"
 #include "host/control/server/push_message.hpp"
 #include "host/control/server/state_parts.hpp"
+#include "host/control/verification/judge_serial.hpp"
 
 namespace liana::server {
 
@@ -35,6 +36,15 @@ std::string why_not(const serial::RobotParams& table, const serial::Inputs& inpu
   return "the encoders have not been plausible for 25 ticks: one of them jumps";
 }
 
+// Called in another thread: it has all it needs with it.
+arbiter::PathCheck<serial::SerialArm> path_check(const config::SerialRobotConfig& robot,
+                                                 const config::SceneConfig& scene, bool carries) {
+  return [robot, scene, carries](const std::vector<serial::JointVector>& points_rad, std::optional<double>) {
+    simulation::SerialSimulation simulation(simulation::serial_model(robot, scene), scene);
+    return verification::refusal_of_way(robot.table, simulation, points_rad, carries);
+  };
+}
+
 }  // namespace
 
 SerialArmServer::SerialArmServer(const config::SerialRobotConfig& robot, const config::SceneConfig& scene,
@@ -42,12 +52,15 @@ SerialArmServer::SerialArmServer(const config::SerialRobotConfig& robot, const c
     : TypedArmServer(robot.table, arbiter::SpeedZone{}, time_mode, link,
                      std::make_unique<verification::SimulationVerifier<serial::SerialArm>>(
                          simulation::serial_model(robot, scene), scene),
-                     taken(time_mode)),
+                     taken(time_mode), path_check(robot, scene, false)),
       robot_(robot) {
   handlers_["insert"] = [this](const MotionRequest& r) {
     arbiter_.push(outputs(), force_control::push_of(robot_, r.fields));
   };
-  handlers_["payload"] = [this](const MotionRequest& r) { arbiter_.carry(force_control::payload_of(r.fields)); };
+  handlers_["payload"] = [this, scene](const MotionRequest& r) {
+    const serial::LinkMass payload = force_control::payload_of(r.fields);
+    arbiter_.carry(payload, path_check(robot_, scene, payload.mass_kg > 0.0));
+  };
   handlers_["comply"] = [this](const MotionRequest&) {
     force_control::require_torque_drives(robot_);
     arbiter_.follow(outputs());

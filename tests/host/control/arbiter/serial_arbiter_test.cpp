@@ -24,10 +24,10 @@ TEST(SerialArbiter, WhatTheArmCarriesIsInEverySetpointUntilAnotherIsTold) {
   arbiter.move_joints(now, goal, 0.05);
   EXPECT_EQ(carried_kg(), 0.0);
   const serial::LinkMass payload{500.0, {0.0, 0.0, 0.5}, {80.0, 80.0, 80.0, 0.0, 0.0, 0.0}};
-  arbiter.carry(payload);
+  arbiter.carry(payload, {});
   EXPECT_EQ(carried_kg(), 500.0);
   EXPECT_EQ(arbiter.next_setpoint(tick += 5, now)->payload_at_tip.center_m, payload.center_m);
-  arbiter.carry({});
+  arbiter.carry({}, {});
   EXPECT_EQ(carried_kg(), 0.0);
 }
 

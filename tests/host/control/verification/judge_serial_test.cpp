@@ -153,5 +153,31 @@ TEST_F(ASerialArmBesideABall, ThatTouchesItselfFromTheStartIsLedApartAndItIsSaid
   EXPECT_EQ(judged(told).touches_itself, "");
 }
 
+// req:C8
+TEST_F(ASerialArmBesideABall, AWholeWayIsRefusedWhereAPieceOfItComesTooNearAndItIsSaidHowFarOn) {
+  ball_at(20.0, kPrediction_m + 0.001);
+  const auto turned = [this](double joint_1_deg, double joint_4_deg = 0.0) {
+    JointVector joint_rad = bent_;
+    joint_rad[0] += joint_1_deg * kDegree;
+    joint_rad[3] += joint_4_deg * kDegree;
+    return joint_rad;
+  };
+  const auto refusal = [&](const std::vector<JointVector>& points_rad) {
+    simulation::SerialSimulation simulation(model_, scene_);
+    return refusal_of_way(model_.table, simulation, points_rad, false);
+  };
+  EXPECT_EQ(refusal({turned(0.0), turned(20.0)}), "");
+  EXPECT_EQ(refusal({turned(0.0), turned(0.0)}), "") << "no way";
+  EXPECT_TRUE(names(refusal({turned(0.0), turned(40.0)}), {"after 50 %", "ball (link 7)"})) << "half is free";
+  EXPECT_TRUE(names(refusal({turned(0.0), turned(20.0), turned(40.0)}), {"points 1 and 2", "ball (link 7)"}));
+  EXPECT_EQ(refusal({turned(20.0), turned(0.0), turned(0.0, -60.0)}), "") << "away from it";
+
+  scene_.spheres.clear();
+  JointVector folded = bent_;
+  folded[3] = 180.0 * kDegree;
+  EXPECT_TRUE(names(refusal({bent_, folded}), {"itself", "link 4"}));
+  EXPECT_EQ(refusal({folded, bent_}), "") << "it unfolds";
+}
+
 }  // namespace
 }  // namespace liana::verification
