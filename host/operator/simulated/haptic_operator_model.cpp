@@ -68,7 +68,8 @@ void HapticOperatorModel::plan(const Pose& seen_tip) {
   if (task_ == HandTask::kEnterSlit) {
     const Pose approach{{-gains_.approach_before_mouth_m, 0.0, gains_.approach_z_m}, heading};
     if (depth_m < -gains_.slow_before_mouth_m)
-      goals_.push_back({approach, gains_.align_m, gains_.align_rad, gains_.align_dwell_s, gains_.align_relent_most});
+      goals_.push_back({approach, gains_.align_m, gains_.align_rad, gains_.align_dwell_s, gains_.align_relent_most,
+                        gains_.align_at_last});
     goals_.push_back({{{gains_.switch_depth_m, 0.0, gains_.switch_z_m}, heading},
                       gains_.depth_m,
                       gains_.align_rad,
@@ -167,7 +168,9 @@ void HapticOperatorModel::steer(double now_s) {
 void HapticOperatorModel::watch_goal(double now_s) {
   const Goal& goal = goals_[goal_index_];
   if (!leg_.finished()) striving_since_s_ = now_s;
-  const double relent = std::min(1.0 + (now_s - striving_since_s_) / gains_.relent_s, goal.relent_most);
+  const double striving_s = now_s - striving_since_s_;
+  double relent = std::min(1.0 + striving_s / gains_.relent_s, goal.relent_most);
+  relent = std::max(relent, std::min(goal.relent_most + striving_s / gains_.give_in_s - 1.0, goal.at_last));
   const bool good = leg_.finished() && norm(judged_.shift_m) < relent * goal.tolerance_m &&
                     norm(judged_.turn_rad) < relent * goal.tolerance_rad;
   if (!good) good_since_s_ = now_s;

@@ -52,6 +52,7 @@ class HapticOperatorModel {
     double tolerance_rad = 0.0;
     double dwell_s = 0.0;
     double relent_most = 1.0;
+    double at_last = 1.0;  // after long striving; up to relent_most, never
   };
   struct Picture {
     double due_s = 0.0;
