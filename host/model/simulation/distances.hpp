@@ -57,6 +57,7 @@ template <class Look>
 void measure_to_itself(const Way& way, double step_s, Look look, Distances& out) {
   const auto along = clearance::min_along({way.gone_m(), 2.0, kEnoughSelf_m, kUnseen_m}, look);
   out.self = {along.at_least_m, along.nearest.link, along.nearest.other, along.pose * step_s};
+  out.self_at_start_m = out.self_at_end_m = out.self.distance_m;
   if (out.self.distance_m > 0.0) return;
   out.self_at_start_m = look(0).distance_m();
   out.self_at_end_m = look(static_cast<std::int32_t>(way.size()) - 1).distance_m();

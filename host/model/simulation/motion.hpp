@@ -63,7 +63,8 @@ struct Distances {
   double scene_at_start_m = 0.0, scene_at_end_m = 0.0;
   std::vector<BodyBeside> bodies;                     // each of them, where the arm could touch one at the start
   Nearest self;                                       // between links that no joint connects
-  double self_at_start_m = 0.0, self_at_end_m = 0.0;  // where self.distance_m is 0 or less; else not looked at
+  // Where self.distance_m is more than 0, that.
+  double self_at_start_m = 0.0, self_at_end_m = 0.0;
 };
 
 // The whole way: T_d apart, the sequence and what the arm swings after it.
