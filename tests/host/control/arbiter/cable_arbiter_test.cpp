@@ -503,7 +503,12 @@ TEST_F(Arbitration, EveryMotionWaitsForACableThatIsOnItsWayToSlackAndAHandIsTold
     arbiter.move_joints(now_, goal, 0.03);
     now_.faults.count = has_fault ? 1 : 0;
     int intervals = 0;
-    while (arbiter.is_busy() && intervals < 100'000) arbiter.next_setpoint(tick_ += 5, now_), ++intervals;
+    while (arbiter.is_busy() && intervals < 100'000) {
+      arbiter.next_setpoint(tick_ += 5, now_);
+      if (++intervals != 50 || !arbiter.is_busy()) continue;
+      EXPECT_EQ(arbiter.ease().cause == virtual_fixtures::SlowdownCause::kTension, arbiter.ease().share < 1.0);
+      EXPECT_EQ(arbiter.ease().share < 1.0, least_N < table_.tension.floor_motor_N && !has_fault);
+    }
     now_.faults.count = 0;
     return intervals;
   };
