@@ -17,8 +17,8 @@ sys.path.insert(0, str(ROOT / "tests"))
 import tiers
 
 NAMES = """mission made_up archive clearance in_slit ik planning distances verdicts detectors force replay golden faults
-mutations rooms gateway frames latency sources worst fuzz stability filter human hands random_requests payload insertion
-feeding install recover acceptance""".split()
+mutations rooms gateway frames latency sources worst fuzz stability filter human hands pose_pairs random_requests payload
+insertion feeding install recover acceptance""".split()
 # Programs that sections are measured with, beside those of users.
 PROGRAMS = """planning_goals planning_shape planning_teleop plan_from_straight detectors force_friction distances verdicts
 stability filter pushes insertion_speeds bench_core bench_worst bits_tape
