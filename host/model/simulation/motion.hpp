@@ -61,8 +61,8 @@ struct BodyBeside {
 struct Distances {
   Nearest scene;  // to the scene, body included
   double scene_at_start_m = 0.0, scene_at_end_m = 0.0;
-  std::vector<BodyBeside> bodies;                     // each of them, where the arm could touch one at the start
-  Nearest self;                                       // between links that no joint connects
+  std::vector<BodyBeside> bodies;  // each of them, where the arm could touch one at the start
+  Nearest self;                    // between links that no joint connects
   // Where self.distance_m is more than 0, that.
   double self_at_start_m = 0.0, self_at_end_m = 0.0;
 };

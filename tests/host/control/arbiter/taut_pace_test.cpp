@@ -11,7 +11,7 @@
 namespace liana::arbiter {
 namespace {
 
-const cable::RobotParams kArm = zhu2022::table();
+const cable::RobotParams kArm = cable::zhu2022::table();
 
 // All cables at the planned tension but one.
 cable::CableVector tensions_N(std::size_t cable, double tension_N) {
