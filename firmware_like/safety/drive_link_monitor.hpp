@@ -26,6 +26,15 @@ constexpr double kFollowingDeadTicks = 4.0;   // target to sample two ticks, fee
 // an arm adds to its planned motion (elongation of cables, damping).
 constexpr double kTargetSpeedMargin = 1.25;
 
+constexpr double kJumpShare = 3.0;  // of an axis' rate: between two readings none moves faster
+
+// Time [s] at full rate that an axis may move from one tick to the next; more, and its encoder has jumped. A message
+// may be missing for kFeedbackAgeTicks without a fault, and the axis moves on meanwhile. The twin's drives are at their
+// targets at once, from as far behind them as a position servo lags.
+constexpr double jump_s(double tick_s, double servo_time_constant_s) noexcept {
+  return kJumpShare * tick_s * (1.0 + kFeedbackAgeTicks) + kTargetSpeedMargin * servo_time_constant_s;
+}
+
 // Limits derived once from the robot table, in drive units.
 struct LinkLimits {
   std::int32_t drive_count = 0;

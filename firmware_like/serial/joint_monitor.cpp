@@ -12,9 +12,10 @@ bool is_outside(const JointParams& joint, double joint_rad) noexcept {
   return joint_rad < joint.low_rad - kRangeMargin_rad || joint_rad > joint.high_rad + kRangeMargin_rad;
 }
 
-// A message may be missing for kFeedbackAgeTicks without a fault, and the joint turns on meanwhile.
+// The twin of a torque drive catches up by itself slowly (ideal_torque_feedback).
 double most_turn_rad(const RobotParams& table, const JointParams& joint) noexcept {
-  return kJumpWindow_rad + kJumpRateShare * joint.rate_rad_s * table.tick_s * (1.0 + kFeedbackAgeTicks);
+  const double servo_s = table.torque.is_torque_controlled != 0 ? 0.0 : table.servo_time_constant_s;
+  return kJumpWindow_rad + joint.rate_rad_s * jump_s(table.tick_s, servo_s);
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 
 namespace liana::serial {
 
-constexpr double kJumpRateShare = 3.0;    // of a joint's rate: between two readings no joint turns faster
 constexpr double kJumpWindow_rad = 5e-4;  // besides, for noise of the encoder; at most one tick's way at 7 deg/s
 constexpr std::uint16_t kRangeDebounceTicks = 2;  // one wrong reading is a jump, and no joint out of its range
 

@@ -179,6 +179,49 @@ TEST(SerialController, AnEncoderThatJumpsIsAFaultInTheSameTick) {
   EXPECT_EQ(rig.out.stop_category, StopCategory::kStop);
 }
 
+// A joint far behind its command that the next tick shows `turned_rad` further.
+bool has_jumped(const RobotParams& table, std::int32_t joint, double turned_rad) {
+  const DriveParams& drive = table.drive[as_index(joint)];
+  JointMonitorState state;
+  DriveFeedback feedback{};
+  feedback.position_counts = drive.zero_counts;
+  feedback.feedback_age_ticks = 0;
+  read_joint(table, feedback, joint, state);
+  feedback.position_counts += to_counts(turned_rad / drive.rad_per_count).value;
+  read_joint(table, feedback, joint, state);
+  return state.reading[as_index(joint)].jumped;
+}
+
+TEST(SerialController, AJointMayCatchUpAsFarAsItsServoLagsAndNotACountMore) {
+  RobotParams table = micro::table();
+  table.servo_time_constant_s = 0.08;
+  table.joint[2].rate_rad_s *= 2.0;
+  const double moved_s = 3.0 * table.tick_s * 3.0;
+  for (const std::int32_t joint : {2, 3}) {
+    const double count_rad = table.drive[as_index(joint)].rad_per_count,
+                 rate_rad_s = table.joint[as_index(joint)].rate_rad_s;
+    const double lag_rad = table.servo_time_constant_s * rate_rad_s;
+    EXPECT_GT(lag_rad, 5e-4 + rate_rad_s * moved_s) << "more than a joint moves in three ticks, three times as fast";
+    const double most_rad = 5e-4 + rate_rad_s * moved_s + 1.25 * lag_rad;
+    const double most_counts = std::floor(most_rad / count_rad);
+    for (const double side : {1.0, -1.0}) {
+      EXPECT_FALSE(has_jumped(table, joint, side * (lag_rad + rate_rad_s * table.tick_s))) << joint;
+      EXPECT_FALSE(has_jumped(table, joint, side * most_counts * count_rad)) << joint;
+      EXPECT_TRUE(has_jumped(table, joint, side * (most_counts + 1.0) * count_rad)) << joint;
+    }
+  }
+}
+
+TEST(SerialController, AJointOfATorqueDriveHasNoServoToLagBehind) {
+  RobotParams table = micro::table();
+  table.servo_time_constant_s = 0.08;
+  table.torque.is_torque_controlled = 1;
+  const double count_rad = table.drive[3].rad_per_count;
+  const double most_counts = std::floor((5e-4 + table.joint[3].rate_rad_s * 9.0 * table.tick_s) / count_rad);
+  EXPECT_FALSE(has_jumped(table, 3, most_counts * count_rad));
+  EXPECT_TRUE(has_jumped(table, 3, (most_counts + 1.0) * count_rad));
+}
+
 TEST(SerialController, AJointPushedOutOfItsRangeIsAFault) {
   JointVector joint = micro::radians(micro::kBent_deg);
   joint[0] = (micro::kRange_deg + 0.9) * kDegree;

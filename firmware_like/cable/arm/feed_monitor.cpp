@@ -9,12 +9,9 @@
 namespace liana::cable {
 namespace {
 
-// A message may be missing for kFeedbackAgeTicks without a fault, and the axis moves on meanwhile. The twin's drives
-// are at their targets at once, from as far behind them as a servo lags.
 double most_way_m(const RobotParams& table, std::size_t drive) noexcept {
   const double rate_m_s = feed_m_rad(table.segment[0])[drive] * table.limits.theta_rate_rad_s;
-  const double moved_s = kFeedJumpShare * table.tick_s * (1.0 + kFeedbackAgeTicks);
-  return kFeedJumpWindow_m + rate_m_s * (moved_s + kTargetSpeedMargin * table.servo_time_constant_s);
+  return kFeedJumpWindow_m + rate_m_s * jump_s(table.tick_s, table.servo_time_constant_s);
 }
 
 }  // namespace

@@ -13,7 +13,6 @@
 
 namespace liana::cable {
 
-constexpr double kFeedJumpShare = 3.0;           // of an axis' rate: between two readings none moves faster
 constexpr double kFeedJumpWindow_m = 2e-4;       // besides, for noise of the encoder
 constexpr double kFeedFriction = 0.05;           // of the drive's rated torque: guide, rack and belt take no more
 constexpr double kFeedTip_N = 3.0;               // a push at the tip is explained up to this, as for cables

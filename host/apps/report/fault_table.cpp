@@ -48,7 +48,8 @@ constexpr std::array<Detection, count_enumerators<FaultNumber, 1000>() - 1> kDet
     {kJointOutOfRange, "serial arm: encoder more than 1 deg beyond the joint's range, in a row",
      ticks<serial::kRangeDebounceTicks>},
     {kJointJump,
-     "serial arm, and slide and roll of a base: encoder against the tick before, over three times the axis' rate",
+     "serial arm, and slide and roll of a base: encoder against the tick before, over three times the axis' rate and "
+     "what its servo lags",
      ticks<1>},
     {kWristSensorLost,
      "insertion: no new sample of the wrist sensor, or one that is saturated, failed or no number (at once); equal "
