@@ -23,8 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using launcher::Captured;
 
-constexpr int kMaxIdleRounds = 3;  // arrays in a row that have delivered nothing
-constexpr auto kLookForResults = std::chrono::milliseconds(250);
+constexpr int kMaxIdleRounds = 3;          // arrays in a row that have delivered nothing
 constexpr int kLooksPerAsk = 8;            // squeue is asked every two seconds
 constexpr const char* kPatience_s = "60";  // with programs of Slurm
 constexpr int kTimedOut = 124;             // exit code of timeout
@@ -40,6 +39,10 @@ Captured ask(std::vector<std::string> words) {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
+std::string how_it_ended(const Captured& said) {
+  return "ended with code " + std::to_string(said.code) + ": " + first_line(said.error);
+}
+
 std::string quoted(const std::string& path) { return shell_line({path}); }
 
 }  // namespace
@@ -52,8 +55,8 @@ std::vector<std::vector<std::uint64_t>> tasks_of(const std::vector<std::uint64_t
 }
 
 SlurmEngine::SlurmEngine(std::string folder, const Json& table, Rows& rows, const launcher::InterruptGuard& interrupts,
-                         Say say)
-    : folder_(std::move(folder)), rows_(rows), interrupts_(interrupts), say_(std::move(say)) {
+                         Say say, std::chrono::milliseconds look)
+    : folder_(std::move(folder)), rows_(rows), interrupts_(interrupts), say_(std::move(say)), look_(look) {
   for (const char* below : {"/results", "/logs", "/rows"}) fs::create_directories(folder_ + below);
   launcher::write_output(folder_ + "/campaign.json", table.dump() + "\n");
   launcher::write_output(folder_ + "/task.sh",
@@ -113,7 +116,7 @@ void SlurmEngine::submit(const std::set<std::uint64_t>& missing, const std::stri
   if (!full_folder.empty()) words.push_back("--full=" + full_folder);
   const Captured said = ask(words);
   if (said.code != 0)
-    throw std::runtime_error("sbatch: ended with code " + std::to_string(said.code) + ": " + first_line(said.error) +
+    throw std::runtime_error("sbatch: " + how_it_ended(said) +
                              "; check that this computer submits jobs of Slurm (sinfo), or take --engine local");
   job_ = first_line(said.out);
   job_ = job_.substr(0, job_.find(';'));  // what follows is the cluster's name
@@ -122,9 +125,16 @@ void SlurmEngine::submit(const std::set<std::uint64_t>& missing, const std::stri
        " tasks; logs in " + folder_ + "/logs");
 }
 
-// Also where Slurm does not answer: a job that may be there is waited for.
-bool SlurmEngine::is_queued() const {
+// Also where Slurm does not answer: a job that may be there is waited for, as long as an outage takes.
+bool SlurmEngine::is_queued() {
   const Captured said = ask({"squeue", "--noheader", "--array", "--format=%F", "--user=" + std::to_string(geteuid())});
+  unanswered_ = said.code == 0 ? 0 : unanswered_ + 1;
+  if (unanswered_ == kSayUnanswered)
+    say_("squeue " + how_it_ended(said) + "; job " + job_ + " is waited for, and squeue asked again");
+  if (unanswered_ >= kMaxUnanswered)
+    throw std::runtime_error("squeue: failed " + std::to_string(unanswered_) + " times in a row, and job " + job_ +
+                             " delivered nothing meanwhile: it " + how_it_ended(said) +
+                             "; wait until Slurm answers again (squeue), then give the same command");
   if (said.code != 0) return true;
   std::istringstream lines(said.out);
   for (std::string job; lines >> job;) {
@@ -136,8 +146,10 @@ bool SlurmEngine::is_queued() const {
 void SlurmEngine::wait(std::set<std::uint64_t>& missing, const TakeResult& take) {
   int looks_after = 0;
   for (int look = 1; !missing.empty() && looks_after <= kLooksAfter && interrupts_.count() == 0; ++look) {
-    std::this_thread::sleep_for(kLookForResults);
+    std::this_thread::sleep_for(look_);
+    const std::size_t before = missing.size();
     take_results(missing, take);
+    if (missing.size() < before) unanswered_ = 0;
     if (looks_after > 0) {
       ++looks_after;
     } else if (look % kLooksPerAsk == 0 && !is_queued()) {
