@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kName = "liana run";  // as the reason of a stop names it
+constexpr const char* kBench = "liana-bench";
 constexpr double kStopTimeout_s = 15.0;
 constexpr double kFinishGrace_s = 3.0;  // for the mission runner, when another program has ended
 constexpr double kLook_s = 0.02;
@@ -43,7 +44,11 @@ Pose pose_or_none(const Json& numbers) {
 }  // namespace
 
 RunSession::RunSession(const SystemLayout& plan)
-    : plan_(plan), waits_for_us_(plan.time_mode != "real"), system_(plan) {}
+    : plan_(plan),
+      waits_for_us_(plan.time_mode != "real"),
+      has_bench_(std::any_of(plan.programs.begin(), plan.programs.end(),
+                             [](const auto& call) { return call.name == kBench; })),
+      system_(plan) {}
 
 RunSession::~RunSession() = default;
 
@@ -115,9 +120,9 @@ void RunSession::follow() {
   const auto is_enough = [&] { return !waits_for_us_ && Clock::now() > std::min(rested, enough); };
   while (!is_ending() && system_.is_connected() && system_.is_running("lianad") && interrupts_.count() == 0 &&
          Clock::now() < deadline && !is_enough()) {
-    const std::size_t seen = states_.size();
+    const std::uint64_t seen = states_seen_;
     look(kLook_s);
-    if (states_.size() == seen) continue;
+    if (states_seen_ == seen) continue;
     deadline = after(kSilent_s);
     if (!last_state_.value("at_rest", true)) rested = after(kRested_s);
   }
@@ -224,10 +229,12 @@ void RunSession::take(Json message) {
 void RunSession::keep(const Json& state) {
   watch_.heard();
   progress_.show(state);
+  ++states_seen_;
+  if (!has_bench_) states_.clear();
   states_.push_back({state.value("tick", std::uint64_t{0}), pose_or_none(state.member_or_null("setpoint_cp"))});
   report::keep_stage(stages_, state);
   const Json& clearance = state.member_or_null("clearance");
-  if (clearance.is_object() && states_.back().tick > 0)  // of the angles at the tick before
+  if (has_bench_ && clearance.is_object() && states_.back().tick > 0)  // of the angles at the tick before
     claims_.push_back({states_.back().tick - 1, clearance.value("distance_m", 0.0)});
   samples_.look(state);
   const Json& step = state.member_or_null("step");

@@ -1,6 +1,7 @@
 // The processes of one run: started in order, watched, ended together.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -33,6 +34,7 @@ class RunSession {
   // Starts everything, waits until the mission has ended, ends everything. Ctrl-C is a stop; a second one ends at once.
   RunResult run();
 
+  // All of a simulated arm, of real drives the last one and no claims.
   const std::vector<report::StateSample>& states() const { return states_; }
   const std::vector<report::Stage>& stages() const { return stages_; }
   const std::vector<report::ClearanceBounds>& claims() const { return claims_; }
@@ -65,6 +67,7 @@ class RunSession {
   const SystemLayout& plan_;
   // The report is made of states: in virtual time none may be lost to a slow moment, or equal runs had unequal reports.
   const bool waits_for_us_;
+  const bool has_bench_;  // whose truth the report compares with all states; without it the last one says when it ended
   InterruptGuard interrupts_;
   Progress progress_;
   System system_;
@@ -72,6 +75,7 @@ class RunSession {
   int recorders_ = 1;  // that were started
   Json welcome_;
   Json last_state_;
+  std::uint64_t states_seen_ = 0;
   std::vector<report::StateSample> states_;
   std::vector<report::Stage> stages_;
   std::vector<report::ClearanceBounds> claims_;

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <thread>
 
 #include "host/apps/launcher/console_session.hpp"
@@ -51,6 +52,7 @@ class FakeDaemon {
                  {"tick", tick},
                  {"time_s", 0.5},
                  {"state", stopped_ ? "DISABLED" : "ENABLED"},
+                 {"clearance", {{"distance_m", 0.1}}},
                  {"stop", nullptr}};
       if (stopped_) state["stop"] = {{"by", "liana run"}, {"reason", "interrupted"}, {"tick", tick}};
       api::send_packet(client.get(), state.dump());
@@ -116,6 +118,26 @@ TEST_F(Session, AMissionThatEndsByItselfLeavesTheOutcomeToItsReport) {
   EXPECT_TRUE(daemon.saw("shutdown"));
   EXPECT_EQ(session.welcome()["config_hash"], "abc");
   EXPECT_FALSE(session.states().empty());
+}
+
+TEST_F(Session, OnlyASimulatedArmsStatesAreKeptForTheReport) {
+  const auto run = [&] {
+    const FakeDaemon daemon(plan_.api_socket());
+    auto session = std::make_unique<RunSession>(plan_);
+    session->run();
+    return session;
+  };
+  add("lianad", "exec sleep 0.5");
+  add("liana-mission", "sleep 0.3; echo '{}' > " + plan_.file("mission.json"));
+  const auto real = run();
+  EXPECT_EQ(real->states().size(), 1u);
+  EXPECT_EQ(real->states().back().tick, real->last_state()["tick"].get<std::uint64_t>());
+  EXPECT_TRUE(real->claims().empty());
+  std::filesystem::remove(plan_.api_socket());
+  add_living("liana-bench");
+  const auto simulated = run();
+  EXPECT_GT(simulated->states().size(), 2u);
+  EXPECT_GT(simulated->claims().size(), 1u);
 }
 
 TEST_F(Session, EveryChangeOfStateIsShownOnceAndInOrderUpToTheEnd) {
