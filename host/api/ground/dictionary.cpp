@@ -176,7 +176,7 @@ constexpr CommandRow function(std::uint16_t id, const char* name, const char* op
 constexpr std::array kCommandRows{
     CommandRow{"hk_enable", 3, 5, 0, "Send a structure of housekeeping periodically.", kStructureOnly},
     CommandRow{"hk_disable", 3, 6, 0, "Send it no longer.", kStructureOnly},
-    CommandRow{"hk_once", 3, 27, 0, "Send it once, now.", kStructureOnly},
+    CommandRow{"hk_once", 3, 27, 0, "Send it once, now; structure 5 also without lianad.", kStructureOnly},
     CommandRow{"hk_interval", 3, 31, 0, "How often it is sent.", kInterval},
     function(1, "acquire", "acquire", "", kFrom, Completes::kAnswer, 10, "Own motion."),
     function(2, "release", "release", "", {}, Completes::kAnswer, 10, "Give motion back; the arm holds."),

@@ -120,7 +120,8 @@ Ending OnBoard::housekeeping(const Telecommand& telecommand, const Json& values)
   if (values.value("entries", std::uint64_t{0}) != 1) return failed(Failure::kArgument);
   if (find_structure(structure) == nullptr) return failed(Failure::kFunction, static_cast<std::uint32_t>(structure));
   if (interval < 1 || interval > kMaxInterval) return failed(Failure::kArgument, static_cast<std::uint32_t>(interval));
-  if (telecommand.subtype == 27 && state_.is_null()) return failed(Failure::kAway);
+  const bool is_ours = structure == kStructures;  // counters, which are here without lianad
+  if (telecommand.subtype == 27 && state_.is_null() && !is_ours) return failed(Failure::kAway);
   verify(telecommand, kAcceptance, kAcknowledgeAcceptance, done());
   verify(telecommand, kStart, kAcknowledgeStart, done());
   Periodic& periodic = periodic_[structure - 1];

@@ -87,6 +87,19 @@ TEST(OnBoard, RefusesFunctionsWhileLianadIsNotThere) {
   EXPECT_TRUE(bench.requests.empty());
 }
 
+TEST(OnBoard, SendsItsOwnCountersWithoutLianadAndNothingElse) {
+  Bench bench;
+  for (const char structure : {'\1', '\2', '\3', '\4'}) {
+    bench.send(3, 27, std::string{'\1', structure});
+    EXPECT_EQ(bench.verified(), std::vector<int>{2}) << static_cast<int>(structure);
+    EXPECT_EQ(bench.last_code(), 29u) << static_cast<int>(structure);
+  }
+  bench.send(3, 27, "\x01\x05", 0);
+  const Json report = report_json(*read_telemetry(bench.packets.back()), Sizes());
+  EXPECT_EQ(report.at("values").value("received", std::uint64_t{0}), 5u);
+  EXPECT_EQ(report.at("values").value("rejected", std::uint64_t{0}), 4u);
+}
+
 TEST(OnBoard, CountsTelecommandsOutOfSequenceAndTakesThemAllTheSame) {
   Bench bench;
   for (const unsigned next : {0u, 1u, 5u, 6u, 6u, 16383u, 0u}) {
