@@ -117,6 +117,15 @@ local function held_list(hold)
   return held
 end
 
+-- The report, of its steps only the last two: those before do not change any more.
+function Runner:tell_report()
+  local steps, told = self.report.steps, {}
+  for name, value in pairs(self.report) do told[name] = value end
+  told.steps_before = math.max(0, #steps - 2)
+  told.steps = { table.unpack(steps, told.steps_before + 1) }
+  self.native.report(told)
+end
+
 function Runner:begin_step(index, goes_on)
   if #self.report.steps >= kMostSteps then return self:fail("failed", ("%d steps have begun, more than a run may have"):format(kMostSteps)) end
   self.index = index
@@ -133,7 +142,7 @@ function Runner:begin_step(index, goes_on)
   self.has_entered, self.is_confirmed, self.waited_s, self.slowed_s = false, step.confirm == nil, 0, 0
   self:announce_step(nil, self:after())
   self.native.progress { event = "begin", index = index, count = #self.mission.steps, name = step.name, device = step.device, time_s = state.time_s }
-  self.native.report(self.report)
+  self:tell_report()
   self:enter_phase("enter")
   if self.single_step and not goes_on then self:pause("one step at a time") end
 end
@@ -254,7 +263,7 @@ function Runner:close_record(outcome, reason, ended_by)
     event = "end", index = self.index, count = #self.mission.steps, name = record.name, device = record.device, outcome = outcome,
     reason = reason, ended_by = record.ended_by, duration_s = record.duration_s, time_s = state.time_s,
   }
-  self.native.report(self.report)
+  self:tell_report()
 end
 
 function Runner:end_step(ended_by)
@@ -397,7 +406,7 @@ function Runner:over(outcome, reason)
   self.arm.announce { after = self:after() }
   if self.owned then self.arm.release {} end
   self.phase = "over"
-  self.native.report(self.report)
+  self:tell_report()
 end
 
 -- ---- what lianad says ---------------------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "host/apps/mission_runner/mission_run.hpp"
 #include "host/base/json/json.hpp"
 #include "tests/lua/fake_lianad.hpp"
 #include "tests/lua/program.hpp"
@@ -555,6 +556,53 @@ TEST(Mission, NoRunHasMoreThanAThousandSteps) {
   EXPECT_EQ(run.report["steps"].size(), 1000u);
   EXPECT_TRUE(names(run.report["reason"].get<std::string>(), {"1000 steps"}));
   EXPECT_EQ(run.last_command(), "retract");
+}
+
+// Json of the steps a, b, ... with this outcome and way on.
+Json step_of(const char* name, const char* outcome, const char* next = nullptr) {
+  Json step{{"name", name}, {"outcome", outcome}, {"start_tick", 7}, {"end_tick", 7}};
+  if (next != nullptr) step["next"] = next;
+  return step;
+}
+
+TEST(GrowingReport, IsAsLongAsItsStepsAndWholeAtAnyTime) {
+  Activity activity;
+  GrowingReport report(activity);
+  const auto take = [&](int before, const Json::Array& steps, const char* outcome = "failed") {
+    report.take({{"mission", "m"}, {"outcome", outcome}, {"steps_before", before}, {"steps", steps}});
+    EXPECT_EQ(Json::parse(activity.report.data()), report.whole());
+    return report.whole()["steps"];
+  };
+  EXPECT_EQ(take(0, {}), Json::array());
+  EXPECT_EQ(take(0, {step_of("a", "running")}), Json({step_of("a", "running")}));
+  take(0, {step_of("a", "success")});
+  take(0, {step_of("a", "success", "b"), step_of("b", "running")});
+  const Json all({step_of("a", "success", "b"), step_of("b", "failed"), step_of("c", "running")});
+  EXPECT_EQ(take(1, {step_of("b", "failed"), step_of("c", "running")}, "aborted"), all);
+  EXPECT_EQ(report.whole()["outcome"], "aborted");
+  EXPECT_EQ(Json::parse(failed_report(activity, "m", "killed"))["steps"][2]["reason"], "killed");
+}
+
+TEST(GrowingReport, WithoutRoomIsKeptAsItLastFitted) {
+  Activity activity;
+  GrowingReport report(activity);
+  const std::string name(activity.report.size() / 3, 'x');
+  for (int before = 0; before < 4; ++before)
+    report.take({{"steps_before", before}, {"steps", Json::Array{step_of(name.c_str(), "success")}}, {"outcome", ""}});
+  EXPECT_EQ(Json::parse(activity.report.data())["steps"].size(), 2u);
+  EXPECT_EQ(report.whole()["steps"].size(), 4u);
+}
+
+TEST(Mission, AllStepsOfARunThatWasKilledAreInItsReport) {
+  const TemporaryFolder folder;
+  const MissionRun run = run_mission_against(
+      {}, steps_with(folder, {"", "next = { step = 'a', at_most = 20 }",
+                              "exit = liana.condition('never', function() xpcall(error, function() while true do end "
+                              "end) end)"}));
+  ASSERT_EQ(run.report["steps"].size(), 43u);
+  EXPECT_EQ(run.report["steps"][1]["next"], "a");
+  EXPECT_EQ(run.report["steps"][40]["outcome"], "success");
+  EXPECT_EQ(run.report["steps"][42]["outcome"], "failed");
 }
 
 TEST(Mission, WhatIsHeldFollowsTheWayThatWasTaken) {

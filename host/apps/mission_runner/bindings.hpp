@@ -23,7 +23,7 @@ class RequestSink {
   virtual std::int64_t request(const api::RequestRow& row, Json fields) = 0;
   // Progress of the mission, see lua/liana/engine.lua.
   virtual void progress(const Json& event) = 0;
-  // The report as far as it is known.
+  // The report as far as it is known: see GrowingReport::take.
   virtual void report(const Json& report) = 0;
   // A curve as waypoints, see follow_plan.hpp; valid until the next one.
   virtual const Json& plan_curve(const Json& request) = 0;

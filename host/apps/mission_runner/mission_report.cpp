@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fstream>
 #include <stdexcept>
+#include <utility>
 
 #include "host/base/json/json.hpp"
 
@@ -25,6 +26,34 @@ void close_step(Json& step, std::uint64_t last_tick, double period_s, const std:
 }
 
 }  // namespace
+
+// The text is {"steps":[ and the steps, then the rest, which is written anew each time.
+void GrowingReport::take(Json news) {
+  const auto before = std::min(news.at("steps_before").get<std::size_t>(), steps_.size());
+  const Json last = news.at("steps");
+  for (const char* key : {"steps_before", "steps"}) news.erase(key);
+  head_ = std::move(news);
+  steps_.resize(before);
+  ends_.resize(before);
+  const std::size_t from = before == 0 ? 0 : ends_.back();
+  std::string text = before == 0 ? R"({"steps":[)" : "";
+  for (const Json& step : last) {
+    text += (steps_.empty() ? "" : ",") + step.dump();
+    steps_.push_back(step);
+    ends_.push_back(from + text.size());
+  }
+  text += "]," + head_.dump().substr(1);
+  is_full_ = is_full_ || from + text.size() >= activity_.report.size();
+  if (is_full_) return;
+  text.copy(activity_.report.data() + from, text.size());
+  activity_.report[from + text.size()] = '\0';
+}
+
+Json GrowingReport::whole() const {
+  Json out = head_;
+  out["steps"] = steps_;
+  return out;
+}
 
 void write_report(const std::string& path, const std::string& report_json) {
   std::ofstream out(path, std::ios::trunc);

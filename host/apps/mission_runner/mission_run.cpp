@@ -92,7 +92,7 @@ int run_connected(const MissionOptions& options, Activity& activity, Script& scr
     finish(options, failed_report(activity, options.mission, error.what()));
     return kExitNotSuccess;
   }
-  const Json& report = session.last_report();
+  const Json report = session.last_report();
   finish(options, report.dump());
   if (report.value("outcome", "") == "success") return kExitSuccess;
   std::fprintf(stderr, "liana-mission: %s: %s: %s\n", options.mission.c_str(), report.value("outcome", "").c_str(),

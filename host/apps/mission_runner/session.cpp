@@ -37,7 +37,10 @@ std::string progress_line(const Json& event) {
 }  // namespace
 
 MissionSession::MissionSession(const MissionOptions& options, Activity& activity)
-    : options_(options), activity_(activity), client_(api::ApiClient::connect(options.api, kWelcome_s)) {
+    : options_(options),
+      activity_(activity),
+      report_(activity),
+      client_(api::ApiClient::connect(options.api, kWelcome_s)) {
   client_.send({{"op", "hello"},
                 {"name", "mission"},
                 {"role", "mission"},
@@ -97,12 +100,6 @@ void MissionSession::progress(const Json& event) {
   if (options_.json) std::printf("%s\n", event.dump().c_str());
   if (options_.progress && !options_.json) std::printf("%s\n", progress_line(event).c_str());
   std::fflush(stdout);
-}
-
-void MissionSession::report(const Json& report) {
-  report_ = report;
-  const std::string text = report.dump();
-  if (text.size() < activity_.report.size()) put_text(activity_.report, text);
 }
 
 const Json& MissionSession::plan_curve(const Json& request) {

@@ -17,7 +17,7 @@ class MissionSession : public RequestSink {
   MissionSession(const MissionOptions& options, Activity& activity);
 
   const Json& welcome() const { return welcome_; }
-  const Json& last_report() const { return report_; }
+  Json last_report() const { return report_.whole(); }
 
   // Next message within half a second, or null.
   Json next();
@@ -29,15 +29,15 @@ class MissionSession : public RequestSink {
   // Throws api::RequestError when too many have been made since the last message: lianad would throw this client out.
   std::int64_t request(const api::RequestRow& row, Json fields) override;
   void progress(const Json& event) override;
-  void report(const Json& report) override;
+  void report(const Json& news) override { report_.take(news); }
   const Json& plan_curve(const Json& request) override;
 
  private:
   const MissionOptions& options_;
   Activity& activity_;
+  GrowingReport report_;
   api::ApiClient client_;
   Json welcome_;
-  Json report_;
   Json plan_;  // the last one
   std::int64_t last_id_ = 0;
   int made_at_once_ = 0, max_at_once_ = 0;  // requests since the last message
