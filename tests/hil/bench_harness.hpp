@@ -2,7 +2,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +14,7 @@
 
 #include "fixtures.hpp"
 #include "hil/bench/bench.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace liana::bench {
 
@@ -113,9 +113,7 @@ inline BenchOptions options_of(std::uint64_t seed) {
   return options;
 }
 
-inline std::string temporary(const std::string& name) {
-  return testing::TempDir() + "bench_" + std::to_string(::getpid()) + "_" + name;
-}
+inline std::string temporary(const std::string& name) { return program_folder().file(name); }
 
 inline std::string content(const std::string& path) {
   std::ifstream file(path, std::ios::binary);

@@ -3,6 +3,7 @@
 
 #include "hil/config/scene_config.hpp"
 #include "tests/serial/both_tables.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace liana::test {
 
@@ -13,9 +14,7 @@ inline Json torque_arm_table() {
 }
 
 inline std::string written(const Json& table, const char* name) {
-  const std::string path = testing::TempDir() + name + "_" + std::to_string(::getpid()) + ".json";
-  std::ofstream(path) << table.dump();
-  return path;
+  return program_folder().write(std::string(name) + ".json", table.dump());
 }
 
 inline bench::SceneConfig bench_scene(const Json& table) { return bench::load_scene(written(table, "scene")); }

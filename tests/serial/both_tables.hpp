@@ -2,23 +2,20 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <fstream>
 #include <random>
 #include <string>
 
 #include "hil/config/serial_config.hpp"
 #include "host/model/config/serial_robot.hpp"
 #include "tests/host/model/config/tables.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace liana::test {
 
 // As the bench reads it: from a file.
 inline bench::SerialRobotConfig bench_robot(const Json& table) {
-  const std::string path = testing::TempDir() + "serial_" + std::to_string(::getpid()) + ".json";
-  std::ofstream(path) << table.dump();
-  return bench::load_serial_robot(path);
+  return bench::load_serial_robot(program_folder().write("serial.json", table.dump()));
 }
 
 // Repeatable random numbers.
