@@ -155,6 +155,22 @@ TEST(Faults, ARetractNeedsEveryLatchedFaultToAllowItAndNoneThatIsUnknown) {
   EXPECT_FALSE(allow_retract(faults));
 }
 
+// Every fault that forbids it also stops today: each condition has to hold by itself all the same.
+TEST(Faults, ARetractIsForbiddenByTheCategoryAloneAndByAnyFaultAlone) {
+  for (const FaultNumber last : {FaultNumber::kCableSlack, FaultNumber::kCableBreak}) {
+    FaultList faults{};
+    latch(faults, {last == FaultNumber::kCableSlack ? FaultNumber::kCableBreak : FaultNumber::kCableSlack, 0, 0, 1});
+    latch(faults, {last, 1, 0, 1});
+    faults.category = StopCategory::kHold;
+    EXPECT_FALSE(allow_retract(faults)) << static_cast<int>(last);
+  }
+  FaultList faults{};
+  latch(faults, {FaultNumber::kCableSlack, 0, 0, 1});
+  EXPECT_TRUE(allow_retract(faults));
+  faults.category = StopCategory::kStop;
+  EXPECT_FALSE(allow_retract(faults));
+}
+
 TEST(Faults, NoFaultIsNeverLatched) {
   FaultList faults{};
   EXPECT_FALSE(latch(faults, Fault{}));
