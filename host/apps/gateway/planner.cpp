@@ -24,8 +24,10 @@ constexpr std::array kPlanFields{
 constexpr int kReadLines = 1000;  // of the log
 constexpr api::RequestRow kPlanRow{.op = "plan", .fields = kPlanFields};
 
+constexpr const char* kFolderOfPlan = "liana-plan-";
+
 std::string new_folder() {
-  std::string name = (std::filesystem::temp_directory_path() / "liana-plan-XXXXXX").string();
+  std::string name = (std::filesystem::temp_directory_path() / (std::string(kFolderOfPlan) + "XXXXXX")).string();
   if (::mkdtemp(name.data()) == nullptr)
     throw std::runtime_error(name + ": no temporary folder can be made; free space there or set TMPDIR");
   return name;
@@ -84,7 +86,9 @@ Json answer_in(const std::string& log) {
 
 }  // namespace
 
-Planner::Planner(std::string program, Say say) : program_(std::move(program)), say_(std::move(say)) {}
+Planner::Planner(std::string program, Say say) : program_(std::move(program)), say_(std::move(say)) {
+  launcher::remove_leftovers(kFolderOfPlan);
+}
 
 Planner::~Planner() { forget(); }
 
@@ -104,6 +108,7 @@ void Planner::start(const Json& request, const Json& welcome, const Json& state,
     throw RequestError("refused", "where the arm stands is not known: home it first");
   try {
     folder_ = new_folder();
+    lock_ = launcher::hold_new_folder(folder_, "");
     const std::string robot_file = folder_ + "/robot.json", scene_file = folder_ + "/scene.json";
     write(robot_file, robot.dump());
     write(scene_file, welcome.at("scene").dump());
@@ -163,6 +168,7 @@ void Planner::forget() {
   if (folder_.empty()) return;
   std::error_code ignored;
   std::filesystem::remove_all(std::exchange(folder_, ""), ignored);
+  lock_.reset();
 }
 
 }  // namespace liana::gateway

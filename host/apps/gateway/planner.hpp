@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "host/apps/launcher/folder_lock.hpp"
 #include "host/apps/launcher/process.hpp"
 #include "host/base/json/json.hpp"
 
@@ -19,7 +20,7 @@ class Planner {
   // Gets the messages to the client: {"op":"plan","phase":...}, docs/reference/console-protocol.md.
   using Say = std::function<void(const Json& message)>;
 
-  // `program`: path of `liana`.
+  // `program`: path of `liana`. Removes what gateways that were killed have left.
   Planner(std::string program, Say say);
   // Ends what runs.
   ~Planner();
@@ -44,7 +45,8 @@ class Planner {
 
   std::string program_;
   Say say_;
-  std::string folder_;  // of this plan's files; empty: none
+  std::string folder_;         // of this plan's files; empty: none
+  launcher::FolderLock lock_;  // of it
   std::unique_ptr<launcher::ChildProcess> child_;
   Json from_deg_;
   double since_s_ = 0.0, said_s_ = 0.0;

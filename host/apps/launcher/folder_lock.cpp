@@ -57,4 +57,16 @@ void remove_held_folder(const std::string& folder) {
   fs::remove_all(folder, gone);
 }
 
+void remove_leftovers(const std::string& prefix) {
+  std::error_code gone;  // others tidy up at the same time
+  for (const fs::directory_entry& entry : fs::directory_iterator(fs::temp_directory_path(gone), gone)) {
+    struct stat found {};
+    const bool is_ours = entry.path().filename().string().starts_with(prefix) &&
+                         ::lstat(entry.path().c_str(), &found) == 0 && S_ISDIR(found.st_mode) &&
+                         found.st_uid == ::geteuid();
+    if (!is_ours) continue;
+    if (const FolderLock lock = take_unheld_folder(entry.path())) remove_held_folder(entry.path());
+  }
+}
+
 }  // namespace liana::launcher

@@ -26,4 +26,7 @@ FolderLock take_unheld_folder(const std::string& folder);
 // Removes a folder whose lock was taken, the lock file last: an interrupted removal is repeated by whoever comes next.
 void remove_held_folder(const std::string& folder);
 
+// Removes this user's folders under $TMPDIR whose names begin so, and whose processes were killed: nobody holds them.
+void remove_leftovers(const std::string& prefix);
+
 }  // namespace liana::launcher

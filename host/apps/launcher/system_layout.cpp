@@ -3,7 +3,6 @@
 #include <net/if.h>
 #include <stdlib.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -356,25 +355,12 @@ RunFolder directory_of(const SystemLayout& plan, const RunOptions& options) {
 
 constexpr const char* kFolderOfRun = "liana-run-";
 
-// Folders of runs that were killed: nobody else tidies up behind them.
-void remove_leftovers() {
-  std::error_code gone;  // other runs tidy up at the same time
-  for (const fs::directory_entry& entry : fs::directory_iterator(fs::temp_directory_path(gone), gone)) {
-    struct stat found {};
-    const bool is_ours = entry.path().filename().string().starts_with(kFolderOfRun) &&
-                         ::lstat(entry.path().c_str(), &found) == 0 && S_ISDIR(found.st_mode) &&
-                         found.st_uid == ::geteuid();
-    if (!is_ours) continue;
-    if (const FolderLock lock = take_unheld_folder(entry.path())) remove_held_folder(entry.path());
-  }
-}
-
 }  // namespace
 
 SystemLayout make_layout(const RunOptions& given) {
   RunOptions options = given;
   SystemLayout plan;
-  remove_leftovers();
+  remove_leftovers(kFolderOfRun);
   operator_words(options.people);  // refused before anything is made
   take_tables_of_mission(options);
   const TableText robot = robot_of(options);
@@ -430,7 +416,7 @@ SystemLayout make_layout(const RunOptions& given) {
 }
 
 std::string temporary_directory() {
-  remove_leftovers();
+  remove_leftovers(kFolderOfRun);
   std::string name = (fs::temp_directory_path() / (std::string(kFolderOfRun) + "XXXXXX")).string();
   if (mkdtemp(name.data()) == nullptr)
     throw BadInput(name + ": a temporary directory cannot be made; free space there or set TMPDIR");

@@ -51,6 +51,7 @@ class ThePlanner : public testing::Test {
   Planner made() {
     return Planner((folder_ / "liana").string(), [this](const Json& message) { said_.push_back(message); });
   }
+  fs::path temporary() const { return folder_ / "tmp"; }
   void start(Planner& planner) { planner.start(request_, welcome_, state_, "anna", 10.0); }
   std::string refusal(Planner& planner) {
     try {
@@ -105,6 +106,31 @@ TEST_F(ThePlanner, FindsAWayFromTheCommandToTheGoalWithTheMarginOfTheScene) {
   EXPECT_EQ(way["nearest"], "wall");
   EXPECT_NE(words().find("--from-deg=0.125,-3 --to-deg=1,2 --margin=0.010000 --json"), std::string::npos) << words();
   EXPECT_TRUE(is_clean());
+}
+
+TEST_F(ThePlanner, RemovesFoldersOfGatewaysThatWereKilledAndNoOthers) {
+  const fs::path killed = temporary() / "liana-plan-killed", lives = temporary() / "liana-plan-lives",
+                 other = temporary() / "liana-planets";
+  for (const fs::path& each : {killed, lives, other}) {
+    fs::create_directory(each);
+    std::ofstream(each / "robot.json") << "{}";
+    std::ofstream(each / "log") << "";
+  }
+  launcher::hold_new_folder(killed, "").reset();
+  launcher::hold_new_folder(other, "").reset();
+  const launcher::FolderLock held = launcher::hold_new_folder(lives, "");
+  Planner planner = made();
+  EXPECT_FALSE(fs::exists(killed));
+  EXPECT_TRUE(fs::exists(lives / "robot.json"));
+  EXPECT_TRUE(fs::exists(other / "robot.json"));
+  program("sleep 20");
+  start(planner);
+  made();
+  EXPECT_TRUE(planner.is_running());
+  std::size_t folders = 0;
+  for (const fs::directory_entry& each : fs::directory_iterator(temporary()))
+    folders += each.path().filename().string().starts_with("liana-plan-") ? 1U : 0U;
+  EXPECT_EQ(folders, 2u) << "that of a plan that is being made stays";
 }
 
 TEST_F(ThePlanner, SaysNoClearanceWhereNothingIsInTheScene) {
