@@ -6,7 +6,8 @@ namespace liana::cli {
 namespace {
 
 void add_api(CLI::App& sub, DeviceOptions& device) {
-  sub.add_option("--api", device.api, "API socket of lianad; where not given, that of the running system");
+  sub.add_option("--api", device.api,
+                 "API socket of lianad; where not given, that of the one running system of this user");
   add_json(sub, device.json);
 }
 

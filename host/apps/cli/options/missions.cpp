@@ -105,7 +105,8 @@ void add_mission(CLI::App& app, Action& action) {
                  "abort: end it")
       ->required()
       ->check(CLI::IsMember({"pause", "resume", "step", "confirm", "abort"}));
-  sub.add_option("--api", mission.api, "API socket of the lianad; where not given, that of the one running system");
+  sub.add_option("--api", mission.api,
+                 "API socket of the lianad; where not given, that of the one running system of this user");
   add_json(sub, mission.json);
 }
 
@@ -191,7 +192,8 @@ void add_ground(CLI::App& app, Action& action) {
       ->excludes(cosmos);
   xtce->excludes(cosmos);
   sub.add_option("--robot", ground.robot, "of these: a name under lua/robots or a file")->capture_default_str();
-  sub.add_option("--api", ground.api, "API socket of a lianad; where not given that of the one running system");
+  sub.add_option("--api", ground.api,
+                 "API socket of a lianad; where not given, that of the one running system of this user");
   sub.add_option("--telemetry", ground.telemetry, "ADDR:PORT where ground stations read telemetry, by TCP")
       ->capture_default_str();
   sub.add_option("--telecommand", ground.telecommand, "ADDR:PORT that takes telecommands, by TCP and UDP")

@@ -19,8 +19,9 @@ void add_gateway_options(CLI::App& sub, launcher::GatewayOptions& gateway) {
 }
 
 void add_system(CLI::App& sub, SystemSelection& wish) {
-  sub.add_option("--api", wish.api,
-                 "API socket of a lianad; where not given, that of the one running system, or a simulated arm");
+  sub.add_option(
+      "--api", wish.api,
+      "API socket of a lianad; where not given, that of the one running system of this user, or a simulated arm");
   sub.add_flag("--simulate", wish.simulate, "start a simulated arm, also where a system runs");
   sub.add_option("--robot", wish.run.robot,
                  "of the simulated arm: a name under lua/robots or a file; zhu2022 where not given");
