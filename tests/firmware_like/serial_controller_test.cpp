@@ -202,12 +202,12 @@ TEST(SerialController, AJointMayCatchUpAsFarAsItsServoLagsAndNotACountMore) {
                  rate_rad_s = table.joint[as_index(joint)].rate_rad_s;
     const double lag_rad = table.servo_time_constant_s * rate_rad_s;
     EXPECT_GT(lag_rad, 5e-4 + rate_rad_s * moved_s) << "more than a joint moves in three ticks, three times as fast";
-    const double most_rad = 5e-4 + rate_rad_s * moved_s + 1.25 * lag_rad;
-    const double most_counts = std::floor(most_rad / count_rad);
+    const double max_rad = 5e-4 + rate_rad_s * moved_s + 1.25 * lag_rad;
+    const double max_counts = std::floor(max_rad / count_rad);
     for (const double side : {1.0, -1.0}) {
       EXPECT_FALSE(has_jumped(table, joint, side * (lag_rad + rate_rad_s * table.tick_s))) << joint;
-      EXPECT_FALSE(has_jumped(table, joint, side * most_counts * count_rad)) << joint;
-      EXPECT_TRUE(has_jumped(table, joint, side * (most_counts + 1.0) * count_rad)) << joint;
+      EXPECT_FALSE(has_jumped(table, joint, side * max_counts * count_rad)) << joint;
+      EXPECT_TRUE(has_jumped(table, joint, side * (max_counts + 1.0) * count_rad)) << joint;
     }
   }
 }
@@ -217,9 +217,9 @@ TEST(SerialController, AJointOfATorqueDriveHasNoServoToLagBehind) {
   table.servo_time_constant_s = 0.08;
   table.torque.is_torque_controlled = 1;
   const double count_rad = table.drive[3].rad_per_count;
-  const double most_counts = std::floor((5e-4 + table.joint[3].rate_rad_s * 9.0 * table.tick_s) / count_rad);
-  EXPECT_FALSE(has_jumped(table, 3, most_counts * count_rad));
-  EXPECT_TRUE(has_jumped(table, 3, (most_counts + 1.0) * count_rad));
+  const double max_counts = std::floor((5e-4 + table.joint[3].rate_rad_s * 9.0 * table.tick_s) / count_rad);
+  EXPECT_FALSE(has_jumped(table, 3, max_counts * count_rad));
+  EXPECT_TRUE(has_jumped(table, 3, (max_counts + 1.0) * count_rad));
 }
 
 TEST(SerialController, AJointPushedOutOfItsRangeIsAFault) {
