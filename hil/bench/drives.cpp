@@ -4,6 +4,22 @@ namespace liana::bench {
 
 namespace {
 
+// Kinds that happen to a node, and so to each of its axes.
+bool is_of_node(FaultKind kind) {
+  switch (kind) {
+    case FaultKind::kMissing:
+    case FaultKind::kWrongIdentityAfterReboot:
+    case FaultKind::kWrongIdentity:
+    case FaultKind::kSilent:
+    case FaultKind::kReboot:
+    case FaultKind::kSlowReset:
+    case FaultKind::kSlowSdo:
+      return true;
+    default:
+      return false;
+  }
+}
+
 std::uint64_t microseconds(double seconds) { return static_cast<std::uint64_t>(1e6 * seconds); }
 
 }  // namespace
@@ -35,7 +51,23 @@ std::size_t Drives::enabled() const {
   return count;
 }
 
+std::vector<std::size_t> Drives::affected(const FaultConfig& fault, std::size_t i) const {
+  if (!is_of_node(fault.kind)) return {i};
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < drives_.size(); ++k)
+    if (drives_[k]->bus() == drives_[i]->bus() && drives_[k]->node() == drives_[i]->node()) out.push_back(k);
+  return out;
+}
+
 void Drives::begin(const FaultConfig& fault, std::size_t i) {
+  for (const std::size_t each : affected(fault, i)) begin_at(fault, each);
+}
+
+void Drives::end(const FaultConfig& fault, std::size_t i) {
+  for (const std::size_t each : affected(fault, i)) end_at(fault, each);
+}
+
+void Drives::begin_at(const FaultConfig& fault, std::size_t i) {
   Drive& drive = *drives_[i];
   const FaultParameters& with = fault.parameters;
   const auto code = static_cast<std::uint16_t>(with.code);
@@ -97,7 +129,7 @@ void Drives::begin(const FaultConfig& fault, std::size_t i) {
   }
 }
 
-void Drives::end(const FaultConfig& fault, std::size_t i) {
+void Drives::end_at(const FaultConfig& fault, std::size_t i) {
   DriveDefects& defects = drives_[i]->defects();
   const DriveDefects none;
   switch (fault.kind) {

@@ -17,8 +17,11 @@ namespace liana::bench {
 template <class Robot>
 DriveSettings drive_settings(const Robot& robot, const BusesConfig& buses, std::size_t i) {
   DriveSettings settings;
-  settings.node = static_cast<int>(i) + 1;
-  settings.bus = static_cast<std::uint8_t>(buses.bus_of(settings.node));
+  const AxisConfig place = buses.axis_of(i);
+  settings.node = place.node;
+  settings.axis = place.axis;
+  settings.axes = buses.axes_of(place.node);
+  settings.bus = place.bus;
   settings.dictionary = buses.dictionary_of(settings.node);
   settings.vendor = settings.dictionary.vendor.value_or(robot.vendor);
   settings.product = settings.dictionary.product.value_or(robot.product);
@@ -49,7 +52,8 @@ class Drives {
   // Gives the frames to the drives on their buses, then runs all timers.
   void exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out);
 
-  // A fault of this drive begins; end() takes back what can end (load_faults allows for_slots for no other).
+  // A fault of this drive begins; end() takes back what can end (load_faults allows for_slots for no other). What
+  // happens to a node happens to all its axes.
   void begin(const FaultConfig& fault, std::size_t drive);
   void end(const FaultConfig& fault, std::size_t drive);
 
@@ -65,6 +69,10 @@ class Drives {
   void set_measured(std::size_t drive, double permille);
 
  private:
+  void begin_at(const FaultConfig& fault, std::size_t drive);
+  void end_at(const FaultConfig& fault, std::size_t drive);
+  // The drives that a fault of drive i happens to.
+  std::vector<std::size_t> affected(const FaultConfig& fault, std::size_t i) const;
   // The kinds that happen to what a drive moves.
   virtual void begin_behind(const FaultConfig& fault, std::size_t drive) = 0;
   virtual void end_behind(const FaultConfig& fault, std::size_t drive) = 0;

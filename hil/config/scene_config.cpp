@@ -1,7 +1,9 @@
 #include "hil/config/scene_config.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "hil/config/fields.hpp"
 #include "hil/config/json_file.hpp"
@@ -147,6 +149,25 @@ void read_load_cells(const JsonFile& file, std::size_t b, BusesConfig& buses) {
   buses.newtons_per_step = file.number("/load_cell/newtons_per_step", 1e-6, 10);
 }
 
+// 3, or {"node": 3, "axis": 2}.
+AxisConfig read_axis(const JsonFile& file, const std::string& field, std::size_t bus) {
+  const bool has_axis = file.has(field + "/axis");
+  return {file.integer(has_axis ? field + "/node" : field, 1, 126), has_axis ? file.integer(field + "/axis", 1, 2) : 1,
+          static_cast<std::uint8_t>(bus)};
+}
+
+// Each axis once, and a second one beside the first.
+void check_axes(const JsonFile& file, const BusesConfig& buses) {
+  const AxisConfig* before = nullptr;
+  for (const AxisConfig& each : buses.axes) {
+    const bool is_next = before != nullptr && before->node == each.node;
+    if (is_next ? each.axis != 2 || before->axis != 1 || before->bus != each.bus : each.axis != 1)
+      file.fail("/buses", "has axis " + std::to_string(each.axis) + " of node " + std::to_string(each.node) +
+                              "; allowed is each axis once, and axis 2 beside axis 1 on one bus");
+    before = &each;
+  }
+}
+
 }  // namespace
 
 BusesConfig load_buses(const std::string& path) {
@@ -157,11 +178,14 @@ BusesConfig load_buses(const std::string& path) {
   if (count < 1 || count > 8) file.fail("/buses", "has " + std::to_string(count) + " entries, allowed is 1 to 8");
   for (std::size_t b = 0; b < count; ++b) {
     buses.names.push_back(file.text(at("/buses", b) + "/name"));
-    buses.nodes.emplace_back();
     const std::string nodes = at("/buses", b) + "/nodes";
-    for (std::size_t i = 0; i < file.size(nodes); ++i) buses.nodes.back().push_back(file.integer(at(nodes, i), 1, 126));
+    for (std::size_t i = 0; i < file.size(nodes); ++i) buses.axes.push_back(read_axis(file, at(nodes, i), b));
     read_load_cells(file, b, buses);
   }
+  std::sort(buses.axes.begin(), buses.axes.end(), [](const AxisConfig& a, const AxisConfig& b) {
+    return std::pair(a.node, a.axis) < std::pair(b.node, b.axis);
+  });
+  check_axes(file, buses);
   buses.dictionaries = read_dictionaries(file);
   return buses;
 }
@@ -171,11 +195,15 @@ DictionaryConfig BusesConfig::dictionary_of(int node) const {
   return found == dictionaries.end() ? DictionaryConfig{} : found->second;
 }
 
-std::size_t BusesConfig::bus_of(int node) const {
-  for (std::size_t b = 0; b < nodes.size(); ++b)
-    for (const int candidate : nodes[b])
-      if (candidate == node) return b;
-  throw std::runtime_error("bus table: node " + std::to_string(node) + " is on no bus; add it to one bus's \"nodes\"");
+AxisConfig BusesConfig::axis_of(std::size_t drive) const {
+  if (drive < axes.size()) return axes[drive];
+  throw std::runtime_error("bus table: drive " + std::to_string(drive + 1) +
+                           " is on no bus; add its node to one bus's \"nodes\"");
+}
+
+int BusesConfig::axes_of(int node) const {
+  return static_cast<int>(
+      std::count_if(axes.begin(), axes.end(), [node](const AxisConfig& axis) { return axis.node == node; }));
 }
 
 }  // namespace liana::bench

@@ -94,15 +94,24 @@ struct LoadCellNodeConfig {
 };
 
 // Which node sits on which bus, and the SYNC period.
+// An axis of a node on a bus: where a drive is.
+struct AxisConfig {
+  int node = 1;
+  int axis = 1;  // 1 or 2
+  std::uint8_t bus = 0;
+};
+
 struct BusesConfig {
   std::vector<std::string> names;
-  std::vector<std::vector<int>> nodes;
+  std::vector<AxisConfig> axes;  // of all buses, by node, then axis, as drives count
   std::uint32_t period_us = 4000;
   std::vector<LoadCellNodeConfig> load_cells;
   double newtons_per_step = 1.0;                 // of load cells
   std::map<int, DictionaryConfig> dictionaries;  // of drives whose dictionary is not the bench's own
-  // Bus of a node (0-based); throws std::runtime_error when it is on none.
-  std::size_t bus_of(int node) const;
+  // Where drive i (0-based) is; throws std::runtime_error when it is on no bus.
+  AxisConfig axis_of(std::size_t drive) const;
+  // How many axes a node has.
+  int axes_of(int node) const;
   DictionaryConfig dictionary_of(int node) const;
 };
 

@@ -33,17 +33,43 @@ void Drive::receive(const CanFrame& frame, FrameList& out) {
   const auto node = static_cast<std::uint32_t>(settings_.node);
   if (frame.id == 0x000) return handle_nmt(frame, out);
   if (frame.id == 0x080) return handle_sync(out);
-  if (frame.id == 0x600 + node) {
-    CanFrame response;
-    response.id = 0x580 + node;
-    sample();
-    const bool listens = nmt_ == NmtState::kPreOperational || nmt_ == NmtState::kOperational;
-    if (!listens || !sdo_.answer(frame, response)) return;
-    answers_.push_back({now_us_ + std::max(defects_.sdo_us, settings_.dictionary.sdo_us), response});
-    return send_late(out);
-  }
+  if (frame.id == 0x600 + node) return handle_sdo(frame, out);
   if (frame.id > 0x700 && frame.id < 0x780) return handle_heartbeat(frame, out);
   handle_rpdo(frame, out);
+}
+
+void Drive::handle_sdo(const CanFrame& request, FrameList& out) {
+  CanFrame response;
+  response.id = 0x580 + static_cast<std::uint32_t>(settings_.node);
+  const bool listens = nmt_ == NmtState::kPreOperational || nmt_ == NmtState::kOperational;
+  if (!listens || !answers_sdo(request)) return;
+  sample();
+  if (!sdo_.answer(request, response)) return;
+  answers_.push_back({now_us_ + std::max(defects_.sdo_us, settings_.dictionary.sdo_us), response});
+  send_late(out);
+}
+
+// The node's one server: each axis answers for its own objects, the first one also for the node's. What is written to
+// the node holds for its other axes, too.
+bool Drive::answers_sdo(const CanFrame& request) {
+  const unsigned command = request.data[0] >> 5;
+  const bool names_object = command == 1 || command == 2 || command == 4;
+  if (request.length != 8 || settings_.axes == 1) return true;
+  const int axis = axis_of_object(static_cast<std::uint16_t>(get_little_endian(&request.data[1], 2)));
+  if (names_object) sdo_axis_ = std::max(1, axis);
+  const bool is_write_to_node = command == 1 && axis == 0 && (request.data[0] & 2) != 0;
+  CanFrame unsaid;
+  if (settings_.axis != 1 && is_write_to_node) sdo_.answer(request, unsaid);
+  return sdo_axis_ == settings_.axis;
+}
+
+void Drive::send_as_node(NmtState state, FrameList& out) {
+  if (settings_.axis != 1) return;
+  CanFrame heartbeat;
+  heartbeat.id = 0x700 + static_cast<std::uint32_t>(settings_.node);
+  heartbeat.length = 1;
+  heartbeat.data[0] = static_cast<std::uint8_t>(state);
+  send(heartbeat, out);
 }
 
 void Drive::send(CanFrame frame, FrameList& out) {
@@ -52,7 +78,7 @@ void Drive::send(CanFrame frame, FrameList& out) {
   out.push_back(frame);
   ++counts_.sent;
   if (!defects_.twice) return;
-  if ((frame.id & 0x780) == 0x180) frame.data[3] ^= 0x40;  // the other one stands elsewhere
+  if ((frame.id & 0x580) == 0x180) frame.data[3] ^= 0x40;  // the other one stands elsewhere
   out.push_back(frame);
 }
 
@@ -147,10 +173,7 @@ void Drive::reset_communication(FrameList& out) {
   late_.clear();
   connection_lost_ = targets_lost_ = false;
   if (power_ != PowerState::kFault) enter_power(PowerState::kSwitchOnDisabled);
-  CanFrame boot_up;
-  boot_up.id = 0x700 + static_cast<std::uint32_t>(settings_.node);
-  boot_up.length = 1;
-  send(boot_up, out);
+  send_as_node(NmtState::kInitialising, out);
   nmt_ = NmtState::kPreOperational;
 }
 

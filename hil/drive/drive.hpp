@@ -1,4 +1,5 @@
-// One simulated CiA 402 drive: a CANopen node with a motor and a brake (docs/reference/drives.md).
+// One simulated CiA 402 drive: a CANopen node with a motor and a brake (docs/reference/drives.md), or one axis of a
+// node. Each axis hears all that the node hears; the first one speaks for the node.
 #pragma once
 
 #include <cstdint>
@@ -86,6 +87,9 @@ class Drive {
  private:
   std::uint32_t guard(const Object& object, std::int64_t value) const;
   void written(const Object& object);
+  void handle_sdo(const CanFrame& request, FrameList& out);
+  bool answers_sdo(const CanFrame& request);
+  void send_as_node(NmtState state, FrameList& out);
   void handle_nmt(const CanFrame& frame, FrameList& out);
   void begin_reset(bool of_node, FrameList& out);
   void reset_node();
@@ -126,6 +130,7 @@ class Drive {
   DriveSettings settings_;
   ObjectDictionary objects_;
   SdoServer sdo_;
+  int sdo_axis_ = 1;  // whose object the node's transfer is about
   ServoMotor motor_;
   TorqueLoop torque_loop_;
   std::optional<TorqueStop> torque_stop_;

@@ -81,12 +81,14 @@ void add_torque(std::vector<Object>& objects) {
     if (object.index == 0x6502) object.value = kBothModes;
 }
 
-void add_pdo(std::vector<Object>& objects, std::uint16_t number, int node, bool receive) {
+void add_pdo(std::vector<Object>& objects, std::uint16_t number, const DriveSettings& settings, bool receive) {
   const auto communication = static_cast<std::uint16_t>((receive ? 0x1400 : 0x1800) + number);
   const auto mapping = static_cast<std::uint16_t>((receive ? 0x1600 : 0x1A00) + number);
-  const std::uint32_t cob = (receive ? 0x200U : 0x180U) + 0x100U * number + static_cast<std::uint32_t>(node);
+  const std::uint32_t usual = (receive ? 0x200U : 0x180U) + 0x100U * number + static_cast<std::uint32_t>(settings.node);
+  const std::uint32_t cob = settings.axis == 1 ? usual : 0;  // none is predefined for further axes
+  const bool is_on = number == 0 && settings.axis == 1;
   objects.push_back({communication, 0, kU8, kReadOnly, false, 5, 0, 255});
-  objects.push_back({communication, 1, kU32, kReadWrite, false, number == 0 ? cob : (cob | kDisabled), 0, kU32Max});
+  objects.push_back({communication, 1, kU32, kReadWrite, false, is_on ? cob : (cob | kDisabled), 0, kU32Max});
   objects.push_back({communication, 2, kU8, kReadWrite, false, 1, 0, 255});
   objects.push_back(
       {communication, 5, kU16, kReadWrite, false, 0, 0, 65535});  // event timer; on an RPDO the deadline [ms]
@@ -120,11 +122,11 @@ ObjectDictionary make_objects(const DriveSettings& settings) {
   objects.push_back({0x6076, 0, kU32, kReadOnly, false, std::llround(rated_torque), 0, kU32Max});
   if (settings.is_torque_controlled) add_torque(objects);
   for (std::uint16_t number = 0; number < 4; ++number) {
-    add_pdo(objects, number, settings.node, true);
-    add_pdo(objects, number, settings.node, false);
+    add_pdo(objects, number, settings, true);
+    add_pdo(objects, number, settings, false);
   }
   change_objects(settings.dictionary, objects);
-  ObjectDictionary out(std::move(objects));
+  ObjectDictionary out(std::move(objects), settings.axis);
   out.set(0x6061, 0, out.get(0x6060));  // the mode of power-on is the one that it is in
   return out;
 }

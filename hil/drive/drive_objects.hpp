@@ -11,6 +11,8 @@ namespace liana::bench {
 // What differs from drive to drive.
 struct DriveSettings {
   int node = 1;  // 1..126
+  int axis = 1;  // of the node
+  int axes = 1;  // that the node has
   std::uint8_t bus = 0;
   std::uint32_t vendor = 0;
   std::uint32_t product = 0;
@@ -31,8 +33,8 @@ struct DriveSettings {
 };
 
 // The bench's own dictionary as `dictionary` changes it; throws std::runtime_error naming an object that it does not
-// have. Power-on values: PDO 1 of each direction enabled with its predefined COB-ID and no mapping, PDOs 2 to 4
-// disabled.
+// have. Power-on values: PDO 1 of each direction enabled with its predefined COB-ID and no mapping, PDOs 2 to 4, and
+// all of a second axis, disabled.
 ObjectDictionary make_objects(const DriveSettings& settings);
 
 }  // namespace liana::bench

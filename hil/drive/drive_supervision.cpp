@@ -175,11 +175,7 @@ void Drive::tick(std::uint64_t now_us, FrameList& out) {
   const std::uint64_t heartbeat_us = 1000 * static_cast<std::uint64_t>(objects_.get(0x1017));
   if (heartbeat_us != 0 && now_us_ >= next_heartbeat_us_) {
     next_heartbeat_us_ = std::max(next_heartbeat_us_ + heartbeat_us, now_us_ + heartbeat_us / 2);
-    CanFrame heartbeat;
-    heartbeat.id = 0x700 + static_cast<std::uint32_t>(settings_.node);
-    heartbeat.length = 1;
-    heartbeat.data[0] = static_cast<std::uint8_t>(nmt_);
-    send(heartbeat, out);
+    send_as_node(nmt_, out);
   }
   const std::uint64_t allowed_us = 1000 * static_cast<std::uint64_t>(objects_.get(0x1016, 1) & 0xFFFF);
   if (master_.armed && allowed_us != 0 && now_us_ - master_.last_us > allowed_us) {

@@ -44,7 +44,14 @@ std::int64_t decode(ObjectType type, const std::uint8_t* bytes) {
   }
 }
 
-ObjectDictionary::ObjectDictionary(std::vector<Object> objects) : objects_(std::move(objects)) {
+int axis_of_object(std::uint16_t index) {
+  if (index >= 0x6000 && index < 0x7000) return index < 0x6800 ? 1 : 2;
+  const int number = index & 0x1FF;  // of a PDO, from 0
+  if (index < 0x1400 || index >= 0x1C00 || number >= 0x80) return 0;
+  return number < 0x40 ? 1 : 2;
+}
+
+ObjectDictionary::ObjectDictionary(std::vector<Object> objects, int axis) : axis_(axis), objects_(std::move(objects)) {
   std::sort(objects_.begin(), objects_.end(),
             [](const Object& a, const Object& b) { return key_of(a.index, a.sub) < key_of(b.index, b.sub); });
   for (const Object& object : objects_) keys_.push_back(key_of(object.index, object.sub));
@@ -60,14 +67,27 @@ Object* ObjectDictionary::find(std::uint16_t index, std::uint8_t sub) {
   return const_cast<Object*>(std::as_const(*this).find(index, sub));
 }
 
+// Of axis 2: 0, which is no object, for what is axis 1's.
+std::uint16_t ObjectDictionary::own_index(std::uint16_t index) const {
+  const int axis = axis_of_object(index);
+  if (axis_ == 1 || axis == 0) return index;
+  if (axis != axis_) return 0;
+  return static_cast<std::uint16_t>(index - (index >= 0x6000 ? 0x800 : 0x40));
+}
+
 const Object* ObjectDictionary::find_public(std::uint16_t index, std::uint8_t sub) const {
-  const Object* object = find(index, sub);
+  const Object* object = find(own_index(index), sub);
   return object == nullptr || object->is_hidden ? nullptr : object;
 }
 
+Object* ObjectDictionary::find_public(std::uint16_t index, std::uint8_t sub) {
+  return const_cast<Object*>(std::as_const(*this).find_public(index, sub));
+}
+
 std::uint32_t ObjectDictionary::missing(std::uint16_t index) const {
-  const bool known = std::any_of(objects_.begin(), objects_.end(),
-                                 [index](const Object& object) { return object.index == index && !object.is_hidden; });
+  const bool known = std::any_of(objects_.begin(), objects_.end(), [own = own_index(index)](const Object& object) {
+    return object.index == own && !object.is_hidden;
+  });
   return known ? abort_code::kNoSub : abort_code::kNoObject;
 }
 

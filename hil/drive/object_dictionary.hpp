@@ -49,9 +49,14 @@ std::size_t size_of(ObjectType type);
 // Little-endian bytes to the signed or unsigned value of the type.
 std::int64_t decode(ObjectType type, const std::uint8_t* bytes);
 
+// The axis whose object this is: of CiA 402 (6000 to 67FF are axis 1's, 6800 to 6FFF axis 2's), or a PDO (numbers 1 to
+// 64, 65 to 128); 0: the node's.
+int axis_of_object(std::uint16_t index);
+
+// Of one axis of a node, whose objects it names as axis 1 does; others name them as the node does.
 class ObjectDictionary {
  public:
-  explicit ObjectDictionary(std::vector<Object> objects);
+  explicit ObjectDictionary(std::vector<Object> objects, int axis = 1);
 
   // nullptr when there is no such entry. Pointers stay valid.
   Object* find(std::uint16_t index, std::uint8_t sub);
@@ -60,8 +65,9 @@ class ObjectDictionary {
   std::int64_t get(std::uint16_t index, std::uint8_t sub = 0) const { return find(index, sub)->value; }
   void set(std::uint16_t index, std::uint8_t sub, std::int64_t value) { find(index, sub)->value = value; }
 
-  // The same for others than the drive: not what is hidden.
+  // The same for others than the drive: not what is hidden, and by the node's name of it.
   const Object* find_public(std::uint16_t index, std::uint8_t sub) const;
+  Object* find_public(std::uint16_t index, std::uint8_t sub);
   // All entries, by index, then sub-index.
   const std::vector<Object>& all() const { return objects_; }
 
@@ -70,7 +76,9 @@ class ObjectDictionary {
   std::uint32_t check_write(std::uint16_t index, std::uint8_t sub, const std::uint8_t* bytes, std::size_t size) const;
 
  private:
+  std::uint16_t own_index(std::uint16_t index) const;
   std::uint32_t missing(std::uint16_t index) const;
+  int axis_;
   std::vector<Object> objects_;      // by index, then sub
   std::vector<std::uint32_t> keys_;  // of the objects, both in one
 };

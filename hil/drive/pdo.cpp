@@ -65,7 +65,7 @@ Pdo::Pdo(ObjectDictionary& objects, std::uint16_t number, bool receive) {
   deadline_us_ = 1000 * static_cast<std::uint64_t>(objects.get(communication, 5));
   for (std::int64_t i = 1; i <= objects.get(mapping, 0); ++i) {
     const std::int64_t entry = objects.get(mapping, static_cast<std::uint8_t>(i));
-    mapped_.push_back(objects.find(entry_index(entry), entry_sub(entry)));
+    mapped_.push_back(objects.find_public(entry_index(entry), entry_sub(entry)));
     length_ = static_cast<std::uint8_t>(length_ + size_of(mapped_.back()->type));
   }
 }

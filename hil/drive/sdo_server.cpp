@@ -60,7 +60,7 @@ bool SdoServer::answer(const CanFrame& request, CanFrame& response) {
 void SdoServer::start_upload(const CanFrame&, CanFrame& response) {
   const std::uint32_t refused = objects_.check_read(index_, sub_);
   if (refused != abort_code::kNone) return abort(refused, response);
-  buffer_ = encode(*objects_.find(index_, sub_));
+  buffer_ = encode(*objects_.find_public(index_, sub_));
   put_little_endian(&response.data[1], 2, index_);
   response.data[3] = sub_;
   if (buffer_.size() <= 4) {
@@ -92,7 +92,7 @@ void SdoServer::start_download(const CanFrame& request, CanFrame& response) {
   const bool sized = (request.data[0] & 1) != 0;
   transfer_ = Transfer::kIdle;
   if (expedited) {
-    const Object* object = objects_.find(index_, sub_);
+    const Object* object = objects_.find_public(index_, sub_);
     // Without a size the object's own is meant.
     const std::size_t unsized = object == nullptr ? 4 : std::min<std::size_t>(4, size_of(object->type));
     const std::size_t count = sized ? 4U - ((request.data[0] >> 2U) & 3U) : unsized;
@@ -127,7 +127,7 @@ void SdoServer::next_download(const CanFrame& request, CanFrame& response) {
 std::uint32_t SdoServer::write(const std::string& bytes) {
   const std::uint32_t refused = objects_.check_write(index_, sub_, bytes_of(bytes), bytes.size());
   if (refused != abort_code::kNone) return refused;
-  Object& object = *objects_.find(index_, sub_);
+  Object& object = *objects_.find_public(index_, sub_);
   const std::int64_t value = decode(object.type, bytes_of(bytes));
   const std::uint32_t guarded = guard_(object, value);
   if (guarded != abort_code::kNone) return guarded;

@@ -134,5 +134,104 @@ TEST_F(DriveNode, CanBeSomebodyElse) {
   EXPECT_EQ(read(0x1018, 2), 2U);
 }
 
+// Axes 1 and 2 of one node: what is said to the node is heard by both.
+class TwoAxisNode : public DriveHarness {
+ protected:
+  TwoAxisNode() : DriveHarness(axis_settings(1)), second_(axis_settings(2), 2000.0) {
+    boot();
+    FrameList none;
+    second_.tick(now_us_, none);
+    EXPECT_TRUE(none.empty()) << "one boot-up message a node";
+  }
+  static DriveSettings axis_settings(int axis) {
+    DriveSettings out = settings();
+    out.axis = axis;
+    out.axes = 2;
+    return out;
+  }
+  FrameList give_node(std::uint32_t id, const std::vector<std::uint8_t>& bytes) {
+    FrameList out = give(id, bytes);
+    CanFrame frame;
+    frame.time_us = now_us_;
+    frame.id = id;
+    frame.length = static_cast<std::uint8_t>(bytes.size());
+    std::copy(bytes.begin(), bytes.end(), frame.data.begin());
+    second_.receive(frame, out);
+    return out;
+  }
+  // The one answer to a request.
+  std::vector<std::uint8_t> ask(std::vector<std::uint8_t> request) {
+    request.resize(8);
+    const FrameList out = give_node(0x600 + kNode, request);
+    EXPECT_EQ(out.size(), 1U) << "one server a node";
+    return out.empty() ? std::vector<std::uint8_t>{}
+                       : std::vector<std::uint8_t>(out[0].data.begin(), out[0].data.end());
+  }
+  std::uint32_t tell(std::uint16_t index, std::uint8_t sub, std::size_t size, std::uint32_t value) {
+    std::vector<std::uint8_t> request(8);
+    request[0] = static_cast<std::uint8_t>(0x23U | ((4U - size) << 2U));
+    put_little_endian(&request[1], 2, index);
+    request[3] = sub;
+    put_little_endian(&request[4], size, value);
+    return aborted(ask(request));
+  }
+  std::uint32_t get(std::uint16_t index, std::uint8_t sub) {
+    const std::vector<std::uint8_t> answer =
+        ask({0x40, static_cast<std::uint8_t>(index), static_cast<std::uint8_t>(index >> 8), sub});
+    EXPECT_EQ(get_little_endian(&answer[1], 2), index);
+    EXPECT_EQ(answer[0] & 0xE3, 0x43) << std::hex << index;
+    return static_cast<std::uint32_t>(get_little_endian(&answer[4], 4U - ((answer[0] >> 2U) & 3U)));
+  }
+
+  Drive second_;
+};
+
+TEST_F(TwoAxisNode, HasTheSecondOnesObjects0x800FurtherAndOneIdentity) {
+  EXPECT_EQ(get(0x6064, 0), 1000U);
+  EXPECT_EQ(get(0x6864, 0), 2000U);
+  EXPECT_EQ(get(0x1018, 4), 70412U);
+  EXPECT_EQ(aborted(ask({0x40, 0x64, 0x70, 0})), 0x06020000U) << "there is no third";
+  EXPECT_EQ(tell(0x6865, 0, 4, 77), 0U);
+  EXPECT_EQ(get(0x6865, 0), 77U);
+  EXPECT_EQ(get(0x6065, 0), 20000U);
+  EXPECT_EQ(ask({0x21, 0x7A, 0x68, 0, 4})[0], 0x60) << "in segments, which name no object";
+  EXPECT_EQ(ask({0x00 | (3 << 1) | 1, 0x78, 0x56, 0x34, 0x12})[0], 0x20);
+  EXPECT_EQ(get(0x687A, 0), 0x12345678U);
+  EXPECT_NE(get(0x607A, 0), 0x12345678U);
+}
+
+TEST_F(TwoAxisNode, MapsTheSecondOnesProcessDataFromPdo65OnUnderAnyIdentifier) {
+  EXPECT_EQ(get(0x1440, 1), 0x80000000U) << "none is predefined";
+  EXPECT_EQ(tell(0x1440, 1, 4, 0x80000400U + kNode), 0U);
+  EXPECT_EQ(tell(0x1640, 1, 4, 0x60400010), 0x06020000U) << "of the other axis";
+  EXPECT_EQ(tell(0x1640, 1, 4, 0x68400010), 0U);
+  EXPECT_EQ(tell(0x1640, 2, 4, 0x687A0020), 0U);
+  EXPECT_EQ(tell(0x1640, 0, 1, 2), 0U);
+  EXPECT_EQ(tell(0x1440, 1, 4, 0x400 + kNode), 0U);
+  EXPECT_EQ(tell(0x1A40, 1, 4, 0x68640020), 0U);
+  EXPECT_EQ(tell(0x1A40, 0, 1, 1), 0U);
+  EXPECT_EQ(tell(0x1840, 1, 4, 0x80000380U + kNode), 0U);
+  EXPECT_EQ(tell(0x1840, 1, 4, 0x380 + kNode), 0U);
+  give_node(0x000, {0x01, kNode});
+  give_node(0x400 + kNode, {0x06, 0, 0x39, 0x05, 0, 0});
+  const auto report = find(give_node(0x080, {}), 0x380 + kNode);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(get_little_endian(report->data.data(), 4), 2000U);
+  EXPECT_EQ(get(0x687A, 0), 1337U);
+  EXPECT_EQ(get(0x607A, 0), 1000U);
+  EXPECT_EQ(get(0x6840, 0), 6U);
+  EXPECT_EQ(get(0x6040, 0), 0U);
+}
+
+TEST_F(TwoAxisNode, BothAxesStopWhenTheMasterOfTheirNodeIsLost) {
+  EXPECT_EQ(tell(0x1016, 1, 4, (127U << 16U) | 300U), 0U);
+  give_node(0x000, {0x01, kNode});
+  give_node(0x77F, {0x05});
+  FrameList out = tick(400000);
+  second_.tick(now_us_, out);
+  EXPECT_EQ(drive_.nmt_state(), NmtState::kPreOperational);
+  EXPECT_EQ(second_.nmt_state(), NmtState::kPreOperational);
+}
+
 }  // namespace
 }  // namespace liana::bench
