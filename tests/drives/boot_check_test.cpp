@@ -12,16 +12,17 @@
 #include <utility>
 #include <vector>
 
+#include "host/drives/commissioning/jog_run.hpp"
 #include "tests/drives/drive_channel.hpp"
 #include "tests/message.hpp"
 
 namespace liana {
 namespace {
 
-// One drive of the bench on a bus of its own: what is sent in one tick is answered in the next.
+// One drive of the bench, or both axes of one, on a bus of its own: what is sent in one tick is answered in the next.
 class DriveOnDesk final : public test::QuietBus {
  public:
-  DriveOnDesk(bench::Drive& drive, int& writes) : QuietBus(1), drive_(drive), writes_(writes) {}
+  DriveOnDesk(std::vector<bench::Drive*> axes, int& writes) : QuietBus(1), axes_(std::move(axes)), writes_(writes) {}
   bus::SendResult send(int, const bus::CanFrame& frame) noexcept override {
     const bool is_write = frame.id > 0x600 && frame.id < 0x680 && (frame.data[0] >> 5) == 1;
     if (is_write) ++writes_;
@@ -43,10 +44,13 @@ class DriveOnDesk final : public test::QuietBus {
       there.id = frame.id;
       there.length = frame.length;
       std::copy_n(frame.data.begin(), frame.length, there.data.begin());
-      drive_.receive(there, out);
+      for (bench::Drive* axis : axes_) axis->receive(there, out);
     }
     sent_.clear();
-    drive_.tick(now_us_, out);
+    for (bench::Drive* axis : axes_) {
+      axis->tick(now_us_, out);
+      for (int i = 0; i < 4; ++i) axis->move(0.001, 50.0);
+    }
     for (const bench::CanFrame& frame : out) {
       bus::CanFrame here{frame.id, frame.length, {}, 0};
       std::copy_n(frame.data.begin(), frame.length, here.data.begin());
@@ -55,7 +59,7 @@ class DriveOnDesk final : public test::QuietBus {
   }
 
  private:
-  bench::Drive& drive_;
+  std::vector<bench::Drive*> axes_;
   int& writes_;
   std::uint64_t now_us_ = 0;
   std::deque<bus::CanFrame> sent_;
@@ -64,7 +68,8 @@ class DriveOnDesk final : public test::QuietBus {
 
 struct Checked {
   explicit Checked(const bench::DictionaryConfig& dictionary)
-      : drive(settings(dictionary), 1000.0), desk(std::make_unique<DriveOnDesk>(drive, writes), 250.0, never) {}
+      : drive(settings(dictionary), 1000.0),
+        desk(std::make_unique<DriveOnDesk>(std::vector{&drive}, writes), 250.0, never) {}
 
   static bench::DriveSettings settings(const bench::DictionaryConfig& dictionary) {
     bench::DriveSettings out;
@@ -162,6 +167,55 @@ TEST(BootCheck, WithoutModeDisplayTheModeIsNotWatched) {
   const commissioning::BootCheck read = commissioning::check_by_reading(checked.desk, test::expectation());
   EXPECT_TRUE(read.would_boot());
   EXPECT_FALSE(read.is_watched);
+}
+
+// Node 1 with two axes on a desk, the second of which is meant.
+class SecondAxis : public ::testing::Test {
+ protected:
+  SecondAxis() : desk_(std::make_unique<DriveOnDesk>(std::vector{&first_, &second_}, writes_), 250.0, never_) {}
+
+  static bench::DriveSettings settings(int axis) {
+    bench::DriveSettings out = Checked::settings({});
+    out.axis = axis;
+    out.axes = 2;
+    return out;
+  }
+  static canopen::ExpectedDrive expected() {
+    canopen::ExpectedDrive drive = test::expectation();
+    drive.axis = 2;
+    drive.rpdo_deadline_ms = 100;
+    return drive;
+  }
+
+  int writes_ = 0;
+  std::atomic<bool> never_ = false;
+  bench::Drive first_{settings(1), 1000.0}, second_{settings(2), 2000.0};
+  commissioning::Desk desk_;
+};
+
+TEST_F(SecondAxis, IsCheckedByReadingAndByTrial) {
+  EXPECT_TRUE(commissioning::check_by_reading(desk_, expected()).would_boot());
+  EXPECT_EQ(writes_, 0);
+  const commissioning::BootCheck tried = commissioning::check_by_trial(desk_, expected());
+  EXPECT_TRUE(tried.would_boot()) << all_of(tried.more);
+  EXPECT_TRUE(tried.is_watched);
+  EXPECT_TRUE(tried.not_restored.empty()) << all_of(tried.not_restored);
+}
+
+TEST_F(SecondAxis, IsJoggedAloneAndEndsDisabled) {
+  commissioning::JogRun run(desk_, expected());
+  ASSERT_EQ(run.boot().phase(), canopen::NodePhase::kOperational);
+  commissioning::JogRequest request;
+  request.by_counts = 6000.0;
+  request.counts_per_s = 8000.0;
+  request.window_counts = 1500.0;
+  request.settled_counts = 20.0;
+  const commissioning::JogOutcome outcome = run.jog(request, [](const commissioning::JogSample&) {});
+  EXPECT_EQ(outcome.end, commissioning::JogResult::kArrived);
+  EXPECT_TRUE(outcome.is_off);
+  EXPECT_NEAR(second_.motor().position_counts(), 8000.0, 20.0);
+  EXPECT_EQ(first_.motor().position_counts(), 1000.0);
+  EXPECT_EQ(first_.motor().mode(), bench::MotorMode::kBraked);
 }
 
 }  // namespace

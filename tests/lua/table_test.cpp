@@ -162,7 +162,7 @@ TEST(Eval, NamesWhatThereIsWhenANameIsUnknown) {
   EXPECT_TRUE(names(ended.error,
                     {"can9", "embedded", "embedded_500", "embedded_feeder", "embedded_lab_1g", "embedded_macro_micro",
                      "embedded_macro_micro_stiff", "embedded_micro", "embedded_micro_single", "embedded_payload",
-                     "embedded_single", "embedded_three_segment_lab", "vcan"}));
+                     "embedded_single", "embedded_three_segment_lab", "embedded_two_axes", "vcan"}));
 }
 
 // req:A50 req:A52

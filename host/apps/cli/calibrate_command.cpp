@@ -250,7 +250,7 @@ int calibrate_command(const CalibrateOptions& options) {
   }
   const calibration::CalibrationResult result =
       calibration::calibrate(robot, read_all(options, simulated, poses, thetas_rad), calibration::today_utc());
-  show(result, config::DriveNames(robot.table), options.json);
+  show(result, config::DriveNames(robot), options.json);
   if (!result.problems.empty()) return launcher::kExitFailure;
   if (!options.out_file.empty())
     launcher::write_output(options.out_file, calibration::calibration_json(result.calibration));

@@ -375,6 +375,7 @@ struct DriveOptions {
   std::string bus_socket;           // of liana-bus, where the table's backend is embedded
   std::string time = "real";        // of liana-bus
   std::string node;                 // nobody is taken for named
+  std::string axis = "1";           // of it
   std::string object;               // "6064", "1018:1"
   std::string value, bits = "32";
   std::string first = "1", last = "126";  // node ids

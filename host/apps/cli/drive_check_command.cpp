@@ -13,7 +13,7 @@
 namespace liana::cli {
 namespace {
 
-constexpr std::uint16_t kFollowingWindow = 0x6065;
+constexpr std::uint16_t kFollowingWindow = 0x6065;  // of axis 1
 
 std::string name_of(const canopen::BootObject& object) {
   return config::object_name({object.index, object.sub}) + " (" + object.name + ")";
@@ -35,7 +35,8 @@ Json outlook(const canopen::BootNode& node) {
     const bool spare_pdo = object.keep != 0 && object.may_be_missing;
     if (!outcome.found && !outcome.is_refused && !spare_pdo) missing.push_back(name_of(object));
     const bool differs = outcome.found && ((*outcome.found ^ object.value) & object.mask) != 0;
-    const bool is_unknown = object.index == kFollowingWindow && object.value == 0;
+    const bool is_unknown =
+        object.index == canopen::on_axis(kFollowingWindow, std::max(std::uint8_t{1}, object.axis)) && object.value == 0;
     if (!object.write || !differs || is_unknown) continue;
     if (is_pdo_object(object)) {
       ++pdo_writes;
@@ -62,6 +63,7 @@ Json looked_at(DriveSession& session, const std::string& who, const canopen::Exp
       tries ? commissioning::check_by_trial(session.desk, drive) : commissioning::check_by_reading(session.desk, drive);
   Json said = outlook(*check.node);
   said["node"] = drive.node;
+  said["axis"] = drive.axis;
   said["name"] = who;
   said["type"] = drive.type.name;
   said["ok"] = said["would_boot"] = check.would_boot();
@@ -99,8 +101,8 @@ void print_verdict(const Json& said) {
   if (said.contains("warning")) std::printf("warning: %s\n", said["warning"].text().c_str());
 }
 
-int check_one(DriveSession& session, const DriveOptions& options, std::uint8_t node) {
-  const commissioning::Place at = session.place(node);
+int check_one(DriveSession& session, const DriveOptions& options, std::uint8_t node, std::uint8_t axis) {
+  const commissioning::Place at = session.place(node, axis);
   if (const commissioning::Answer there = session.desk.read(at, 0x1000, 0); !there.is_done())
     return tell_failure(session, at, "reading 1000", there, options.json);
   const Json said = looked_at(session, session.where(at), expected_drive(session, at, options),
@@ -167,10 +169,10 @@ int check_robot(DriveSession& session, const DriveOptions& options, const std::v
 int drive_check_command(const DriveOptions& options) {
   if (options.robot.empty()) {
     drive_type_of(options);  // bad input before anything is asked
-    const std::uint8_t node = node_of(options);
+    const std::uint8_t node = node_of(options), axis = axis_of(options);
     DriveSession session(options);
     refuse_beside_a_master(session);
-    return check_one(session, options, node);
+    return check_one(session, options, node, axis);
   }
   const config::BusesConfig buses = drive_buses(options);
   const std::vector<canopen::ExpectedDrive> drives = drives_of_robot(options.robot, buses);

@@ -98,11 +98,12 @@ void ask_for_the_word(const DriveOptions& options, const Way& way) {
   if (options.jog.yes) return;
   if (isatty(STDIN_FILENO) == 0)
     throw launcher::BadInput("drive jog: nothing moves unasked: allowed is --yes, or the word jog typed at a terminal");
-  std::fprintf(stderr,
-               "Node %s will turn its motor by %s, at %s/s, with at most %s permille of its rated torque.\n"
-               "Nothing and nobody in the way, its emergency stop in reach? Type jog to move: ",
-               options.node.c_str(), way.said(way.by_turns).c_str(), way.said(way.turns_per_s).c_str() + 1,
-               options.jog.torque.c_str());
+  std::fprintf(
+      stderr,
+      "Node %s will turn the motor of its axis %s by %s, at %s/s, with at most %s permille of its rated torque.\n"
+      "Nothing and nobody in the way, its emergency stop in reach? Type jog to move: ",
+      options.node.c_str(), options.axis.c_str(), way.said(way.by_turns).c_str(), way.said(way.turns_per_s).c_str() + 1,
+      options.jog.torque.c_str());
   std::string word;
   if (!std::getline(std::cin, word) || word != "jog")
     throw launcher::BadInput("drive jog: \"" + word + "\": allowed is the word jog; nothing has moved");
@@ -113,7 +114,8 @@ std::uint32_t counts_per_turn(DriveSession& session, commissioning::Place at, co
   constexpr std::int64_t kMost = 1 << 30;
   if (!options.jog.counts_per_turn.empty())
     return static_cast<std::uint32_t>(parse_whole("--counts-per-turn", options.jog.counts_per_turn, 1, kMost));
-  const commissioning::Answer counts = session.desk.read(at, 0x608F, 1), turns = session.desk.read(at, 0x608F, 2);
+  const std::uint16_t encoder = canopen::on_axis(0x608F, at.axis);
+  const commissioning::Answer counts = session.desk.read(at, encoder, 1), turns = session.desk.read(at, encoder, 2);
   const std::uint32_t in_turn = counts.value() / std::max(1U, turns.is_done() ? turns.value() : 1U);
   const bool is_known = counts.is_done() && in_turn >= 1 && in_turn <= kMost;
   if (is_known && !drive_type_of(options).units.encoder) return in_turn;
@@ -133,7 +135,7 @@ Prepared prepare(DriveSession& session, commissioning::Place at, const DriveOpti
   out.drive = expected_drive(session, at, options);
   const std::uint32_t counts = counts_per_turn(session, at, options);
   const double window = counts * (kWindowTurns + kWindow_s * way.turns_per_s);
-  const commissioning::Answer position = session.desk.read(at, 0x6064, 0);
+  const commissioning::Answer position = session.desk.read(at, canopen::on_axis(0x6064, at.axis), 0);
   if (!position.is_done())
     throw std::runtime_error("drive jog: reading 6064, where the motor is: " + failure_text(position));
   const double here = static_cast<std::int32_t>(position.value());
@@ -233,6 +235,7 @@ int exit_code(const commissioning::JogOutcome& outcome) {
 Json outcome_json(const commissioning::JogOutcome& outcome, const Prepared& prepared) {
   Json said = {{"ok", exit_code(outcome) == launcher::ExitCode::kExitOk},
                {"node", prepared.drive.node},
+               {"axis", prepared.drive.axis},
                {"counts_per_turn", prepared.counts_per_turn},
                {"start_counts", outcome.start_counts},
                {"moved_counts", outcome.moved_counts},
@@ -294,13 +297,13 @@ int drive_jog_command(const DriveOptions& options) {
         ": follows torques, and jog leads positions: allowed is a type that follows positions, such "
         "as cia402_csp; drives that follow torques are moved as such with a robot only");
   parse_whole("--torque", options.jog.torque, 10, 1000, " permille of rated torque");
-  const std::uint8_t node = node_of(options);
+  const std::uint8_t node = node_of(options), axis = axis_of(options);
   if (const std::string warning = nothing_stops(type); !warning.empty())
     std::fprintf(stderr, "liana: warning: %s\n", warning.c_str());
   ask_for_the_word(options, way);
   DriveSession session(options);
   refuse_beside_a_master(session);
-  const commissioning::Place at = session.place(node);
+  const commissioning::Place at = session.place(node, axis);
   if (const commissioning::Answer there = session.desk.read(at, 0x1000, 0); !there.is_done())
     return tell_failure(session, at, "reading 1000", there, options.json);
   const Prepared prepared = prepare(session, at, options, way);

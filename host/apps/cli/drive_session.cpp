@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <numeric>
 #include <utility>
 
 #include "host/apps/cli/arguments.hpp"
@@ -27,12 +26,12 @@ timing::TimeMode time_of(const DriveOptions& options) {
 }
 
 // On a desk node 1, of a robot all.
-std::vector<std::int32_t> nodes_of(const DriveOptions& options) {
-  if (options.robot.empty()) return {1};
+std::vector<config::DrivePlace> nodes_of(const DriveOptions& options) {
+  if (options.robot.empty()) return {{1}};
   const std::string robot = launcher::evaluate_table("robot", options.robot);
-  std::vector<std::int32_t> nodes(
-      static_cast<std::size_t>(launcher::checked([&] { return config::drive_count(robot, options.robot); })));
-  std::iota(nodes.begin(), nodes.end(), 1);
+  const std::int32_t count = launcher::checked([&] { return config::drive_count(robot, options.robot); });
+  std::vector<config::DrivePlace> nodes;
+  for (std::int32_t node = 1; node <= count; ++node) nodes.emplace_back(node);
   return nodes;
 }
 
@@ -76,6 +75,10 @@ std::uint8_t node_of(const DriveOptions& options) {
     throw launcher::BadInput("--node: not given: allowed 1 to " + std::to_string(kMaxNode) +
                              ": say which drive is meant; liana drive scan shows who answers");
   return static_cast<std::uint8_t>(parse_whole("--node", options.node, 1, kMaxNode));
+}
+
+std::uint8_t axis_of(const DriveOptions& options) {
+  return static_cast<std::uint8_t>(parse_whole("--axis", options.axis, 1, config::kMaxAxes));
 }
 
 std::string hex(std::uint32_t value, int digits) {
@@ -127,12 +130,13 @@ config::DriveType drive_type_of(const DriveOptions& options) {
 
 canopen::ExpectedDrive expected_drive(DriveSession& session, commissioning::Place at, const DriveOptions& options) {
   const auto said = [&](std::uint16_t index, std::uint8_t sub, std::uint32_t otherwise) {
-    const commissioning::Answer answer = session.desk.read(at, index, sub);
+    const commissioning::Answer answer = session.desk.read(at, canopen::on_axis(index, at.axis), sub);
     return answer.is_done() ? answer.value() : otherwise;
   };
   canopen::ExpectedDrive drive;
   drive.bus = at.bus;
   drive.node = at.node;
+  drive.axis = at.axis;
   drive.type = drive_type_of(options);
   drive.vendor = said(0x1018, 1, 0);
   drive.product = said(0x1018, 2, 0);

@@ -23,13 +23,21 @@ config::BusesConfig drive_buses(const DriveOptions& options);
 // The node that --node names; refused where it names none: no motor turns because its id was left out.
 std::uint8_t node_of(const DriveOptions& options);
 
+// The axis that --axis names.
+std::uint8_t axis_of(const DriveOptions& options);
+
 // Open buses and the places on them.
 struct DriveSession {
   explicit DriveSession(const DriveOptions& options);
   // A node, on the bus that the table has it on, else on the first.
-  commissioning::Place place(std::uint8_t node) const { return {std::max(0, buses.bus_of_node(node)), node}; }
+  commissioning::Place place(std::uint8_t node, std::uint8_t axis = 1) const {
+    return {std::max(0, buses.bus_of_node(node)), node, axis};
+  }
   std::string bus_of(commissioning::Place at) const { return buses.buses[static_cast<std::size_t>(at.bus)].name; }
-  std::string where(commissioning::Place at) const { return "node " + std::to_string(at.node) + " on " + bus_of(at); }
+  std::string where(commissioning::Place at) const {
+    return "node " + std::to_string(at.node) + (at.axis > 1 ? ", axis " + std::to_string(at.axis) : "") + " on " +
+           bus_of(at);
+  }
 
   launcher::InterruptGuard guard;
   config::BusesConfig buses;

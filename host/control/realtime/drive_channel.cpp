@@ -56,9 +56,11 @@ DriveChannel::DriveChannel(const std::vector<canopen::ExpectedDrive>& drives, co
       master_(drives_, buses),
       sensor_line_(buses),
       max_bring_back_ticks_(static_cast<std::uint32_t>(std::lround(kBringBack_s * buses.rate_hz))) {
-  for (auto& nodes : drive_of_node_) nodes.fill(-1);
+  for (auto& nodes : drives_of_node_)
+    for (DrivesOfNode& axes : nodes) axes.fill(-1);
   for (std::size_t i = 0; i < drives_.size(); ++i) {
-    drive_of_node_[static_cast<std::size_t>(drives_[i].bus)][drives_[i].node] = static_cast<int>(i);
+    drives_of_node_[static_cast<std::size_t>(drives_[i].bus)][drives_[i].node][drives_[i].axis - 1U] =
+        static_cast<int>(i);
     has_drives_[static_cast<std::size_t>(drives_[i].bus)] = true;
   }
   for (const config::BusConfig& each : buses.buses) {
@@ -85,7 +87,7 @@ void DriveChannel::collect(const timing::TickStart& start, CycleInputs& inputs) 
     if (master_.on_frame(received.bus, received.frame, start.tick)) continue;
     take_rate(received.bus, received.frame, inputs);
     const canopen::FrameRoute route = canopen::route(received.frame.id);
-    const int drive = drive_of_node_[static_cast<std::size_t>(received.bus)][route.node];
+    const int drive = drive_at(received.bus, route);
     if (drive < 0) continue;
     if (route.kind == canopen::FrameKind::kRpdo1) voices_[static_cast<std::size_t>(drive)].is_another = true;
     if (route.kind == canopen::FrameKind::kTpdo1)
@@ -107,8 +109,11 @@ void DriveChannel::collect(const timing::TickStart& start, CycleInputs& inputs) 
 
 // TPDO2, of torque drives only.
 void DriveChannel::take_rate(int bus, const bus::CanFrame& frame, CycleInputs& inputs) noexcept {
-  if (frame.id <= kTpdo2Base || frame.id >= kTpdo2Base + 128) return;
-  const int drive = drive_of_node_[static_cast<std::size_t>(bus)][frame.id - kTpdo2Base];
+  const std::uint32_t page = frame.id & ~0x7FU;
+  if (page != kTpdo2Base && page != kTpdo2Base + canopen::kAxisCobIds) return;
+  const auto node = static_cast<std::uint8_t>(frame.id & 0x7F);
+  const int drive =
+      drive_at(bus, {canopen::FrameKind::kOther, node, page == kTpdo2Base ? std::uint8_t{1} : std::uint8_t{2}});
   if (drive < 0 || !drives_[static_cast<std::size_t>(drive)].type.is_cst) return;
   (void)decode_tpdo2({frame.data.data(), frame.length}, inputs.drive[static_cast<std::size_t>(drive)].rate_counts_s);
 }
@@ -158,8 +163,9 @@ void DriveChannel::take_emergencies(CycleInputs& inputs) noexcept {
   for (std::size_t i = 0; i < drives_.size(); ++i) inputs.drive[i].emergency_code = 0;
   canopen::Emergency emergency;
   while (master_.emergencies().take(emergency)) {
-    const int drive = drive_of_node_[static_cast<std::size_t>(emergency.bus)][emergency.node];
-    if (drive >= 0) inputs.drive[static_cast<std::size_t>(drive)].emergency_code = emergency.code;
+    // It says no axis (CiA 301): it counts for all of the node.
+    for (const int drive : drives_of_node_[static_cast<std::size_t>(emergency.bus)][emergency.node])
+      if (drive >= 0) inputs.drive[static_cast<std::size_t>(drive)].emergency_code = emergency.code;
   }
 }
 
@@ -167,7 +173,7 @@ void DriveChannel::command(const DriveCommands& commands) noexcept {
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     if (silent_ticks_[static_cast<std::size_t>(drives_[i].bus)] > kFarewellTicks) continue;
     bus::CanFrame frame;
-    frame.id = rpdo1_cob_id(drives_[i].node);
+    frame.id = drives_[i].command_id();
     fill_command(drives_[i].type.is_cst, commands[i], frame);
     bus_.send(drives_[i].bus, frame);
   }
@@ -189,10 +195,11 @@ void DriveChannel::step_master() noexcept {
 void DriveChannel::publish_refusals() noexcept {
   BootRefusals& draft = refusals_.draft();
   for (std::size_t i = 0; i < drives_.size(); ++i) {
-    const std::span<const canopen::BootMismatch> mismatches = master_.boot().mismatches(i);
-    std::copy(mismatches.begin(), mismatches.end(), draft.drive[i].mismatch.begin());
-    draft.drive[i].count = mismatches.size();
-    draft.drive[i].more = master_.boot().more_mismatches(i);
+    BootRefusals::OfDrive& own = draft.drive[i];
+    own.count = 0;
+    for (const canopen::BootMismatch& mismatch : master_.boot().mismatches(i))
+      if (std::max<int>(mismatch.axis, 1) == drives_[i].axis) own.mismatch[own.count++] = mismatch;
+    own.more = master_.boot().more_mismatches(i);
   }
   refusals_.publish();
 }
@@ -216,12 +223,20 @@ std::vector<BootProblem> DriveChannel::boot_problems() {
     if (refused.count == 0) continue;
     const canopen::BootFailure last = refused.mismatch[refused.count - 1].failure;
     const bool missing = last == canopen::BootFailure::kNoBootUp || last == canopen::BootFailure::kNoAnswer;
+    const std::string who = refused.mismatch[0].axis == 0 ? names_of_node(i) : canopen::name_of(drives_[i]);
     problems.push_back({static_cast<int>(i), missing ? FaultNumber::kDriveMissing : FaultNumber::kDriveNotOperational,
                         canopen::describe({refused.mismatch.data(), refused.count}, refused.more,
-                                          canopen::name_of(drives_[i]) + " on " +
-                                              bus_names_[static_cast<std::size_t>(drives_[i].bus)])});
+                                          who + " on " + bus_names_[static_cast<std::size_t>(drives_[i].bus)])});
   }
   return problems;
+}
+
+// Every axis of the node of a drive that is its first.
+std::string DriveChannel::names_of_node(std::size_t drive) const {
+  std::string text;
+  const std::size_t end = drive + canopen::axes_of_first(std::span(drives_).subspan(drive));
+  for (std::size_t i = drive; i < end; ++i) text += (text.empty() ? "" : " and ") + canopen::name_of(drives_[i]);
+  return text;
 }
 
 std::vector<std::string> DriveChannel::unwatched() const {
@@ -247,7 +262,7 @@ std::vector<std::string> DriveChannel::unwatched() const {
 
 std::vector<std::uint32_t> DriveChannel::serials() const {
   std::vector<std::uint32_t> out;
-  for (std::size_t i = 0; i < master_.boot().node_count(); ++i) out.push_back(master_.boot().serial(i));
+  for (std::size_t i = 0; i < drives_.size(); ++i) out.push_back(master_.boot().serial(i));
   return out;
 }
 

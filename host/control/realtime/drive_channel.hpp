@@ -61,12 +61,16 @@ class DriveChannel {
   std::vector<std::string> unwatched() const;
 
  private:
+  int drive_at(int bus, canopen::FrameRoute route) const noexcept {
+    return drives_of_node_[static_cast<std::size_t>(bus)][route.node][route.axis - 1U];
+  }
   void take_rate(int bus, const bus::CanFrame& frame, CycleInputs& inputs) noexcept;
   void take_report(int bus, std::size_t drive, const bus::CanFrame& frame, CycleInputs& inputs) noexcept;
   std::uint32_t drives_heard_twice(const timing::TickStart& start) noexcept;
   void take_emergencies(CycleInputs& inputs) noexcept;
   std::uint32_t lost_buses() const noexcept;
   void publish_refusals() noexcept;
+  std::string names_of_node(std::size_t drive) const;
 
   bus::DriveBus& bus_;
   std::vector<canopen::ExpectedDrive> drives_;  // bus and node of every drive, in the order of the table
@@ -77,8 +81,9 @@ class DriveChannel {
   canopen::BootState boot_seen_ = canopen::BootState::kRunning;
   std::uint32_t max_bring_back_ticks_;
   std::uint32_t bring_back_ticks_ = 0;
-  std::uint64_t bring_back_tick_ = 0;  // the last one in which somebody wanted them back
-  std::array<std::array<int, 128>, bus::kMaxDriveBuses> drive_of_node_{};  // -1: not ours
+  std::uint64_t bring_back_tick_ = 0;                      // the last one in which somebody wanted them back
+  using DrivesOfNode = std::array<int, config::kMaxAxes>;  // by axis; -1: not ours
+  std::array<std::array<DrivesOfNode, 128>, bus::kMaxDriveBuses> drives_of_node_{};
   // Who speaks under the identifiers of a drive: two nodes of one id, or another master.
   struct Voices {
     std::optional<std::array<std::uint8_t, 8>> report;  // its first of this tick

@@ -105,7 +105,7 @@ CableArmServer::CableArmServer(const config::RobotConfig& robot, const config::S
                      virtual_fixtures::Guidance(robot.table, scene.fixtures, robot.module_radius_m)),
       robot_(robot),
       scene_(scene),
-      names_(robot.table),
+      names_(robot),
       homing_(robot_, in_pose),
       shape_progress_(robot.table),
       devices_(devices, robot.table.interval_ticks * robot.table.tick_s, robot.table.limits.tip_speed_m_s),

@@ -92,7 +92,7 @@ void Homing::remember(std::span<const double> joint_rad) {
 // Drives that stand whole turns of their encoders from where they were left.
 std::string Homing::lost_turns(const cable::CableVector& now_m) const {
   std::string out;
-  const config::DriveNames names(robot_.table);
+  const config::DriveNames names(robot_);
   for (Index i = 0; left_m_ && i < static_cast<Index>(robot_.table.cable_count()); ++i) {
     const std::string turns = calibration::whole_turns(robot_, i, now_m[i] - (*left_m_)[i]);
     if (!turns.empty()) out += (out.empty() ? "" : ", ") + names.drive(i) + " " + turns;

@@ -138,8 +138,11 @@ int serve(const Setup& setup, const Robot& robot, liana::realtime::ArmMailbox<Ar
           liana::server::ArmServer& desk) {
   std::unique_ptr<liana::realtime::RtCycle<Arm>> cycle;
   liana::server::ServiceConfig config = service_config(setup, robot.canonical_json);
-  if constexpr (std::is_same_v<Robot, liana::config::RobotConfig>)
-    config.drive_names = liana::config::DriveNames(robot.table);
+  if constexpr (std::is_same_v<Robot, liana::config::RobotConfig>) {
+    config.drive_names = liana::config::DriveNames(robot);
+  } else {
+    config.drive_names = liana::config::DriveNames(setup.buses.places());
+  }
   config.boot_problems = [&] { return cycle->line().boot_problems(); };
   config.unwatched = [&] { return cycle->line().unwatched(); };
   config.serials = [&] { return cycle->line().serials(); };

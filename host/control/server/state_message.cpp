@@ -3,7 +3,6 @@
 #include <array>
 
 #include "firmware_like/drive/cia402.hpp"
-#include "firmware_like/drive/pdo.hpp"
 #include "firmware_like/safety/fault_causes.hpp"
 #include "host/control/server/host_warning.hpp"
 #include "host/control/server/service_events.hpp"
@@ -59,10 +58,12 @@ Json limits_json(std::uint32_t limits) {
   return names;
 }
 
-Json drives_json(const ArmServer& desk, const std::vector<std::uint32_t>& serials) {
+Json drives_json(const ArmServer& desk, const std::vector<std::uint32_t>& serials, const config::DriveNames& names) {
   Json drives = Json::array();
   for (std::size_t i = 0; i < desk.drive_count(); ++i) {
-    Json drive{{"node", node_of_drive(i)},
+    const config::DrivePlace place = names.place_of(i);
+    Json drive{{"node", place.node},
+               {"axis", place.axis},
                {"state", drive_state_name(decode(desk.inputs().drive[i].statusword))},
                {"serial", serials.empty() ? Json() : Json(serials[i])},
                {"torque_permille", desk.inputs().drive[i].torque_permille}};
@@ -160,7 +161,7 @@ Json state_message(const config::BusesConfig& buses, const ArmServer& desk, cons
              {"refusals", notes.refusals},
              {"refused_motions", notes.refused_motions},
              {"verdict", verdict_json(notes, buses.tick_s())},
-             {"drives", drives_json(desk, notes.serials)},
+             {"drives", drives_json(desk, notes.serials, notes.drive_names)},
              {"buses", buses_json(buses, desk)},
              {"events", events_json(events)},
              {"tool", notes.tool.json()},

@@ -12,7 +12,8 @@ void BusEntry::store(int bus, const CanFrame& frame) noexcept {
   if (book.state == BusState::kDown) book.state = BusState::kActive;
   ++book.received;
   book.bits += frame_bits(frame);
-  if (frame.id > 0x180 && frame.id < 0x200) ++feedback_;
+  const std::uint32_t page = frame.id & ~0x7FU;
+  if ((page == 0x180 || page == 0x380) && frame.id != page) ++feedback_;
   if (!ring_.push({bus, frame})) ++book.dropped;
 }
 

@@ -13,7 +13,7 @@ class BusEntry {
  public:
   // A new tick: no feedback yet.
   void begin_tick() noexcept { feedback_ = 0; }
-  // PDO frames (0x181..0x1FF) stored since begin_tick().
+  // PDO frames (0x181..0x1FF, and of second axes 0x381..0x3FF) stored since begin_tick().
   int feedback() const noexcept { return feedback_; }
   // Counts and stores a received frame; an error frame is counted and changes the state of the bus (linux/can/error.h).
   void store(int bus, const CanFrame& frame) noexcept;

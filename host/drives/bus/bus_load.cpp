@@ -53,10 +53,10 @@ void check_nodes(const config::BusesConfig& config, std::size_t b, std::set<int>
     refuse(config, field + "bitrate", std::to_string(bus.bitrate),
            "allowed is 10000 to 1000000 bit/s, the range of classical CAN");
   }
-  for (const int node : bus.nodes) {
+  for (const auto& [node, axis] : bus.nodes) {
     if (node < 1 || node > kMaxDriveNode)
       refuse(config, field + "nodes", std::to_string(node), "allowed is 1 to 126; 127 is the master");
-    if (!used.insert(node).second)
+    if (axis == 1 && !used.insert(node).second)
       refuse(config, field + "nodes", std::to_string(node), "each node id once over all buses");
   }
 }
@@ -86,8 +86,7 @@ LoadTerms load_terms(const config::BusesConfig& config, std::size_t bus) {
   terms.rate_hz = config.rate_hz;
   terms.drives = static_cast<int>(config.buses[bus].nodes.size());
   const config::BusConfig& own = config.buses[bus];
-  terms.heartbeats_per_s =
-      static_cast<double>(static_cast<std::size_t>(terms.drives) + own.sensors() + 1) * 1000.0 / config.heartbeat_ms;
+  terms.heartbeats_per_s = static_cast<double>(own.drive_nodes() + own.sensors() + 1) * 1000.0 / config.heartbeat_ms;
   terms.other_bits_per_s = config::worst_extra_bits_per_s(own, config.rate_hz, config::torque_drives(config, bus));
   return terms;
 }

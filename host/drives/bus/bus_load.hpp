@@ -21,7 +21,7 @@ struct LoadTerms {
 // Bits per second with worst-case stuffing: SYNC, one RPDO and one TPDO per drive each period, heartbeats, SDO.
 double worst_bits_per_second(const LoadTerms& terms);
 
-// The terms of bus `bus` of the table: every drive and the master send heartbeats.
+// The terms of bus `bus` of the table: every node and the master send heartbeats.
 LoadTerms load_terms(const config::BusesConfig& config, std::size_t bus);
 
 // Worst-case share of the wire of bus `bus`, SDO traffic included; over 1 it can not work.

@@ -63,8 +63,8 @@ class DriveBus {
   virtual timing::TickStart begin_tick(std::uint64_t tick) noexcept = 0;
   // Queues a frame on bus 0..bus_count()-1.
   virtual SendResult send(int bus, const CanFrame& frame) noexcept = 0;
-  // Waits until `expected_tpdos` PDO frames (COB-ID 0x181..0x1FF) have come in since begin_tick, or half the period has
-  // passed.
+  // Waits until `expected_tpdos` PDO frames (COB-ID 0x181..0x1FF, 0x381..0x3FF) have come in since begin_tick, or half
+  // the period has passed.
   virtual void wait_feedback(int expected_tpdos) noexcept = 0;
   // Fetches the next frame, oldest first; false when there is none.
   virtual bool receive(ReceivedFrame& received) noexcept = 0;

@@ -99,7 +99,7 @@ std::optional<Index> followed_by(const config::RobotConfig& robot, const Lengths
 
 std::string problem_of(const config::RobotConfig& robot, const Lengths& lengths, Index drive, const Fit& own) {
   const std::optional<Index> other = followed_by(robot, lengths, drive);
-  const config::DriveNames names(robot.table);
+  const config::DriveNames names(robot);
   const std::string who = names.drive(drive);
   if (other && *other != drive)
     return who + " moves as " + names.cable(*other) +
@@ -123,7 +123,7 @@ std::string problem_of(const config::RobotConfig& robot, const Lengths& lengths,
 std::string serial_problem_of(const config::RobotConfig& robot, std::span<const CalibrationReading> readings,
                               Index drive) {
   const std::uint32_t serial = readings.front().serial[drive];
-  const config::DriveNames names(robot.table);
+  const config::DriveNames names(robot);
   const std::string who = names.drive(drive) + text(": serial number %u (object 0x1018:4)", serial);
   if (serial == 0)
     return who +
@@ -135,7 +135,8 @@ std::string serial_problem_of(const config::RobotConfig& robot, std::span<const 
                         reading.serial[drive]);
   }
   for (Index other = 0; other < as_index(robot.table.cable_count()); ++other) {
-    if (other != drive && readings.front().serial[other] == serial)
+    const bool is_same_node = names.place_of(other).node == names.place_of(drive).node;
+    if (!is_same_node && readings.front().serial[other] == serial)
       return who + ": " + names.drive(other) + " says it, too: give each a number of its own";
   }
   return "";

@@ -68,7 +68,7 @@ CableVector beyond_zero_m(const RobotParams& table, const ThetaVector& theta_rad
 }
 
 void check_tells_apart(const config::RobotConfig& robot, const std::string& name) {
-  const config::DriveNames names(robot.table);
+  const config::DriveNames names(robot);
   CableVector tension_N;
   tension_N.fill(robot.table.tension.plan_N);
   const CableVector expected_m = beyond_zero_m(robot.table, named_pose_rad(robot, name), tension_N);
@@ -94,7 +94,7 @@ std::string contradiction(const config::RobotConfig& robot, const std::string& n
   if (off.empty()) return "";
   const auto by_m = [&](Index c) { return std::fabs(paid_out_m[c] - expected_m[c]); };
   std::stable_sort(off.begin(), off.end(), [&](Index a, Index b) { return by_m(a) > by_m(b); });
-  const config::DriveNames names(robot.table);
+  const config::DriveNames names(robot);
   std::string out = "the arm does not lie in pose " + name + ": ";
   for (Index i = 0; i < std::min(off.size(), kNamed); ++i) {
     const double off_m = paid_out_m[off[i]] - expected_m[off[i]];

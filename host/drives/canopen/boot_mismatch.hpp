@@ -24,6 +24,7 @@ struct BootMismatch {
   BootFailure failure = BootFailure::kNone;
   int bus = 0;
   std::uint8_t node = 0;
+  std::uint8_t axis = 0;    // of the node; 0: it is about the whole node
   std::uint16_t index = 0;  // object, 0 when no object is concerned
   std::uint8_t sub = 0;
   bool written = false;  // the object was being written

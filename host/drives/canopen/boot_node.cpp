@@ -26,14 +26,14 @@ BootTiming boot_timing(double rate_hz, const config::DriveTimes& allowed) {
           ticks(allowed.operational_s)};
 }
 
-BootNode::BootNode(const ExpectedDrive& drive, const BootTiming& timing, bool look_only)
-    : bus_(drive.bus),
-      node_(drive.node),
+BootNode::BootNode(std::span<const ExpectedDrive> axes, const BootTiming& timing, bool look_only)
+    : bus_(axes.front().bus),
+      node_(axes.front().node),
       timing_(timing),
       look_only_(look_only),
-      plan_(drive),
+      plan_(axes),
       outcomes_(plan_.objects().size()),
-      sdo_(drive.node, timing.sdo_ticks) {}
+      sdo_(node_, timing.sdo_ticks) {}
 
 bool BootNode::has(config::ObjectId object) const noexcept {
   for (std::size_t i = 0; i < outcomes_.size(); ++i) {
@@ -143,6 +143,7 @@ void BootNode::refused(BootFailure failure) noexcept {
   mismatch.failure = failure;
   mismatch.bus = bus_;
   mismatch.node = node_;
+  mismatch.axis = object().axis;
   mismatch.index = object().index;
   mismatch.sub = failure == BootFailure::kValue ? plan_.sub_to_blame(at_, *transfer_.found()) : object().sub;
   mismatch.written = object().write && !look_only_;

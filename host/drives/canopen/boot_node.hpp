@@ -56,8 +56,10 @@ struct BootOutcome {
 
 class BootNode {
  public:
-  // With `look_only` nothing is written to the drive, and it should not be started.
-  BootNode(const ExpectedDrive& drive, const BootTiming& timing, bool look_only = false);
+  // All axes of the node. With `look_only` nothing is written to it, and it should not be started.
+  BootNode(std::span<const ExpectedDrive> axes, const BootTiming& timing, bool look_only = false);
+  BootNode(const ExpectedDrive& drive, const BootTiming& timing, bool look_only = false)
+      : BootNode(std::span(&drive, 1), timing, look_only) {}
 
   int bus() const noexcept { return bus_; }
   std::uint8_t node() const noexcept { return node_; }

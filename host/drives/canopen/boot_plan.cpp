@@ -25,6 +25,11 @@ constexpr std::uint16_t kMaxPdos = 32;   // of each direction; drives have 4 to 
 constexpr std::uint16_t kUsualPdos = 4;  // among these there may be gaps
 constexpr double kSecondsPerMinute = 60.0;
 
+// Of an object named as axis 1 has it: `axis`, or 0 where it is the whole node's.
+std::uint8_t axis_of(std::uint16_t index, std::uint8_t axis) {
+  return on_axis(index, 2) == index ? std::uint8_t{0} : axis;
+}
+
 // A limit in the drive's 32 bits, rounded to the strict side.
 std::uint32_t rounded_up(double value) {
   return value >= 4294967295.0 ? 0xFFFFFFFF : static_cast<std::uint32_t>(std::ceil(std::max(value, 0.0)));
@@ -63,29 +68,42 @@ config::InterpolationPeriod period_of(config::InterpolationPeriod period, const 
 
 }  // namespace
 
-BootPlan::BootPlan(const ExpectedDrive& drive) : type_(drive.type), rpdo_deadline_ms_(drive.rpdo_deadline_ms) {
+BootPlan::BootPlan(std::span<const ExpectedDrive> axes)
+    : type_(axes.front().type), rpdo_deadline_ms_(axes.front().rpdo_deadline_ms) {
+  axis_ = axes.front().axis;
+  check_identity(axes.front());
+  for (const ExpectedDrive& axis : axes) {
+    axis_ = axis.axis;
+    configure(axis, axis_ == axes.front().axis);
+  }
+  set_heartbeats(axes.front());
+  for (const ExpectedDrive& axis : axes) {
+    axis_ = axis.axis;
+    check_mode();
+  }
+}
+
+void BootPlan::configure(const ExpectedDrive& drive, bool is_first) {
   constexpr std::array<std::uint32_t, 2> kTargets{0x60400010, 0x607A0020};
   constexpr std::array<std::uint32_t, 3> kTorqueTargets{0x60400010, 0x60710010, 0x60B10020};
   constexpr std::array<std::uint32_t, 3> kReports{0x60410010, 0x60640020, 0x60770010};
   constexpr std::array<std::uint32_t, 1> kRates{0x606C0020};
-  check_identity(drive);
   check_mechanics(drive);
   if (type_.is_cst) {
-    map_pdo(0x1400, kRpdo1Base + drive.node, kTorqueTargets);
+    map_pdo(0x1400, drive.command_id(), kTorqueTargets);
   } else {
-    map_pdo(0x1400, kRpdo1Base + drive.node, kTargets);
+    map_pdo(0x1400, drive.command_id(), kTargets);
   }
-  map_pdo(0x1800, kTpdo1Base + drive.node, std::span(kReports).first(type_.has_torque ? 3 : 2));
-  if (type_.is_cst) map_pdo(0x1801, kTpdo2Base + drive.node, kRates);
+  map_pdo(0x1800, drive.report_id(), std::span(kReports).first(type_.has_torque ? 3 : 2));
+  if (type_.is_cst) map_pdo(0x1801, drive.rate_id(), kRates);
   disable_other_pdos();
-  start_up_writes();
+  start_up_writes(is_first);
   set_motion(drive);
   check_limits(drive);
-  set_heartbeats(drive);
-  check_mode();
 }
 
-// Nothing for an object that the type does not have; what the type fixes is read, and compared with its value.
+// Nothing for an object that the type does not have; what the type fixes is read, and compared with its value. Types
+// and callers name an object as axis 1 has it.
 BootObject* BootPlan::add(BootObject object) {
   const config::ObjectRule rule = type_.rule_of({object.index, object.sub});
   if (rule.presence == Presence::kAbsent) return nullptr;
@@ -97,6 +115,8 @@ BootObject* BootPlan::add(BootObject object) {
     object.value = *rule.value & object.mask;
   }
   object.may_be_missing = object.may_be_missing || rule.presence == Presence::kOptional;
+  object.axis = axis_of(object.index, axis_);
+  object.index = on_axis(object.index, axis_);
   objects_.push_back(std::move(object));
   return &objects_.back();
 }
@@ -191,7 +211,7 @@ void BootPlan::check_mechanics(const ExpectedDrive& drive) {
 // The order is CiA 301's: a mapping can only be changed while its PDO is disabled and it has no entries.
 void BootPlan::map_pdo(std::uint16_t communication, std::uint32_t cob_id, std::span<const std::uint32_t> entries) {
   const bool receive = communication < 0x1800;
-  const std::string pdo = pdo_name(communication);
+  const std::string pdo = pdo_name(on_axis(communication, axis_));
   const std::string cob_name = pdo + " COB-ID";
   const auto cob = [&](std::uint32_t value) {
     BootObject* object = write(communication, 1, 4, value, cob_name.c_str());
@@ -218,7 +238,8 @@ void BootPlan::map_pdo(std::uint16_t communication, std::uint32_t cob_id, std::s
 }
 
 void BootPlan::write_mapping(std::uint16_t mapping, std::size_t disabled_at, std::span<const std::uint32_t> entries) {
-  const std::string pdo = pdo_name(static_cast<std::uint16_t>(mapping - 0x0200)) + " mapping ";
+  const auto communication = static_cast<std::uint16_t>(mapping - 0x0200);
+  const std::string pdo = pdo_name(on_axis(communication, axis_)) + " mapping ";
   const std::size_t emptied_at = objects_.size();
   const auto put = [&](std::uint8_t sub, std::uint8_t bytes, std::uint32_t value, std::size_t needs_to) {
     BootObject* object = write(mapping, sub, bytes, value, (pdo + (sub == 0 ? "count" : std::to_string(sub))).c_str());
@@ -228,7 +249,10 @@ void BootPlan::write_mapping(std::uint16_t mapping, std::size_t disabled_at, std
   };
   if (!type_.mapping_is_fixed) put(0, 1, 0, emptied_at);
   const std::size_t entries_at = objects_.size();
-  for (std::size_t i = 0; i < entries.size(); ++i) put(static_cast<std::uint8_t>(i + 1), 4, entries[i], entries_at);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const std::uint32_t mapped = on_axis(static_cast<std::uint16_t>(entries[i] >> 16), axis_);
+    put(static_cast<std::uint8_t>(i + 1), 4, mapped << 16 | (entries[i] & 0xFFFF), entries_at);
+  }
   put(0, 1, static_cast<std::uint32_t>(entries.size()), objects_.size());
 }
 
@@ -247,8 +271,10 @@ void BootPlan::disable_other_pdos() {
   }
 }
 
-void BootPlan::start_up_writes() {
+// Of the first axis also those of the whole node.
+void BootPlan::start_up_writes(bool is_first) {
   for (const config::StartUpWrite& each : type_.writes) {
+    if (!is_first && axis_of(each.object.index, axis_) == 0) continue;
     BootObject* object = write(each.object.index, each.object.sub, each.bytes, each.value, each.name.c_str());
     object->read_back = each.read_back;
   }
@@ -297,8 +323,9 @@ void BootPlan::check_mode() {
   const std::uint32_t mode = type_.is_cst ? kModeCst : kModeCsp;
   if (BootObject* shown = expect(kModeDisplay, 0, mode, "mode of operation display", 0xFF)) {
     shown->bytes = 1;
-    const auto told = std::find_if(objects_.begin(), objects_.end(),
-                                   [](const BootObject& object) { return object.index == kModeOfOperation; });
+    const auto told = std::find_if(objects_.begin(), objects_.end(), [&](const BootObject& object) {
+      return object.index == on_axis(kModeOfOperation, axis_);
+    });
     shown->needs_from = static_cast<std::size_t>(told - objects_.begin());
     shown->needs_to = shown->needs_from + 1;
     shown->settles = shown->rule == BootRule::kEqual && shown->value == mode;

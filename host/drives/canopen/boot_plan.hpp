@@ -1,4 +1,4 @@
-// The objects one drive is asked and told at boot, in order (docs/reference/drives.md).
+// The objects one node is asked and told at boot, in order (docs/reference/drives.md).
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,7 @@ enum class BootRule : std::uint8_t {
 struct BootObject {
   std::uint16_t index = 0;
   std::uint8_t sub = 0;
+  std::uint8_t axis = 0;   // whose object it is; 0: the node's
   std::uint8_t bytes = 4;  // 1, 2 or 4
   bool write = false;
   bool read_back = true;
@@ -55,7 +56,8 @@ constexpr config::ObjectId mapped_object(std::uint32_t entry) noexcept {
 
 class BootPlan {
  public:
-  explicit BootPlan(const ExpectedDrive& drive);
+  // Of all axes of one node, at least one; they are of one type, and what the node has is that of the first.
+  explicit BootPlan(std::span<const ExpectedDrive> axes);
   std::span<const BootObject> objects() const noexcept { return objects_; }
   // Whether `found` is right for object number `at`, when `before` was found in the object before it (nothing: then a
   // pair is not judged).
@@ -77,16 +79,18 @@ class BootPlan {
   BootObject* write(std::uint16_t index, std::uint8_t sub, std::uint8_t bytes, std::uint32_t value, const char* name);
   BootObject* add(BootObject object);
   void check_identity(const ExpectedDrive& drive);
+  void configure(const ExpectedDrive& drive, bool is_first);
   void check_mechanics(const ExpectedDrive& drive);
   void map_pdo(std::uint16_t communication, std::uint32_t cob_id, std::span<const std::uint32_t> entries);
   void write_mapping(std::uint16_t mapping, std::size_t disabled_at, std::span<const std::uint32_t> entries);
   void disable_other_pdos();
-  void start_up_writes();
+  void start_up_writes(bool is_first);
   void set_motion(const ExpectedDrive& drive);
   void check_limits(const ExpectedDrive& drive);
   void set_heartbeats(const ExpectedDrive& drive);
   void check_mode();
 
+  std::uint8_t axis_ = 1;  // that the plan is being made for
   config::DriveType type_;
   std::uint16_t rpdo_deadline_ms_ = 0;
   std::vector<BootObject> objects_;

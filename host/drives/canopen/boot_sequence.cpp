@@ -7,13 +7,18 @@
 namespace liana::canopen {
 
 BootSequence::BootSequence(const std::vector<ExpectedDrive>& drives, double rate_hz) {
-  nodes_.reserve(drives.size());
-  for (const ExpectedDrive& drive : drives) nodes_.emplace_back(drive, boot_timing(rate_hz, drive.type.times));
+  for (std::span<const ExpectedDrive> left = drives; !left.empty(); left = left.subspan(axes_of_first(left)))
+    add(left.first(axes_of_first(left)), boot_timing(rate_hz, left[0].type.times));
 }
 
 BootSequence::BootSequence(const std::vector<ExpectedDrive>& drives, const BootTiming& timing) {
-  nodes_.reserve(drives.size());
-  for (const ExpectedDrive& drive : drives) nodes_.emplace_back(drive, timing);
+  for (std::span<const ExpectedDrive> left = drives; !left.empty(); left = left.subspan(axes_of_first(left)))
+    add(left.first(axes_of_first(left)), timing);
+}
+
+void BootSequence::add(std::span<const ExpectedDrive> axes, const BootTiming& timing) {
+  for (const ExpectedDrive& axis : axes) drives_.push_back({nodes_.size(), axis.axis});
+  nodes_.emplace_back(axes, timing);
 }
 
 void BootSequence::step(bus::DriveBus& bus) noexcept {
@@ -39,8 +44,9 @@ void BootSequence::on_frame(int bus, const bus::CanFrame& frame) noexcept {
 }
 
 void BootSequence::recover(std::size_t drive, NodeSeen seen) noexcept {
-  nodes_[drive].recover(seen);
-  if (nodes_[drive].phase() < NodePhase::kConfigured) state_ = BootState::kRunning;
+  BootNode& node = nodes_[drives_[drive].node];
+  node.recover(seen);
+  if (node.phase() < NodePhase::kConfigured) state_ = BootState::kRunning;
 }
 
 int BootSequence::count(NodePhase least, NodePhase most) const noexcept {

@@ -1,4 +1,5 @@
-// Boots all drives of all buses at once: one SDO exchange per node and tick. Nothing allocates after construction.
+// Boots all nodes of all buses at once: one SDO exchange per node and tick, whatever number of axes it has. Nothing
+// allocates after construction.
 #pragma once
 
 #include <vector>
@@ -22,7 +23,7 @@ struct BootProgress {
 
 class BootSequence {
  public:
-  // Each drive has the time that its type allows, at so many ticks a second.
+  // Drives count by node, then by axis. Each node has the time that its type allows, at so many ticks a second.
   BootSequence(const std::vector<ExpectedDrive>& drives, double rate_hz);
   // All have the same.
   BootSequence(const std::vector<ExpectedDrive>& drives, const BootTiming& timing);
@@ -34,25 +35,34 @@ class BootSequence {
   // Boot-up messages, heartbeats and SDO responses; other frames are ignored. A node that restarts is booted again,
   // alone (CiA 302-2, boot of a slave that comes back): the state is kRunning until it is done.
   void on_frame(int bus, const bus::CanFrame& frame) noexcept;
-  // Somebody wants a drive back (clear): BootNode::recover.
+  // Somebody wants a drive back (clear), and so its node: BootNode::recover.
   void recover(std::size_t drive, NodeSeen seen) noexcept;
 
   BootState state() const noexcept { return state_; }
   BootProgress progress() const noexcept;
-  // One entry per drive, in the order given; no mismatches = ok so far.
-  std::size_t node_count() const noexcept { return nodes_.size(); }
-  std::span<const BootMismatch> mismatches(std::size_t drive) const noexcept { return nodes_[drive].mismatches(); }
-  std::uint32_t more_mismatches(std::size_t drive) const noexcept { return nodes_[drive].more_mismatches(); }
-  std::uint32_t serial(std::size_t drive) const noexcept { return nodes_[drive].serial(); }
-  // Whether a drive that has gone through its plan has this object of it.
-  bool has(std::size_t drive, config::ObjectId object) const noexcept { return nodes_[drive].has(object); }
-  NodePhase phase(std::size_t drive) const noexcept { return nodes_[drive].phase(); }
+  // Of the node of a drive, in the order given; no mismatches = ok so far.
+  std::span<const BootMismatch> mismatches(std::size_t drive) const noexcept { return node_of(drive).mismatches(); }
+  std::uint32_t more_mismatches(std::size_t drive) const noexcept { return node_of(drive).more_mismatches(); }
+  std::uint32_t serial(std::size_t drive) const noexcept { return node_of(drive).serial(); }
+  // Whether a drive that has gone through its plan has this object of it, named as axis 1 has it.
+  bool has(std::size_t drive, config::ObjectId object) const noexcept {
+    return node_of(drive).has({on_axis(object.index, drives_[drive].axis), object.sub});
+  }
+  NodePhase phase(std::size_t drive) const noexcept { return node_of(drive).phase(); }
 
  private:
+  struct Drive {
+    std::size_t node = 0;  // among nodes_
+    std::uint8_t axis = 1;
+  };
+
+  void add(std::span<const ExpectedDrive> axes, const BootTiming& timing);
+  const BootNode& node_of(std::size_t drive) const noexcept { return nodes_[drives_[drive].node]; }
   int count(NodePhase least, NodePhase most) const noexcept;
   void update_state() noexcept;
 
   std::vector<BootNode> nodes_;
+  std::vector<Drive> drives_;
   BootState state_ = BootState::kRunning;
 };
 

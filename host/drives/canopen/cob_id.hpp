@@ -18,6 +18,20 @@ constexpr std::uint32_t kSdoResponseBase = 0x580;
 constexpr std::uint32_t kSdoRequestBase = 0x600;
 constexpr std::uint32_t kHeartbeatBase = 0x700;
 
+// Process data of a node's axis 2 have the identifiers of its axis 1 and so much more: those of PDOs 3 and 4 of the
+// predefined set, so that no two PDOs of a bus have the same.
+constexpr std::uint32_t kAxisCobIds = 0x200;
+
+// Where an object of axis 1 is on another axis: objects of CiA 402 0x800 further, PDOs 64 numbers. What the whole node
+// has, and the maker's own objects, stay.
+constexpr std::uint16_t on_axis(std::uint16_t index, std::uint8_t axis) noexcept {
+  const auto further = static_cast<std::uint16_t>(axis - 1);
+  if (index >= 0x6000 && index < 0x6800) return static_cast<std::uint16_t>(index + 0x800 * further);
+  if (index >= 0x1400 && index < 0x1C00 && (index & 0x1FF) < 0x40)
+    return static_cast<std::uint16_t>(index + 0x40 * further);
+  return index;
+}
+
 constexpr std::uint16_t kModeOfOperation = 0x6060;
 constexpr std::uint16_t kModeDisplay = 0x6061;  // the mode that the drive is in
 
@@ -48,10 +62,11 @@ enum class FrameKind : std::uint8_t {
   kOther
 };
 
-// Kind and node (0 where there is none) of an identifier.
+// Kind, node (0 where there is none) and axis of an identifier.
 struct FrameRoute {
   FrameKind kind = FrameKind::kOther;
   std::uint8_t node = 0;
+  std::uint8_t axis = 1;  // of a PDO
 };
 
 // Reads an identifier as received (flags included; extended and remote frames are kOther).
@@ -68,6 +83,10 @@ constexpr FrameRoute route(std::uint32_t id) noexcept {
       return {FrameKind::kTpdo1, node};
     case kRpdo1Base:
       return {FrameKind::kRpdo1, node};
+    case kTpdo1Base + kAxisCobIds:
+      return {FrameKind::kTpdo1, node, 2};
+    case kRpdo1Base + kAxisCobIds:
+      return {FrameKind::kRpdo1, node, 2};
     case kSdoResponseBase:
       return {FrameKind::kSdoResponse, node};
     case kSdoRequestBase:

@@ -11,6 +11,7 @@
 #include "firmware_like/serial/drive_units.hpp"
 #include "host/model/config/drive_names.hpp"
 #include "host/model/config/drive_types_of_buses.hpp"
+#include "host/model/config/robot_parts.hpp"
 
 namespace liana::canopen {
 namespace {
@@ -59,20 +60,20 @@ struct OwnDrive {
 template <class Robot>
 std::vector<ExpectedDrive> expectations(const Robot& robot, const std::vector<OwnDrive>& own,
                                         const config::BusesConfig& buses) {
+  config::check_nodes(robot.name, static_cast<std::int32_t>(own.size()), robot.drive_serials, "robot " + robot.name,
+                      buses);
   const ExpectedDrive common = common_expectation(robot, buses);
   const std::map<std::int32_t, config::DriveType> types = config::drive_types(buses);
+  const std::vector<config::DrivePlace> places = buses.places();
   std::vector<ExpectedDrive> drives;
   for (std::size_t i = 0; i < own.size(); ++i) {
-    const auto node = static_cast<std::int32_t>(node_of_drive(i));
     ExpectedDrive drive = common;
-    drive.node = static_cast<std::uint8_t>(node);
-    drive.bus = buses.bus_of_node(node);
-    if (drive.bus < 0) {
-      throw std::runtime_error("bus table " + buses.name + ": buses: " + config::drive_text(i, own[i].segment) +
-                               " of robot " + robot.name + " is on no bus; each drive must be on exactly one");
-    }
+    drive.index = i;
+    drive.node = static_cast<std::uint8_t>(places[i].node);
+    drive.axis = static_cast<std::uint8_t>(places[i].axis);
+    drive.bus = buses.bus_of_node(places[i].node);
     if (!robot.drive_serials.empty()) drive.serial = robot.drive_serials[i];
-    if (const auto named = types.find(node); named != types.end()) drive.type = named->second;
+    if (const auto named = types.find(places[i].node); named != types.end()) drive.type = named->second;
     drive.segment = own[i].segment;
     drive.following_window_counts = rounded(own[i].window_counts);
     drive.demand = own[i].demand;
@@ -83,7 +84,15 @@ std::vector<ExpectedDrive> expectations(const Robot& robot, const std::vector<Ow
 
 }  // namespace
 
-std::string name_of(const ExpectedDrive& drive) { return config::drive_text(drive.node - 1u, drive.segment); }
+std::string name_of(const ExpectedDrive& drive) {
+  return config::drive_text(drive.index, {drive.node, drive.axis}, drive.segment);
+}
+
+std::size_t axes_of_first(std::span<const ExpectedDrive> drives) noexcept {
+  std::size_t count = 1;
+  while (count < drives.size() && drives[count].bus == drives[0].bus && drives[count].node == drives[0].node) ++count;
+  return count;
+}
 
 std::vector<ExpectedDrive> drive_expectations(const config::RobotConfig& robot, const config::BusesConfig& buses) {
   const cable::RobotParams& table = robot.table;

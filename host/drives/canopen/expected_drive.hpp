@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "host/drives/canopen/cob_id.hpp"
 #include "host/model/config/config.hpp"
 #include "host/model/config/drive_type.hpp"
 #include "host/model/config/serial_robot.hpp"
@@ -20,8 +22,10 @@ struct DriveProfile {
 };
 
 struct ExpectedDrive {
+  std::size_t index = 0;  // 0-based
   int bus = 0;            // 0-based
   std::uint8_t node = 1;  // 1..126
+  std::uint8_t axis = 1;  // of the node
   int segment = 0;        // from 1, of a cable arm
   config::DriveType type;
   // Must be found, unless the type knows better.
@@ -40,10 +44,17 @@ struct ExpectedDrive {
   std::uint16_t heartbeat_ms = 100;           // 1017
   std::uint16_t master_timeout_ms = 300;      // 1016:1
   std::uint32_t following_window_counts = 0;  // 6065
+
+  // COB-IDs of its process data.
+  std::uint32_t command_id() const noexcept { return rpdo1_cob_id(node) + kAxisCobIds * (axis - 1U); }
+  std::uint32_t report_id() const noexcept { return tpdo1_cob_id(node) + kAxisCobIds * (axis - 1U); }
+  std::uint32_t rate_id() const noexcept { return kTpdo2Base + node + kAxisCobIds * (axis - 1U); }
 };
 
 // "drive 4 (node 4, segment 2)"
 std::string name_of(const ExpectedDrive& drive);
+// How many of `drives`, which are not empty, are axes of the first one's node: those at their begin.
+std::size_t axes_of_first(std::span<const ExpectedDrive> drives) noexcept;
 
 // One expectation per drive, in the order of the cables or joints. Throws std::runtime_error when a node is on no bus.
 std::vector<ExpectedDrive> drive_expectations(const config::RobotConfig& robot, const config::BusesConfig& buses);

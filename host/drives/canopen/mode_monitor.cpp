@@ -32,7 +32,10 @@ ModeMonitor::ModeMonitor(const std::vector<ExpectedDrive>& drives, const config:
   for (std::size_t i = 0; i < drives.size(); ++i) {
     const ExpectedDrive& drive = drives[i];
     const auto b = static_cast<std::size_t>(drive.bus);
-    Asked asked{drive.bus, drive.node, 8, true, false, false, 0, SdoClient(drive.node, answer_ticks)};
+    Asked asked{.bus = drive.bus, .node = drive.node, .axis = drive.axis, .sdo = {drive.node, answer_ticks}};
+    asked.shares_node = std::any_of(drives.begin(), drives.end(), [&](const ExpectedDrive& other) {
+      return other.node == drive.node && other.axis != drive.axis;
+    });
     asked.mode = drive.type.is_cst ? 10 : 8;
     asked.bus_is_full = !has_room(buses, b);
     asked.is_asked = !asked.bus_is_full && drive.type.rule_of({kModeDisplay, 0}).presence != config::Presence::kAbsent;
@@ -49,7 +52,7 @@ void ModeMonitor::step(bus::DriveBus& bus, std::uint32_t in_operation) noexcept 
       if (drive.enabled_ticks < kSettledTicks) ++drive.enabled_ticks;
     } else {
       drive.enabled_ticks = 0;
-      drive.counts = false;
+      drive.counts = drive.was_passed = false;
       other_ &= ~bit(i);
     }
   }
@@ -62,14 +65,38 @@ void ModeMonitor::step(bus::DriveBus& bus, std::uint32_t in_operation) noexcept 
   }
 }
 
+// A node has one SDO server: while one of its axes is asked, the others have to wait, and whoever has waited takes the
+// next turn of the node. Whose turn it is when drive i is due.
+std::size_t ModeMonitor::axis_to_ask(std::size_t i) noexcept {
+  std::size_t next = i;
+  if (!drives_[i].shares_node || drives_[i].sdo.status() == SdoStatus::kBusy) return i;
+  for (std::size_t k = 0; k < drives_.size(); ++k) {
+    const Asked& other = drives_[k];
+    if (k == i || other.node != drives_[i].node) continue;
+    if (other.sdo.status() == SdoStatus::kBusy) {
+      drives_[i].was_passed = true;
+      return k;
+    }
+    if (other.was_passed) next = k;
+  }
+  return next;
+}
+
+bool ModeMonitor::may_ask(const Asked& drive) noexcept {
+  return drive.is_asked && drive.enabled_ticks >= kSettledTicks;
+}
+
 void ModeMonitor::ask_next(Round& round, bus::DriveBus& bus) noexcept {
-  Asked& drive = drives_[round.drives[round.next]];
+  const std::size_t due = round.drives[round.next];
   round.next = (round.next + 1) % round.drives.size();
-  if (!drive.is_asked || drive.enabled_ticks < kSettledTicks) return;
+  if (!may_ask(drives_[due])) return;
+  Asked& drive = drives_[axis_to_ask(due)];
+  if (!may_ask(drive)) return;
   bus::CanFrame frame;
   if (drive.sdo.status() != SdoStatus::kBusy) {
-    drive.sdo.start_upload(kModeDisplay, 0);
+    drive.sdo.start_upload(on_axis(kModeDisplay, drive.axis), 0);
     drive.counts = true;
+    drive.was_passed = false;
   }
   while (drive.sdo.take_request(frame)) bus.send(drive.bus, frame);
 }

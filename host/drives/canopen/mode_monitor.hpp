@@ -37,9 +37,12 @@ class ModeMonitor {
   struct Asked {
     int bus = 0;
     std::uint8_t node = 0;
+    std::uint8_t axis = 1;
     std::int8_t mode = 8;
     bool is_asked = true;
     bool bus_is_full = false;
+    bool shares_node = false;         // with another axis
+    bool was_passed = false;          // its node was busy with another axis when its turn came
     bool counts = false;              // the answer under way was asked for in Operation enabled
     std::uint16_t enabled_ticks = 0;  // in a row in Operation enabled
     SdoClient sdo;
@@ -52,6 +55,8 @@ class ModeMonitor {
 
   void take_answer(std::size_t drive) noexcept;
   void ask_next(Round& round, bus::DriveBus& bus) noexcept;
+  std::size_t axis_to_ask(std::size_t drive) noexcept;
+  static bool may_ask(const Asked& drive) noexcept;
 
   std::vector<Asked> drives_;
   std::array<Round, bus::kMaxDriveBuses> rounds_{};  // by bus

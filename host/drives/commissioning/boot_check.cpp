@@ -77,8 +77,8 @@ const BootOutcome* outcome_of(const BootNode& node, std::uint16_t index) {
 
 // Where 6060 has its value already, 6061 has to show it.
 void check_mode(const canopen::ExpectedDrive& drive, const BootNode& node, std::vector<std::string>& more) {
-  const BootOutcome* told = outcome_of(node, canopen::kModeOfOperation);
-  const BootOutcome* shown = outcome_of(node, canopen::kModeDisplay);
+  const BootOutcome* told = outcome_of(node, canopen::on_axis(canopen::kModeOfOperation, drive.axis));
+  const BootOutcome* shown = outcome_of(node, canopen::on_axis(canopen::kModeDisplay, drive.axis));
   const std::uint32_t mode = drive.type.is_cst ? 10 : 8;
   if (told == nullptr || shown == nullptr || !told->found || !shown->found) return;
   if (*told->found != mode || *shown->found == mode) return;
@@ -86,16 +86,15 @@ void check_mode(const canopen::ExpectedDrive& drive, const BootNode& node, std::
                  ", and 6060 has mode " + std::to_string(mode) + ": the drive takes the mode and stays in another");
 }
 
-bool is_watched(const BootNode& node) {
-  const BootOutcome* shown = outcome_of(node, canopen::kModeDisplay);
-  return shown != nullptr && shown->found.has_value();
+bool is_watched(const canopen::ExpectedDrive& drive, const BootNode& node) {
+  return node.has({canopen::on_axis(canopen::kModeDisplay, drive.axis), 0});
 }
 
 // The report that the first SYNCs bring; nothing: none came.
 std::optional<std::uint8_t> report_length(Desk& desk, const canopen::ExpectedDrive& drive) {
   std::optional<std::uint8_t> length;
   const auto take = [&](const bus::ReceivedFrame& received) {
-    if (received.bus == drive.bus && received.frame.id == tpdo1_cob_id(drive.node)) length = received.frame.length;
+    if (received.bus == drive.bus && received.frame.id == drive.report_id()) length = received.frame.length;
   };
   for (std::uint64_t left = desk.ticks(kReport_s); left > 0 && !length; --left) {
     desk.refuse_when_interrupted();
@@ -108,7 +107,7 @@ void check_report(Desk& desk, const canopen::ExpectedDrive& drive, const BootNod
                   std::vector<std::string>& more) {
   std::size_t bits = 0;
   for (const BootObject& entry : node.plan().objects())
-    if (entry.index == 0x1A00 && entry.sub != 0) bits += entry.value & 0xFF;
+    if (entry.index == canopen::on_axis(0x1A00, drive.axis) && entry.sub != 0) bits += entry.value & 0xFF;
   const std::optional<std::uint8_t> length = report_length(desk, drive);
   if (length && std::size_t{*length} * 8 == bits) return;
   more.push_back(length ? "its report (TPDO1) has " + std::to_string(*length) + " bytes, and " +
@@ -124,7 +123,8 @@ void restore(Desk& desk, const canopen::ExpectedDrive& drive, const BootNode& lo
   for (std::size_t i = objects.size(); i-- > 0;) {
     const BootObject& object = objects[i];
     const std::optional<std::uint32_t>& before = looked.outcomes()[i].found;
-    const bool is_no_mode = object.index == canopen::kModeOfOperation && before == 0U;  // nobody can ask for it
+    const bool is_mode = object.index == canopen::on_axis(canopen::kModeOfOperation, drive.axis);
+    const bool is_no_mode = is_mode && before == 0U;  // nobody can ask for it
     if (!object.write || object.index < kFirstOfMaker || !before || is_no_mode) continue;
     if (const Answer now = desk.read(at, object.index, object.sub); now.is_done() && now.value() == *before) continue;
     std::array<std::uint8_t, 4> bytes{};
@@ -139,7 +139,7 @@ void restore(Desk& desk, const canopen::ExpectedDrive& drive, const BootNode& lo
 BootCheck check_by_reading(Desk& desk, const canopen::ExpectedDrive& drive) {
   BootCheck check;
   check.node = desk.look_at_boot(drive);
-  check.is_watched = is_watched(*check.node);
+  check.is_watched = is_watched(drive, *check.node);
   check_mapped(desk, drive, *check.node, check.more);
   check_sizes(*check.node, check.more);
   check_mode(drive, *check.node, check.more);
@@ -150,7 +150,7 @@ BootCheck check_by_trial(Desk& desk, const canopen::ExpectedDrive& drive) {
   const std::unique_ptr<BootNode> before = desk.look_at_boot(drive);
   BootCheck check;
   check.node = desk.boot(drive);
-  check.is_watched = is_watched(*check.node);
+  check.is_watched = is_watched(drive, *check.node);
   if (check.would_boot()) check_report(desk, drive, *check.node, check.more);
   const std::unique_ptr<BootNode> after = desk.look_at_boot(drive);  // which resets communication
   restore(desk, drive, *before, check.not_restored);

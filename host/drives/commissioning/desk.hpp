@@ -17,10 +17,11 @@
 
 namespace liana::commissioning {
 
-// A node on a bus of the table.
+// A node on a bus of the table, and which of its axes is meant.
 struct Place {
   int bus = 0;
   std::uint8_t node = 1;
+  std::uint8_t axis = 1;
 };
 
 constexpr double kAnswer_s = 1.0;  // a drive has for each SDO transfer
@@ -50,7 +51,7 @@ class Desk {
   // On a bus that is open already, at so many ticks a second.
   Desk(std::unique_ptr<bus::DriveBus> bus, double rate_hz, const std::atomic<bool>& interrupt);
 
-  // Reads or writes an object; an answer may take 1 s.
+  // Reads or writes an object of the node, whatever axis; an answer may take 1 s.
   Answer read(Place place, std::uint16_t index, std::uint8_t sub);
   Answer write(Place place, std::uint16_t index, std::uint8_t sub, std::span<const std::uint8_t> bytes);
   // The nodes from `first` to `last` of all buses that answer when asked for 0x1000, in this order; 0.3 s for a node.

@@ -57,7 +57,8 @@ const canopen::BootNode& JogRun::boot() {
 
 bool JogRun::is_from_drive(const bus::ReceivedFrame& received, canopen::FrameKind kind) const {
   const canopen::FrameRoute from = canopen::route(received.frame.id);
-  return received.bus == drive_.bus && from.node == drive_.node && from.kind == kind;
+  return received.bus == drive_.bus && from.node == drive_.node && from.kind == kind &&
+         (kind != canopen::FrameKind::kTpdo1 || from.axis == drive_.axis);
 }
 
 void JogRun::on_frame(const bus::ReceivedFrame& received) {
@@ -99,7 +100,7 @@ void JogRun::cycle(Jog& jog) {
     const bool other_mode = mode_ && *mode_ != kModeCsp;
     seen_.operational = !is_operational_ ? std::uint8_t{0} : other_mode ? kInOtherMode : std::uint8_t{1};
     heartbeat_.step(desk_.bus());
-    bus::CanFrame command{rpdo1_cob_id(drive_.node), kRpdo1Bytes, {}, 0};
+    bus::CanFrame command{drive_.command_id(), kRpdo1Bytes, {}, 0};
     const std::array<std::uint8_t, kRpdo1Bytes> data = encode_rpdo1(jog.step(seen_));
     std::copy(data.begin(), data.end(), command.data.begin());
     const bool knows_place = seen_.feedback_age_ticks != kNeverHeard;  // before, there is no target
@@ -131,10 +132,10 @@ void JogRun::ask_next(bool wants_current) {
   if (!is_enabled) mode_.reset();
   if (has_current_ && wants_current) {
     asked_ = Asked::kCurrent;
-    sdo_.start_upload(0x6078, 0);
+    sdo_.start_upload(canopen::on_axis(0x6078, drive_.axis), 0);
   } else if (has_mode_ && is_enabled) {
     asked_ = Asked::kMode;
-    sdo_.start_upload(canopen::kModeDisplay, 0);
+    sdo_.start_upload(canopen::on_axis(canopen::kModeDisplay, drive_.axis), 0);
   }
 }
 
@@ -142,7 +143,7 @@ void JogRun::ask_next(bool wants_current) {
 void JogRun::ask_error_code(Jog& jog) {
   while (sdo_.status() == canopen::SdoStatus::kBusy) cycle(jog);
   asked_ = Asked::kNothing;
-  sdo_.start_upload(0x603F, 0);
+  sdo_.start_upload(canopen::on_axis(0x603F, drive_.axis), 0);
   do cycle(jog);
   while (sdo_.status() == canopen::SdoStatus::kBusy);
   if (sdo_.status() == canopen::SdoStatus::kDone) first_emergency_ = static_cast<std::uint16_t>(sdo_.value());

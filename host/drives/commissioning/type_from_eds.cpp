@@ -47,7 +47,7 @@ struct Needs {
     drive.node = 1;
     drive.type.is_cst = is_cst;
     drive.period = {4, -3};
-    const canopen::BootPlan plan(drive);
+    const canopen::BootPlan plan(std::span(&drive, 1));
     objects.assign(plan.objects().begin(), plan.objects().end());
   }
 };

@@ -47,8 +47,11 @@ std::int32_t drive_count(const std::string& robot_text, const std::string& file)
 
 std::string bench_buses(std::int32_t drives) {
   Json buses = Json::array();
-  for (const BusConfig& bus : fewest(drives))
-    buses.push_back({{"name", bus.name}, {"bitrate", bus.bitrate}, {"nodes", bus.nodes}});
+  for (const BusConfig& bus : fewest(drives)) {
+    Json nodes = Json::array();
+    for (const DrivePlace& place : bus.nodes) nodes.push_back(place.node);
+    buses.push_back({{"name", bus.name}, {"bitrate", bus.bitrate}, {"nodes", nodes}});
+  }
   return canonical_json({{"format", 1},
                          {"kind", "buses"},
                          {"name", "bench_" + std::to_string(drives)},

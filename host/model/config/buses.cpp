@@ -1,4 +1,5 @@
 // Buses: checks of the table and what follows from it (period, load).
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -41,6 +42,23 @@ LoadCellNode read_load_cells(const Field& field, const std::string& bus, std::ma
   return out;
 }
 
+bool is_listed(const BusConfig& bus, DrivePlace place) {
+  return std::find(bus.nodes.begin(), bus.nodes.end(), place) != bus.nodes.end();
+}
+
+// A node id, which is its axis 1, or { node = 1, axis = 2 }.
+DrivePlace read_place(const Field& field, const BusConfig& bus, std::map<std::int32_t, std::string>& owner) {
+  const bool has_axis = field.json().is_object();
+  if (has_axis) field.only({"node", "axis"});
+  const Field node = has_axis ? field.at("node") : field;
+  const DrivePlace place(static_cast<std::int32_t>(node.integer(1, kMasterNode - 1)),
+                         has_axis ? static_cast<std::int32_t>(field.at("axis").integer(1, kMaxAxes)) : 1);
+  if (place.axis == 1 && !owner.emplace(place.node, bus.name).second)
+    node.refuse("each node id once", "it is already on bus " + owner[place.node]);
+  if (place.axis > 1 && is_listed(bus, place)) field.refuse("each axis of a node once", "list another axis or node");
+  return place;
+}
+
 BusConfig read_bus(const Field& field, std::map<std::int32_t, std::string>& owner) {
   field.only({"name", "bitrate", "nodes", "wrist_sensor", "adapter", "load_cells"});
   BusConfig bus;
@@ -48,11 +66,11 @@ BusConfig read_bus(const Field& field, std::map<std::int32_t, std::string>& owne
   bus.bitrate = static_cast<std::int32_t>(field.at("bitrate").integer(10000, 1000000));
   const Field nodes = field.at("nodes");
   const std::size_t count = nodes.size(1, cable::kMaxCables, "list the node ids of the drives on this bus");
+  for (std::size_t i = 0; i < count; ++i) bus.nodes.push_back(read_place(nodes.element(i), bus, owner));
   for (std::size_t i = 0; i < count; ++i) {
-    const auto node = static_cast<std::int32_t>(nodes.element(i).integer(1, kMasterNode - 1));
-    if (!owner.emplace(node, bus.name).second)
-      nodes.element(i).refuse("each node id once", "it is already on bus " + owner[node]);
-    bus.nodes.push_back(node);
+    if (!is_listed(bus, {bus.nodes[i].node, 1}))
+      nodes.element(i).refuse("further axes of nodes whose axis 1 is on this bus",
+                              "list node " + std::to_string(bus.nodes[i].node) + " itself, too");
   }
   for (const auto& [key, place] : {std::pair{"wrist_sensor", &bus.wrist_sensor}, std::pair{"adapter", &bus.adapter}}) {
     if (field.json().contains(key)) *place = read_node(field.at(key), bus.name, owner);
@@ -151,11 +169,23 @@ std::int32_t BusesConfig::interval_ticks() const {
 
 std::int32_t BusesConfig::bus_of_node(std::int32_t node) const {
   for (std::size_t i = 0; i < buses.size(); ++i) {
-    for (const std::int32_t each : buses[i].nodes) {
-      if (each == node) return static_cast<std::int32_t>(i);
+    for (const DrivePlace& each : buses[i].nodes) {
+      if (each.node == node) return static_cast<std::int32_t>(i);
     }
   }
   return -1;
+}
+
+std::vector<DrivePlace> BusesConfig::places() const {
+  std::vector<DrivePlace> out;
+  for (const BusConfig& bus : buses) out.insert(out.end(), bus.nodes.begin(), bus.nodes.end());
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+std::size_t BusConfig::drive_nodes() const {
+  return static_cast<std::size_t>(
+      std::count_if(nodes.begin(), nodes.end(), [](const DrivePlace& place) { return place.axis == 1; }));
 }
 
 InterpolationPeriod interpolation_period(std::int32_t period_us) {
@@ -172,8 +202,8 @@ InterpolationPeriod interpolation_period(std::int32_t period_us) {
 std::int32_t torque_drives(const BusesConfig& buses, std::size_t bus) {
   std::int32_t count = 0;
   const std::map<std::int32_t, DriveType> types = drive_types(buses);
-  for (const std::int32_t node : buses.buses[bus].nodes) {
-    const auto named = types.find(node);
+  for (const DrivePlace& place : buses.buses[bus].nodes) {
+    const auto named = types.find(place.node);
     if (named != types.end() && named->second.is_cst) ++count;
   }
   return count;
@@ -192,10 +222,10 @@ double worst_extra_bits_per_s(const BusConfig& bus, double rate_hz, std::int32_t
 
 double worst_case_load(const BusesConfig& buses, std::size_t bus) {
   const BusConfig& own = buses.buses[bus];
-  const auto nodes = static_cast<double>(own.nodes.size());
-  const auto others = static_cast<double>(own.sensors());
-  const double tick_bits = worst_frame_bits(0) + nodes * (worst_frame_bits(6) + worst_frame_bits(8));
-  const double heartbeat_bits = (nodes + others + 1.0) * worst_frame_bits(1);
+  const auto drives = static_cast<double>(own.nodes.size());
+  const auto nodes = static_cast<double>(own.drive_nodes() + own.sensors());
+  const double tick_bits = worst_frame_bits(0) + drives * (worst_frame_bits(6) + worst_frame_bits(8));
+  const double heartbeat_bits = (nodes + 1.0) * worst_frame_bits(1);
   const double sdo_bits = 2.0 * worst_frame_bits(8);  // request and response
   const double bits_per_second = tick_bits * buses.rate_hz + heartbeat_bits * 1000.0 / buses.heartbeat_ms +
                                  sdo_bits * kSdoPairsPerSecond +

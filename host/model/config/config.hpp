@@ -30,17 +30,30 @@ struct LoadCells {
   bool goes_on = false;  // without a cell that is lost, by torque
 };
 
+// Where a drive is. The drives of a bus table count by node, then by axis: with one axis a node, drive 4 is node 4.
+struct DrivePlace {
+  std::int32_t node = 0;  // CANopen node id, 1..126
+  std::int32_t axis = 1;  // of the node, 1..kMaxAxes
+
+  constexpr DrivePlace() = default;
+  constexpr DrivePlace(std::int32_t node_id, std::int32_t axis_of_node = 1) : node(node_id), axis(axis_of_node) {}
+  friend constexpr auto operator<=>(const DrivePlace&, const DrivePlace&) = default;
+};
+constexpr std::int32_t kMaxAxes = 2;  // of a node: its predefined identifiers are enough for the process data of two
+
 // One CAN bus and the drives on it.
 struct BusConfig {
-  std::string name;                 // interface name for socketcan
-  std::int32_t bitrate = 0;         // bit/s
-  std::vector<std::int32_t> nodes;  // CANopen node ids, 1..126
-  std::int32_t wrist_sensor = 0;    // node of a serial arm's force sensor (docs/explanation/force-control.md); 0: none
-  std::int32_t adapter = 0;         // node of the adapter; 0: none
+  std::string name;               // interface name for socketcan
+  std::int32_t bitrate = 0;       // bit/s
+  std::vector<DrivePlace> nodes;  // of its drives
+  std::int32_t wrist_sensor = 0;  // node of a serial arm's force sensor (docs/explanation/force-control.md); 0: none
+  std::int32_t adapter = 0;       // node of the adapter; 0: none
   std::vector<LoadCellNode> load_cells{};
 
   // Nodes that are no drives.
   std::size_t sensors() const { return (wrist_sensor != 0) + (adapter != 0) + load_cells.size(); }
+  // Nodes of its drives, each once.
+  std::size_t drive_nodes() const;
 };
 
 // Frames of a bus beside commands and TPDO1 of its drives, in bits a second with worst stuffing.
@@ -73,6 +86,8 @@ struct BusesConfig {
   std::int32_t interval_ticks() const;
   // 0-based index of the bus that carries `node`, or -1.
   std::int32_t bus_of_node(std::int32_t node) const;
+  // Where each drive is, in the order in which drives count.
+  std::vector<DrivePlace> places() const;
 };
 
 // The period as object 60C2 holds it: value x 10^exponent seconds.
@@ -108,6 +123,7 @@ struct RobotConfig {
   double gear = 1.0;  // motor turns per drum turn
   double drum_radius_m = 0.0;
   std::vector<std::uint32_t> drive_serials;                    // what 0x1018:4 of every drive must say; empty: anything
+  std::vector<DrivePlace> drive_places;                        // of the bus table; empty: read without one
   std::int32_t calibration_days = 0;                           // how old a calibration may be
   double module_radius_m = 0.0;                                // of the capsules of every link
   double joint_viscous_Nms_per_rad = 0.0;                      // per theta

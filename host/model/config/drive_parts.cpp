@@ -22,7 +22,8 @@ std::vector<std::uint32_t> read_serials(const Field& drives, std::size_t count) 
   serials.size(count, count, "one entry per drive, that of node 1 first");
   for (std::size_t i = 0; i < count; ++i) {
     const auto serial = static_cast<std::uint32_t>(serials.element(i).integer(1, 0xffffffff));
-    if (std::find(out.begin(), out.end(), serial) != out.end())
+    const bool is_next_axis = i > 0 && out.back() == serial;  // check_nodes knows the buses
+    if (!is_next_axis && std::find(out.begin(), out.end(), serial) != out.end())
       serials.element(i).refuse("a number that no other drive has",
                                 "look at the drive's plate, or leave drives.serials out");
     out.push_back(serial);
@@ -36,22 +37,41 @@ std::int32_t read_calibration_days(const Field& drives) {
   return static_cast<std::int32_t>(drives.at("calibration_days").integer(1, 36500));
 }
 
-void check_nodes(const std::string& robot, std::int32_t drives, const std::string& file, const BusesConfig& buses) {
+namespace {
+
+// The axes of one node have its one serial number, other drives each their own.
+void check_serials(const std::vector<std::uint32_t>& serials, const std::vector<DrivePlace>& places,
+                   const std::string& file) {
+  for (std::size_t i = 1; i < serials.size(); ++i) {
+    const bool is_same_node = places[i].node == places[i - 1].node;
+    if (is_same_node == (serials[i] == serials[i - 1])) continue;
+    throw std::runtime_error(file + ": drives.serials[" + std::to_string(i + 1) + "]: " + std::to_string(serials[i]) +
+                             ": allowed " +
+                             (is_same_node ? std::to_string(serials[i - 1]) + ", that of the node's axis 1"
+                                           : "a number that no other node has") +
+                             ": look at the drive's plate, or leave drives.serials out");
+  }
+}
+
+}  // namespace
+
+void check_nodes(const std::string& robot, std::int32_t drives, const std::vector<std::uint32_t>& serials,
+                 const std::string& file, const BusesConfig& buses) {
   const std::string allowed =
-      ": allowed the nodes 1 to " + std::to_string(drives) + " of robot " + robot + ", each on one bus: ";
-  for (std::int32_t node = 1; node <= drives; ++node) {
-    if (buses.bus_of_node(node) < 0) {
-      throw std::runtime_error(file + ": buses " + buses.name + ": " + drive_text(static_cast<std::size_t>(node - 1)) +
-                               " is on no bus" + allowed + "add it to a bus");
-    }
+      ": allowed " + std::to_string(drives) + " drives for robot " + robot + ", on nodes from 1 without a gap: ";
+  const std::vector<DrivePlace> places = buses.places();
+  const auto count = static_cast<std::size_t>(drives);
+  std::int32_t next = 1;  // node that is due
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i == places.size() || places[i].node > next)
+      throw std::runtime_error(file + ": buses " + buses.name + ": " + drive_text(i, next) + " is on no bus" + allowed +
+                               "add it to a bus");
+    next = places[i].node + 1;
   }
-  for (const BusConfig& bus : buses.buses) {
-    for (const std::int32_t node : bus.nodes) {
-      if (node <= drives) continue;
-      throw std::runtime_error(file + ": buses " + buses.name + ": node " + std::to_string(node) + allowed +
-                               "remove it from bus " + bus.name);
-    }
-  }
+  if (places.size() > count)
+    throw std::runtime_error(file + ": buses " + buses.name + ": node " + std::to_string(places[count].node) + allowed +
+                             "remove it from its bus");
+  check_serials(serials, places, file);
 }
 
 }  // namespace liana::config

@@ -58,8 +58,11 @@ void take_load_cells(const BusesConfig& buses, const std::string& file, RobotCon
 
 // Drives whose type has no 6077.
 void take_torqueless(const BusesConfig& buses, RobotConfig& out) {
-  for (const auto& [node, type] : drive_types(buses))
-    if (!type.has_torque && node <= out.table.cable_count()) out.table.no_torque |= 1u << (node - 1);
+  const std::map<std::int32_t, DriveType> types = drive_types(buses);
+  for (std::size_t i = 0; i < out.drive_places.size(); ++i) {
+    const auto named = types.find(out.drive_places[i].node);
+    if (named != types.end() && !named->second.has_torque) out.table.no_torque |= 1u << i;
+  }
 }
 
 }  // namespace
@@ -67,7 +70,8 @@ void take_torqueless(const BusesConfig& buses, RobotConfig& out) {
 RobotConfig parse_robot(const std::string& text, const std::string& file, const std::string& physics,
                         const BusesConfig& buses) {
   RobotConfig out = read_robot(parse_json(text, file), file, physics);
-  check_nodes(out.name, out.table.cable_count(), file, buses);
+  check_nodes(out.name, out.table.cable_count(), out.drive_serials, file, buses);
+  out.drive_places = buses.places();
   out.machine = buses.machine;
   out.table.tick_s = buses.tick_s();
   out.table.interval_ticks = buses.interval_ticks();

@@ -24,15 +24,16 @@ void read_drives(const Field& table, RobotConfig& out);
 // What object 0x1018 of every drive must say.
 DriveIdentity read_identity(const Field& field);
 
-// Optional serial numbers, each once; empty: what is not known is not checked.
+// Optional serial numbers, each once, or twice in a row: axes of a node; empty: what is not known is not checked.
 std::vector<std::uint32_t> read_serials(const Field& drives, std::size_t count);
 
 // How old a calibration may be; a year where the table does not say.
 std::int32_t read_calibration_days(const Field& drives);
 
-// Drive i has node id i + 1 (docs/reference/drives.md): throws unless every drive is on a bus and no bus has a node
-// without a drive.
-void check_nodes(const std::string& robot, std::int32_t drives, const std::string& file, const BusesConfig& buses);
+// Drives are the axes of nodes 1, 2, ... (docs/reference/drives.md): throws unless every drive is on a bus, no bus has
+// a node without a drive, and serial numbers are those of nodes.
+void check_nodes(const std::string& robot, std::int32_t drives, const std::vector<std::uint32_t>& serials,
+                 const std::string& file, const BusesConfig& buses);
 
 // Motion limits.
 void read_limits(const Field& field, cable::MotionLimits& limits);

@@ -231,7 +231,7 @@ SerialRobotConfig parse_serial_robot(const std::string& text, const std::string&
 
 SerialRobotConfig parse_serial_robot(const std::string& text, const std::string& file, const BusesConfig& buses) {
   SerialRobotConfig out = parse_serial_robot(text, file);
-  check_nodes(out.name, out.table.drive_count(), file, buses);
+  check_nodes(out.name, out.table.drive_count(), out.drive_serials, file, buses);
   check_drive_modes(out, file, buses);
   out.table.tick_s = buses.tick_s();
   out.table.interval_ticks = buses.interval_ticks();

@@ -64,14 +64,14 @@ void read_torque(const Field& table, SerialRobotConfig& out) {
 void check_drive_modes(const SerialRobotConfig& robot, const std::string& file, const BusesConfig& buses) {
   const std::map<std::int32_t, DriveType> types = drive_types(buses);
   const bool torque = is_torque_controlled(robot);
-  for (std::int32_t node = 1; node <= robot.table.drive_count(); ++node) {
-    const auto named = types.find(node);
+  const std::vector<DrivePlace> places = buses.places();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto named = types.find(places[i].node);
     if ((named != types.end() && named->second.is_cst) == torque) continue;
     const std::string type = named != types.end() ? named->second.name : "cia402_csp";
     throw std::runtime_error(file + ": drives.mode: \"" + (torque ? "torque" : "position") +
-                             "\": allowed is the mode of the drives' types, but " +
-                             drive_text(static_cast<std::size_t>(node - 1)) + " of bus table " + buses.name + " is a " +
-                             type + ": " +
+                             "\": allowed is the mode of the drives' types, but " + drive_text(i, places[i]) +
+                             " of bus table " + buses.name + " is a " + type + ": " +
                              (torque ? "use buses whose drives follow torques, as embedded_payload"
                                      : "use buses whose drives follow positions, as embedded_micro"));
   }

@@ -52,7 +52,9 @@ void add_watch(CLI::App& group, Action& action) {
   sub.add_option("--seconds", watch.seconds, "how long; 0.1 to 86400")->capture_default_str();
 }
 
+// Which motor of which type.
 void add_type(CLI::App& sub, DriveOptions& drive) {
+  sub.add_option("--axis", drive.axis, "axis of a node with two motors: 1 or 2")->capture_default_str();
   sub.add_option("--type", drive.type, "drive type: a name under lua/drives or a file")->capture_default_str();
 }
 
@@ -64,6 +66,7 @@ void add_drive_check(CLI::App& group, Action& action) {
   sub.add_option("--robot", check.robot,
                  "in place of --node: all drives of a robot table, of the types that the bus table says")
       ->excludes(sub.get_option("--node"))
+      ->excludes(sub.get_option("--axis"))
       ->excludes(sub.get_option("--type"));
 }
 

@@ -9,6 +9,7 @@
 
 #include "firmware_like/safety/drive_link_monitor.hpp"
 #include "tests/host/drives/bus/quiet_bus.hpp"
+#include "tests/message.hpp"
 
 namespace liana::realtime {
 namespace {
@@ -116,7 +117,10 @@ class DrivesOnTwoBuses : public ::testing::Test {
   }
   static std::vector<canopen::ExpectedDrive> drives() {
     std::vector<canopen::ExpectedDrive> drives(3);
-    for (std::size_t i = 0; i < 3; ++i) drives[i].node = static_cast<std::uint8_t>(i + 1);
+    for (std::size_t i = 0; i < 3; ++i) {
+      drives[i].index = i;
+      drives[i].node = static_cast<std::uint8_t>(i + 1);
+    }
     drives[1].type.has_torque = false;
     drives[0].type.is_cst = drives[2].type.is_cst = true;
     drives[2].bus = 1;
@@ -270,6 +274,79 @@ TEST_F(DrivesOnTwoBuses, WhoeverWaitsForLostDrivesWaitsFiveSecondsAndAnewAfterAP
     for (int i = 1; i < 1250; ++i, ++inputs_.tick) ASSERT_FALSE(line_.reboot_lost_drives(inputs_)) << i;
     EXPECT_TRUE(line_.reboot_lost_drives(inputs_));
   }
+}
+
+// Drives 1 and 2 are the axes of node 1, drive 3 is node 2.
+class TwoAxes : public ::testing::Test {
+ protected:
+  TwoAxes() : line_(drives(), buses(), bus_) {}
+
+  static config::BusesConfig buses() {
+    config::BusesConfig buses;
+    buses.rate_hz = 250.0;
+    buses.heartbeat_ms = 100;
+    buses.buses = {{"can0", 1000000, {{1, 1}, {1, 2}, {2, 1}}}};
+    return buses;
+  }
+  static std::vector<canopen::ExpectedDrive> drives() {
+    std::vector<canopen::ExpectedDrive> drives(3);
+    for (std::size_t i = 0; i < 3; ++i) drives[i].index = i;
+    drives[1].axis = 2;
+    drives[2].node = 2;
+    for (canopen::ExpectedDrive& drive : drives) drive.type.is_cst = true;
+    return drives;
+  }
+  void tick(const std::vector<bus::CanFrame>& frames) {
+    for (const bus::CanFrame& frame : frames) bus_.frames.push_back({0, frame});
+    line_.collect({++tick_, 0, 0, false}, inputs_);
+    line_.step_master();
+  }
+  static bus::CanFrame report(std::uint32_t id, std::uint8_t position) {
+    return {id, 8, {0x37, 0x12, position, 0, 0, 0, 0, 0}, 0};
+  }
+
+  ThreeBuses bus_;
+  DriveChannel line_;
+  CycleInputs inputs_;
+  std::uint64_t tick_ = 0;
+};
+
+TEST_F(TwoAxes, HaveReportsRatesAndCommandsOfTheirOwn) {
+  tick({report(0x181, 10), report(0x381, 20), report(0x182, 30), {0x481, 4, {7, 0, 0, 0}, 0}});
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(inputs_.drive[i].position_counts, static_cast<int>(10 * (i + 1)));
+  EXPECT_EQ(inputs_.drive[0].rate_counts_s, 0);
+  EXPECT_EQ(inputs_.drive[1].rate_counts_s, 7);
+  tick({report(0x181, 10), report(0x382, 40)});
+  EXPECT_EQ(inputs_.drive[0].feedback_age_ticks, 0);
+  EXPECT_EQ(inputs_.drive[1].feedback_age_ticks, 1);
+  EXPECT_EQ(inputs_.drive[2].feedback_age_ticks, 1) << "node 2 has no axis 2";
+  bus_.sent.clear();
+  line_.command({});
+  ASSERT_EQ(bus_.sent.size(), 3U);
+  EXPECT_EQ(bus_.sent[0].frame.id, 0x201U);
+  EXPECT_EQ(bus_.sent[1].frame.id, 0x401U);
+  EXPECT_EQ(bus_.sent[2].frame.id, 0x202U);
+}
+
+TEST_F(TwoAxes, ShareHeartbeatAndEmergenciesOfTheirNode) {
+  tick({{0x701, 1, {0x05}, 0}, {0x081, 8, {0x10, 0x23, 0x01}, 0}});
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(inputs_.drive[i].emergency_code, i < 2 ? 0x2310 : 0);
+    EXPECT_EQ(inputs_.drive[i].operational, i < 2 ? 1 : 0);
+  }
+  for (int i = 0; i < 50; ++i) tick({});
+  EXPECT_EQ(inputs_.drive[0].heartbeat_age_ticks, 50);
+  EXPECT_EQ(inputs_.drive[1].heartbeat_age_ticks, 50);
+}
+
+TEST_F(TwoAxes, OfANodeThatIsMissingAreOneProblemThatNamesBoth) {
+  for (int i = 0; i < 10 * 250 + 10; ++i) tick({});
+  const std::vector<BootProblem> problems = line_.boot_problems();
+  ASSERT_EQ(problems.size(), 2U);
+  EXPECT_EQ(problems[0].drive, 0);
+  EXPECT_EQ(problems[0].number, FaultNumber::kDriveMissing);
+  EXPECT_TRUE(names(problems[0].text, {"drive 1 (node 1)", "drive 2 (node 1, axis 2)", "can0"})) << problems[0].text;
+  EXPECT_EQ(problems[1].drive, 2);
 }
 
 }  // namespace

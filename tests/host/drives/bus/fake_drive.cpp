@@ -70,6 +70,14 @@ FakeDrive::FakeDrive(const canopen::ExpectedDrive& is) : node(is.node) {
   add(0x6502, 0, 4, 0x3A1);
 }
 
+void FakeDrive::add_axis() {
+  const std::map<std::uint32_t, Object> first = objects;
+  for (const auto& [object, value] : first) {
+    if (object >= key(0x6000, 0)) objects[object + key(0x800, 0)] = value;
+    if (object >= key(0x1400, 0) && object < key(0x1C00, 0)) objects[object + key(0x40, 0)] = value;
+  }
+}
+
 bus::CanFrame FakeDrive::boot_up() const { return {0x700U + node, 1, {0}, 0}; }
 
 std::vector<bus::CanFrame> FakeDrive::receive(const bus::CanFrame& frame) {

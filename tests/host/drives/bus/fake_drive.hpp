@@ -15,6 +15,8 @@ namespace liana::test {
 class FakeDrive {
  public:
   explicit FakeDrive(const canopen::ExpectedDrive& is);
+  // Has axis 2, with all that axis 1 has.
+  void add_axis();
 
   // What the drive answers.
   std::vector<bus::CanFrame> receive(const bus::CanFrame& frame);

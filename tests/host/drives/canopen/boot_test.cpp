@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 
 #include "host/drives/canopen/boot_sequence.hpp"
 #include "host/drives/canopen/cob_id.hpp"
@@ -132,6 +133,110 @@ struct BootBench {
 };
 
 constexpr std::uint32_t key(std::uint32_t index, std::uint32_t sub) { return FakeDrive::key(index, sub); }
+
+// Node 1 has two axes, node 2 one.
+struct AxesBench : BootBench {
+  AxesBench() {
+    expected = {expectation(0, 1), expectation(0, 1), expectation(0, 2)};
+    expected[1].axis = 2;
+    drives.clear();
+    drives.emplace_back(expected[0]);
+    drives.back().add_axis();
+    drives.emplace_back(expected[2]);
+    drives[1].objects[key(0x1018, 4)].value = 1002;
+    before_tick = [this](int) { count_requests(); };
+  }
+  // What was sent in the tick before.
+  void count_requests() {
+    int to_node_1 = 0;
+    for (std::size_t i = 0; i < bus.count; ++i) {
+      const bus::CanFrame& frame = bus.sent[i].frame;
+      if (frame.id == 0x601) ++to_node_1;
+      if (frame.id == 0x601 && frame.data[2] == 0x10 && frame.data[1] == 0x18) ++identity_reads;
+      if (frame.id == 0 && frame.data[0] == kNmtStart && frame.data[1] == 1) ++starts;
+    }
+    most_at_once = std::max(most_at_once, to_node_1);
+  }
+  static constexpr std::uint32_t key(std::uint32_t index, std::uint32_t sub) { return FakeDrive::key(index, sub); }
+  std::uint32_t value(std::uint32_t index, std::uint32_t sub) { return drives[0].objects.at(key(index, sub)).value; }
+
+  int identity_reads = 0, starts = 0, most_at_once = 0;
+};
+
+TEST(Boot, TheTwoAxesOfANodeAreBootedAsOneNodeInTurn) {
+  AxesBench bench;
+  bench.run();
+  bench.count_requests();
+  ASSERT_EQ(bench.boot->state(), BootState::kOperational);
+  EXPECT_EQ(bench.boot->progress().nodes, 2);
+  EXPECT_EQ(bench.resets[1], 1);
+  EXPECT_EQ(bench.identity_reads, 4) << "vendor, product, revision, serial number: once for both axes";
+  EXPECT_EQ(bench.starts, 1);
+  EXPECT_EQ(bench.most_at_once, 1);
+  EXPECT_EQ(bench.value(0x1400, 1) & 0x7FF, 0x201U);
+  EXPECT_EQ(bench.value(0x1800, 1) & 0x7FF, 0x181U);
+  EXPECT_EQ(bench.value(0x1440, 1) & 0xBFFFFFFF, 0x401U) << "enabled";
+  EXPECT_EQ(bench.value(0x1840, 1) & 0xBFFFFFFF, 0x381U);
+  EXPECT_EQ(bench.value(0x1441, 1) & 0x80000000, 0x80000000U) << "not used";
+  EXPECT_EQ(bench.value(0x1640, 1), 0x68400010U);
+  EXPECT_EQ(bench.value(0x1640, 2), 0x687A0020U);
+  EXPECT_EQ(bench.value(0x1A40, 1), 0x68410010U);
+  EXPECT_EQ(bench.value(0x1A40, 3), 0x68770010U);
+  EXPECT_EQ(bench.value(0x1440, 5), 12U);
+  EXPECT_EQ(bench.value(0x6060, 0), 8U);
+  EXPECT_EQ(bench.value(0x6860, 0), 8U);
+  EXPECT_EQ(bench.value(0x6865, 0), 3476U);
+  EXPECT_EQ(bench.value(0x1017, 0), 100U);
+  EXPECT_EQ(bench.boot->serial(1), bench.boot->serial(0));
+}
+
+// Which process data are whose is seen by identifier alone. req:C2
+TEST(Boot, NoTwoProcessDataOfABusHaveOneIdentifier) {
+  std::set<std::uint32_t> ids;
+  for (int node = 1; node <= 126; ++node) {
+    for (std::uint8_t axis = 1; axis <= 2; ++axis) {
+      ExpectedDrive drive = expectation(0, static_cast<std::uint8_t>(node));
+      drive.axis = axis;
+      for (const std::uint32_t id : {drive.command_id(), drive.report_id(), drive.rate_id()}) {
+        EXPECT_TRUE(ids.insert(id).second) << std::hex << id;
+        EXPECT_GT(id, 0x180U);
+        EXPECT_LT(id, 0x580U);
+      }
+      EXPECT_EQ(route(drive.command_id()).kind, FrameKind::kRpdo1);
+      EXPECT_EQ(route(drive.report_id()).kind, FrameKind::kTpdo1);
+      EXPECT_EQ(route(drive.command_id()).axis, axis);
+      EXPECT_EQ(route(drive.report_id()).axis, axis);
+    }
+  }
+}
+
+TEST(Boot, WhatAxis2RefusesIsNamedWithItsOwnObjectsAndNothingIsStarted) {
+  const auto refused = [](const std::function<void(FakeDrive&)>& spoil) {
+    AxesBench bench;
+    spoil(bench.drives[0]);
+    bench.run();
+    EXPECT_EQ(bench.boot->state(), BootState::kFailed);
+    EXPECT_EQ(bench.starts, 0);
+    EXPECT_EQ(bench.boot->mismatches(1).size(), 1U);
+    return bench.boot->mismatches(1).front();
+  };
+  constexpr auto at = [](std::uint32_t index) { return FakeDrive::key(index, 0); };
+  BootMismatch mismatch = refused([&](FakeDrive& drive) { drive.aborts[at(0x6D02)] = 0x06020000; });
+  EXPECT_EQ(mismatch.failure, BootFailure::kAborted);
+  EXPECT_EQ(mismatch.axis, 2);
+  EXPECT_EQ(mismatch.index, 0x6D02);
+  EXPECT_EQ(mismatch.abort_code, 0x06020000U);
+  mismatch = refused([&](FakeDrive& drive) { drive.objects[at(0x6861)] = {1, 3}; });
+  EXPECT_EQ(mismatch.failure, BootFailure::kValue);
+  EXPECT_EQ(mismatch.axis, 2);
+  EXPECT_EQ(mismatch.index, 0x6861);
+  EXPECT_EQ(mismatch.found, 3U);
+  mismatch = refused([&](FakeDrive& drive) { drive.aborts[at(0x6502)] = 0x06020000; });
+  EXPECT_EQ(mismatch.axis, 1);
+  mismatch = refused([&](FakeDrive& drive) { drive.dead = true; });
+  EXPECT_EQ(mismatch.failure, BootFailure::kNoBootUp);
+  EXPECT_EQ(mismatch.axis, 0) << "the whole node";
+}
 
 TEST(Boot, AllDrivesOfBothBusesBecomeOperationalInParallel) {
   BootBench bench;

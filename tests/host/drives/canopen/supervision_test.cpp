@@ -127,6 +127,11 @@ TEST(Routing, EveryIdentifierOfThePredefinedSetFindsItsKindAndNode) {
   check(0x08F, FrameKind::kEmergency, 15);
   check(0x181, FrameKind::kTpdo1, 1);
   check(0x20F, FrameKind::kRpdo1, 15);
+  check(0x381, FrameKind::kTpdo1, 1);
+  check(0x40F, FrameKind::kRpdo1, 15);
+  EXPECT_EQ(route(0x181).axis, 1);
+  EXPECT_EQ(route(0x381).axis, 2);
+  EXPECT_EQ(route(0x40F).axis, 2);
   check(0x582, FrameKind::kSdoResponse, 2);
   check(0x602, FrameKind::kSdoRequest, 2);
   check(0x77F, FrameKind::kHeartbeat, 127);
@@ -288,6 +293,37 @@ TEST(ModeMonitor, SeesAnotherModeOfAnyDriveWithinTenTicksHoweverManyThereAre) {
         EXPECT_EQ(bench.monitor->other_mode(), 0U);
       }
     }
+  }
+}
+
+// Two axes of one node, whose server answers after so many ticks.
+TEST(ModeMonitor, AsksTheAxesOfANodeInTurnAndSeesWhichOneHasAnotherMode) {
+  for (const int delay : {1, 7, 20}) {
+    ModeBench bench(2);
+    for (ExpectedDrive& drive : bench.drives) drive.node = 1;
+    bench.drives[1].axis = 2;
+    bench.monitor.emplace(bench.drives, bench.buses);
+    int open = 0, left = 0;
+    std::array<int, 2> asked{};
+    bus::CanFrame answer;
+    for (int i = 0; i < 400; ++i) {
+      for (const bus::ReceivedFrame& sent : std::exchange(bench.bus.sent, {})) {
+        ASSERT_EQ(sent.frame.data[0], 0x40) << "nothing is given up";
+        ASSERT_EQ(++open, 1) << "one request at a time";
+        const bool second = sent.frame.data[2] == 0x68;
+        ++asked[second ? 1 : 0];
+        answer = {0x581, 8, {0x4F, 0x61, sent.frame.data[2], 0, static_cast<std::uint8_t>(second ? 3 : 8)}, 0};
+        left = delay;
+      }
+      if (left > 0 && --left == 0) {
+        --open;
+        bench.monitor->on_frame(0, answer);
+      }
+      bench.monitor->step(bench.bus, 3);
+    }
+    EXPECT_GE(asked[0], 8) << delay;
+    EXPECT_GE(asked[1], 8) << delay;
+    EXPECT_EQ(bench.monitor->other_mode(), 2U);
   }
 }
 

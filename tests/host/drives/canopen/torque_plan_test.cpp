@@ -25,7 +25,8 @@ std::optional<std::uint32_t> written(const BootPlan& plan, std::uint16_t index, 
 }
 
 TEST(TorquePlan, MapsTorqueAndRateAndASecondReportAndAsksForCst) {
-  const BootPlan plan(torque_drive());
+  const ExpectedDrive drive = torque_drive();
+  const BootPlan plan(std::span(&drive, 1));
   EXPECT_EQ(written(plan, 0x6060, 0), 10u);
   EXPECT_EQ(written(plan, 0x1600, 0), 3u);
   EXPECT_EQ(written(plan, 0x1600, 2), 0x60710010u);
@@ -45,7 +46,7 @@ TEST(TorquePlan, MapsTorqueAndRateAndASecondReportAndAsksForCst) {
 TEST(TorquePlan, ACspDriveHasOneReportAndItsSecondIsOff) {
   ExpectedDrive drive = torque_drive();
   drive.type.is_cst = false;
-  const BootPlan plan(drive);
+  const BootPlan plan(std::span(&drive, 1));
   EXPECT_EQ(written(plan, 0x6060, 0), 8u);
   EXPECT_EQ(written(plan, 0x1600, 2), 0x607A0020u);
   EXPECT_EQ(written(plan, 0x1801, 1), 0x80000000u);

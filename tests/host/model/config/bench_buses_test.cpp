@@ -14,7 +14,7 @@ namespace {
 TEST(BenchBuses, CarryAnyNumberOfDrivesWithinTheirLoadOnAsFewBusesAsPossible) {
   for (std::int32_t drives = 1; drives <= kMaxDrives; ++drives) {
     const BusesConfig buses = parse_buses(bench_buses(drives), "made");
-    std::set<std::int32_t> nodes;
+    std::set<DrivePlace> nodes;
     std::size_t least = 1000, most = 0;
     for (std::size_t b = 0; b < buses.buses.size(); ++b) {
       const auto& on_bus = buses.buses[b].nodes;
@@ -23,7 +23,7 @@ TEST(BenchBuses, CarryAnyNumberOfDrivesWithinTheirLoadOnAsFewBusesAsPossible) {
       EXPECT_LE(worst_case_load(buses, b), buses.max_load) << drives << " drives, bus " << b;
     }
     EXPECT_EQ(nodes.size(), static_cast<std::size_t>(drives));
-    EXPECT_EQ(*nodes.rbegin(), drives) << "drive i is node i + 1";
+    EXPECT_EQ(nodes.rbegin()->node, drives) << "drive i is node i + 1";
     EXPECT_LE(most - least, 1u) << drives << " drives are shared out evenly";
     if (buses.buses.size() == 1) continue;
     BusesConfig fewer = buses;

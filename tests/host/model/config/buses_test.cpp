@@ -1,4 +1,5 @@
 #include "host/model/config/config.hpp"
+#include "host/model/config/drive_names.hpp"
 #include "tests/host/model/config/tables.hpp"
 
 namespace liana::config {
@@ -78,6 +79,38 @@ TEST(Buses, LoadCellsReadAtLeastWhatTheRobotCallsAnAlarm) {
   const Json good = good_table("buses", "embedded_lab_1g");
   EXPECT_EQ(message_of(good, {"/load_cell/range_N", 300, "", {}}, parse), "");
   expect_refused(good, {"/load_cell/range_N", 299, "load_cell.range_N", {"299.0", "300.0", "tension.alarm_N"}}, parse);
+}
+
+// Seven nodes of two axes and one of one: 15 drives, 8 heartbeats.
+TEST(Buses, ANodeMayHaveTwoAxesAndDrivesCountByNodeThenAxis) {
+  const BusesConfig buses = parse_buses(good_table("buses", "embedded_two_axes").dump(), "b");
+  const std::vector<DrivePlace> places = buses.places();
+  ASSERT_EQ(places.size(), 15U);
+  EXPECT_EQ(places[0], DrivePlace(1, 1));
+  EXPECT_EQ(places[1], DrivePlace(1, 2));
+  EXPECT_EQ(places[8], DrivePlace(5, 1));
+  EXPECT_EQ(places[14], DrivePlace(8, 1));
+  EXPECT_NEAR(worst_case_load(buses, 0), ((55 + 8 * 250) * 250 + 5 * 65 * 10 + 5400) / 1e6, 1e-12);
+  const RobotConfig robot = parse_robot(good_table("robot", "zhu2022").dump(), "r", "nominal", buses);
+  EXPECT_EQ(DriveNames(robot).drive(3), "drive 4 (node 2, axis 2, segment 2)");
+  EXPECT_EQ(DriveNames(robot).drive(4), "drive 5 (node 3, segment 2)");
+}
+
+TEST(Buses, AnAxisIsOfANodeOfItsBusAndNamedOnce) {
+  const auto parse = [](const std::string& text) { parse_buses(text, "given.json"); };
+  const auto axis = [](int node, int number) { return Json{{"node", node}, {"axis", number}}; };
+  const Json good = good_table("buses", "embedded");
+  EXPECT_EQ(message_of(good, {"/buses/0/nodes/1", axis(1, 2), "", {}}, parse), "");
+  EXPECT_EQ(message_of(good, {"/buses/0/nodes/0", axis(1, 1), "", {}}, parse), "") << "the same as 1";
+  expect_refused(good, {"/buses/0/nodes/1", axis(1, 1), "buses[1].nodes[2].node", {"1", "can0"}}, parse);
+  expect_refused(good, {"/buses/0/nodes/1", axis(9, 2), "buses[1].nodes[2]", {"9"}}, parse);
+  expect_refused(good, {"/buses/1/nodes/1", axis(1, 2), "buses[2].nodes[2]", {"1"}}, parse);
+  expect_refused(good, {"/buses/0/nodes/1", axis(1, 3), "buses[1].nodes[2].axis", {"1", "2"}}, parse);
+  expect_refused(good, {"/buses/0/nodes/1", axis(1, 0), "buses[1].nodes[2].axis", {"1", "2"}}, parse);
+  expect_refused(good, {"/buses/0/nodes/1", axis(127, 1), "buses[1].nodes[2].node", {"126"}}, parse);
+  expect_refused(good, {"/buses/0/nodes/1", Json{{"node", 2}}, "buses[1].nodes[2].axis", {"missing"}}, parse);
+  const Json two = good_table("buses", "embedded_two_axes");
+  expect_refused(two, {"/buses/0/nodes/3", axis(1, 2), "buses[1].nodes[4]", {"axis"}}, parse);
 }
 
 TEST(Buses, PeriodIsWhatObject60C2Holds) {

@@ -14,6 +14,13 @@ TEST(DriveNames, CountFromOneAndNameNodeAndSegment) {
   EXPECT_EQ(names.cable(14), "cable 15 (segment 5)");
 }
 
+TEST(DriveNames, NameTheAxisOfADriveThatIsNotTheFirstOfItsNode) {
+  const DriveNames names(std::vector<DrivePlace>{{1, 1}, {1, 2}, {2, 1}});
+  EXPECT_EQ(names.drive(0), "drive 1 (node 1)");
+  EXPECT_EQ(names.drive(1), "drive 2 (node 1, axis 2)");
+  EXPECT_EQ(names.drive(2), "drive 3 (node 2)");
+}
+
 TEST(DriveNames, AnArmWithoutCablesHasNoSegments) { EXPECT_EQ(DriveNames().drive(0), "drive 1 (node 1)"); }
 
 }  // namespace

@@ -157,6 +157,20 @@ TEST(Robot, NeedsEveryDriveOnABusAndNoOther) {
   EXPECT_THROW(parse_robot(robot, "r", "nominal", parse_buses(table.dump(), "b")), std::runtime_error);
 }
 
+TEST(Robot, TheAxesOfANodeHaveItsOneSerialNumberAndOtherDrivesHaveNot) {
+  const auto read = [](const Json& serials, const char* on) {
+    Json table = good_table("robot", "zhu2022");
+    table["drives"]["serials"] = serials;
+    parse_robot(table.dump(), "r", "nominal", parse_buses(good_table("buses", on).dump(), "b"));
+  };
+  const Json one_each = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  const Json of_pairs = {1, 1, 3, 3, 5, 5, 7, 7, 9, 9, 11, 11, 13, 13, 15};
+  EXPECT_NO_THROW(read(one_each, "embedded"));
+  EXPECT_NO_THROW(read(of_pairs, "embedded_two_axes"));
+  EXPECT_THROW(read(of_pairs, "embedded"), std::runtime_error);
+  EXPECT_THROW(read(one_each, "embedded_two_axes"), std::runtime_error);
+}
+
 // Of every table the same reader; its entries count from 1, as in Lua.
 TEST(Robot, ANumberThatNoDoubleHoldsIsRefusedWithFileFieldAndItself) {
   struct Row {
