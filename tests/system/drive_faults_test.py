@@ -7,6 +7,7 @@ from liana.system import System
 
 FAULT_SLOT = 2500  # the move that start_moving begins is under way then; checked in each test
 DRIVE, NODE = 3, 4
+OTHER_MODE = 3010
 
 
 def fault(kind, at_slot=FAULT_SLOT):
@@ -157,6 +158,91 @@ class DrivesThatFailInMotion(SystemTest):
         # 20 mm of cable at 25 mm from the axes of 8 joints let the segment give way by 5.7 deg; a swing about that
         # place reaches twice as far.
         self.assertLess(truth.travel_deg(FAULT_SLOT, None), 12.0)
+
+
+class TwoAxesOnANode(SystemTest):
+    """15 drives on 8 nodes: drive 3 is node 2, drive 4 its axis 2."""
+
+    def started(self, **changes):
+        system = self.enterContext(System(bus="embedded_two_axes", **changes))
+        return system, system.client()
+
+    def moving_into(self, **kind):
+        system, client = self.started(faults=[{"drive": DRIVE + 1, "at_slot": FAULT_SLOT, **kind}])
+        client.enable()
+        client.start_moving()
+        self.assertLess(client.state["tick"], FAULT_SLOT - 5, "the move must be under way before the fault")
+        client.until(lambda state: state["state"] == "FAULT")
+        return system, client
+
+    def ended(self, system, client):
+        self.assertEqual(system.shut_down(client), {"lianad": 0, "liana-bus": 0, "liana-bench": 0})
+        truth = system.truth()
+        self.assertGreater(truth.travel_deg(FAULT_SLOT - 50, FAULT_SLOT), 0.03, "the fault has to meet a moving arm")
+        self.assert_stopped(truth, FAULT_SLOT)
+
+    def found(self, client, number):
+        return [fault["index"] for fault in client.state["faults"] if fault["number"] == number]
+
+    # req:C2
+    def test_an_arm_whose_drives_are_pairs_boots_is_enabled_and_moves(self):
+        system, client = self.started()
+        client.enable()
+        places = [(drive["node"], drive["axis"]) for drive in client.state["drives"]]
+        self.assertEqual(places, [(1 + i // 2, 1 + i % 2) for i in range(15)])
+        enabled_tick = client.state["tick"]
+        client.start_moving()
+        client.until(lambda state: not state["is_busy"])
+        self.assertEqual(client.state["faults"], [])
+        self.assert_holds(client.state)
+        self.assertEqual(system.shut_down(client), {"lianad": 0, "liana-bus": 0, "liana-bench": 0})
+        self.assertGreater(system.truth().travel_deg(enabled_tick, None), 1.0)
+
+    def test_a_node_that_is_missing_at_boot_is_one_fault_that_names_both_axes(self):
+        _, client = self.started(faults=fault("missing", 0))
+        client.call("acquire")
+        client.until(lambda state: state["state"] == "FAULT")
+        self.assertEqual([(each["number"], each["index"]) for each in client.state["faults"]], [(3001, DRIVE - 1)])
+        for name in ("drive 3 (node 2, segment 1)", "drive 4 (node 2, axis 2, segment 2)", "on can0"):
+            self.assertIn(name, client.state["faults"][0]["text"])
+
+    def test_a_node_that_is_lost_takes_both_axes_with_it_in_one_alarm(self):
+        system, client = self.moving_into(kind="missing")
+        self.assertEqual(self.found(client, 3002), [DRIVE - 1, DRIVE])
+        silent = [fault for fault in client.state["faults"] if fault["number"] == 3002]
+        self.assertEqual(silent[0]["tick"], silent[1]["tick"])
+        self.assertEqual(
+            [fault["where"] for fault in silent],
+            ["drive 3 (node 2, segment 1)", "drive 4 (node 2, axis 2, segment 2)"],
+        )
+        self.ended(system, client)
+
+    def test_a_fault_of_axis_2_is_its_own_and_clear_makes_it_usable_again(self):
+        system, client = self.moving_into(kind="fault")
+        self.assertEqual(self.found(client, 3003), [DRIVE])
+        client.go_on(1.0)
+        client.call("state_command", command="clear")
+        client.until(lambda state: state["state"] == "DISABLED" and not state["faults"])
+        client.call("state_command", command="enable")
+        client.until(lambda state: state["state"] == "ENABLED" and state["at_rest"])
+        client.call("state_command", command="disable")
+        client.until(lambda state: state["state"] == "DISABLED")
+        self.ended(system, client)
+        self.assertEqual(system.emergencies()[2][:2], [0x2310, 0])
+
+    def test_axis_2_in_another_mode_is_found_alone(self):
+        system, client = self.moving_into(kind="other_mode", mode=3)
+        self.assertEqual(self.found(client, OTHER_MODE), [DRIVE])
+        self.ended(system, client)
+
+    def test_a_node_that_restarts_is_booted_again_with_both_axes(self):
+        _, client = self.moving_into(kind="reboot")
+        client.go_on(1.0)
+        client.call("state_command", command="clear")
+        client.until(lambda state: state["state"] == "DISABLED" and not state["faults"])
+        client.enable()
+        client.go_on(0.2)
+        self.assertEqual(client.state["state"], "ENABLED", brief(client.state))
 
 
 class DrivesWithoutTargets(SystemTest):
