@@ -21,8 +21,6 @@ constexpr std::int32_t kTpdo2Bytes = 4;
 constexpr std::int32_t kTpdo1Bytes = 8;
 constexpr std::int32_t kTpdo1BytesWithoutTorque = 6;
 
-// Node id of a drive, 1-based; drive i (0-based) drives cable i.
-constexpr std::uint32_t node_of_drive(std::size_t drive) noexcept { return static_cast<std::uint32_t>(drive + 1); }
 // COB-ID on which node 1..127 receives its command.
 constexpr std::uint32_t rpdo1_cob_id(std::uint32_t node) noexcept { return kRpdo1Base + node; }
 // COB-ID on which node 1..127 reports.
