@@ -62,8 +62,8 @@ struct HandGains {
                            // creep for minutes
   double relent_most = 1.15;        // times the tolerances above, at most
   double align_relent_most = 1.15;  // the same before the mouth, where going in corrects it further
-  // Who has striven there for this long gives in, by as much again in the same time, up to align_at_last: a worn arm may
-  // never stand still enough, and what lively people go in with (temper.hpp) is good enough.
+  // Who has striven there for this long gives in, by as much again in the same time, up to align_at_last: a worn arm
+  // may never stand still enough, and what lively people go in with (temper.hpp) is good enough.
   double give_in_s = 60.0;
   double align_at_last = 2.15;
 };
