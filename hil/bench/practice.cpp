@@ -1,6 +1,7 @@
 #include "hil/bench/practice.hpp"
 
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -59,7 +60,11 @@ std::string practise(const std::string& packet, std::uint32_t slot, const Plant&
   }
 }
 
-Practice::Practice(const std::string& path) : listener_(path.empty() ? Socket() : listen_local(path)) {}
+Practice::Practice(const std::string& path) : path_(path), listener_(path.empty() ? Socket() : listen_local(path)) {}
+
+Practice::~Practice() {
+  if (listener_.open()) ::unlink(path_.c_str());
+}
 
 void Practice::serve(std::uint32_t slot, const Plant& plant, FaultInjector& injector) {
   if (!listener_.open()) return;

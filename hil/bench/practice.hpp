@@ -16,8 +16,11 @@ class Practice {
   static constexpr std::size_t kMaxClients = 40;  // a gateway has 32
   static constexpr std::size_t kMaxFaults = 200;  // that the bench keeps in one life
 
-  // Listens at `path` (SOCK_SEQPACKET); empty: nobody is heard. Throws std::runtime_error when it cannot.
+  // Listens at `path` (SOCK_SEQPACKET) until it ends, which removes the path; empty: nobody is heard. Throws
+  // std::runtime_error when it cannot.
   explicit Practice(const std::string& path);
+  ~Practice();
+  Practice(const Practice&) = delete;
 
   // At the start of a slot: does what clients have sent since the last call, and answers each. A packet is a list of
   // faults that begin now, or the JSON text "end".
@@ -26,6 +29,7 @@ class Practice {
  private:
   void serve_client(Socket& client, std::uint32_t slot, const Plant& plant, FaultInjector& injector);
 
+  std::string path_;
   Socket listener_;
   std::vector<Socket> clients_;
 };

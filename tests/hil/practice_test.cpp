@@ -100,6 +100,15 @@ TEST(Practice, WithoutASocketNobodyIsHeardAndASocketIsForThisUserAlone) {
   EXPECT_THROW(Practice(std::string(200, 'x')), std::runtime_error);
 }
 
+// As `liana console` with faults does: the bench is asked first whether it can read them.
+TEST(Practice, ThatHasEndedLeavesItsPathToTheNext) {
+  const std::string path = temporary("practice_again");
+  { Practice asked(path); }
+  struct stat status {};
+  EXPECT_NE(::stat(path.c_str(), &status), 0);
+  EXPECT_NO_THROW(Practice runs(path));
+}
+
 class APacket : public testing::Test {
  protected:
   BenchOptions options_ = options_of(1);
