@@ -155,11 +155,20 @@ class BodiesInTheWayOfASerialArm(SystemTest):
         """Where the tip comes with joint 1 turned from `prepare`."""
         return tip_of("micro", [turn_deg, *self.PREPARE_DEG[1:]])
 
-    def held_by(self, client, goal_deg):
-        """The refusal that ends the way to these angles, and the state in which the arm stands then."""
-        client.call("move_jp", goal_deg=goal_deg)
-        state = client.until(lambda s: s["refusals"] and s["at_rest"], limit_s=120.0)
+    def held_by(self, client, op, **goal):
+        """The refusal that ends the way to this goal, and the state in which the arm stands then."""
+        before = client.state["refusals"]
+        client.call(op, **goal)
+        state = client.until(lambda s: s["refusals"] > before and s["at_rest"], limit_s=120.0)
         return state["verdict"], state
+
+    def refused_at_the_start(self, client, goal_deg):
+        """The refusal of a whole way; the arm stays where it is."""
+        before_deg = client.state["setpoint_js_deg"]
+        verdict, state = self.held_by(client, "move_jp", goal_deg=goal_deg)
+        self.assertEqual((verdict["name"], state["state"]), ("path", "ENABLED"), verdict)
+        self.assertEqual(state["setpoint_js_deg"], before_deg)
+        return verdict["text"]
 
     # req:C8
     def test_a_motion_into_a_ball_is_held_before_it_and_leads_back(self):
@@ -169,7 +178,9 @@ class BodiesInTheWayOfASerialArm(SystemTest):
             client = self.enterContext(system.client())
             client.enable()
             start_deg = list(client.go_on(0.1)["setpoint_js_deg"])
-            verdict, state = self.held_by(client, [24.0, *start_deg[1:]])
+            self.assert_names(self.refused_at_the_start(client, [24.0, *start_deg[1:]]), "%", "ball (link 7)")
+            goal = [*self.beyond(24.0), *client.state["setpoint_cp"][3:7]]
+            verdict, state = self.held_by(client, "move_cp", goal=goal)
             self.assertEqual((verdict["name"], state["state"]), ("scene_contact", "ENABLED"), verdict)
             self.assertIn("ball (link 7)", verdict["text"])
             off_m = sum((a - b) ** 2 for a, b in zip(state["measured_cp"], ball_m)) ** 0.5 - 0.1 - 0.15
@@ -180,13 +191,11 @@ class BodiesInTheWayOfASerialArm(SystemTest):
             self.assertEqual(client.state["retract"]["phase"], "done", client.state["retract"])
             self.assertAlmostEqual(client.state["setpoint_js_deg"][0], start_deg[0], places=3)
 
-    def test_a_motion_that_folds_the_arm_into_itself_is_held(self):
+    def test_a_motion_that_folds_the_arm_into_itself_is_refused_at_the_start(self):
         with System(robot="micro", scene="none", bus="embedded_micro", bench=("--start-pose", "zero")) as system:
             client = self.enterContext(system.client())
             client.enable()
-            verdict, _ = self.held_by(client, [0, 0, 0, 180, 0, 0, 0])
-            self.assertEqual(verdict["name"], "self_contact")
-            self.assert_names(verdict["text"], "itself", "link 3", "link 5")
+            self.assert_names(self.refused_at_the_start(client, [0, 0, 0, 180, 0, 0, 0]), "%", "itself", "link 4")
 
     def test_the_start_pose_and_the_pose_that_a_step_goes_to_are_looked_at_before_anything_starts(self):
         start = tip_of("micro", [0, 0, 0, 0, 0, 0, 0])
