@@ -6,6 +6,7 @@ import pathlib
 import pty
 import re
 import select
+import signal
 import struct
 import subprocess
 import tempfile
@@ -20,6 +21,12 @@ from liana.system import System, program
 CONTROL = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
 REPEAT_S = 0.03  # of a key that is held
 UNREAD_S = 2.0  # twenty pictures: a terminal keeps 4 to 64 kB
+
+
+def release(handle):
+    """Lets a stopped process go on, if it is still there."""
+    with contextlib.suppress(ProcessLookupError):
+        signal.pidfd_send_signal(handle, signal.SIGCONT)
 
 
 class Driver:
@@ -72,6 +79,12 @@ class Driver:
             return wanted()
 
         wait_until(pressed, f"what {key} does: {self.picture()!r}")
+
+    def child(self, name):
+        """Process id of the program that it has started."""
+        threads = pathlib.Path("/proc", str(self.process.pid), "task").glob("*/children")
+        children = [int(number) for thread in threads for number in thread.read_text().split()]
+        return next(each for each in children if pathlib.Path(f"/proc/{each}/comm").read_text().strip() == name)
 
     def end(self, key="x"):
         self.press(key)
@@ -162,6 +175,40 @@ class Teleop(SystemTest):
             wait_until(lambda: (keeper.step(), "gamepad is gone" in driver.picture())[1], "the line")
             wait_until(lambda: keeper.step()["at_rest"], "the hold of a gamepad that is gone")
             self.assert_holds(keeper.state)
+
+    def test_a_lianad_that_hangs_is_not_live_within_a_second_and_a_stop_that_it_does_not_confirm_is_told(self):
+        driver = Driver(self)
+        driver.until("DISABLED", "nobody owns motion")
+        handle = os.pidfd_open(driver.child("lianad"))
+        self.addCleanup(os.close, handle)
+        self.addCleanup(release, handle)
+        signal.pidfd_send_signal(handle, signal.SIGSTOP)
+        begin = time.monotonic()
+        driver.until("NOT LIVE")
+        self.assertLess(time.monotonic() - begin, 2.0)
+        driver.press("nt ")
+        driver.until("NOT STOPPED", "cut the", "NOT LIVE")
+        release(handle)
+        driver.until("STOPPED     by", "key in the terminal", "nobody owns motion")
+        driver.look()
+        wait_until(lambda: "NOT" not in driver.picture(), "a live picture")
+        self.assertEqual(driver.end(), 0)
+
+    def test_after_a_stop_the_second_press_takes_motion_by_name_from_the_owner(self):
+        with System() as system:
+            keeper = system.client("keeper")
+            keeper.go_on(2.0)
+            keeper.call("acquire")
+            driver = Driver(self, "--api", system.api)
+            wait_until(lambda: (keeper.step(), "belongs to keeper" in driver.picture())[1], "its picture")
+            driver.press("t")
+            wait_until(lambda: (keeper.step(), "press t" in driver.picture())[1], "the refusal")
+            driver.press("t")
+            keeper.go_on(0.5)
+            self.assertEqual(keeper.state["owner"], "keeper", "it works, and nobody has stopped the arm")
+            keeper.call("stop")
+            driver.press("t")
+            wait_until(lambda: keeper.step()["owner"].startswith("teleop-"), "its motion")
 
     def gamepad(self):
         """A named pipe in a joystick device's place; its file, and who writes into it."""

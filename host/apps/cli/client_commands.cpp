@@ -9,8 +9,8 @@
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/interrupt.hpp"
 #include "host/apps/launcher/observer.hpp"
-#include "host/base/event/fault_groups.hpp"
 #include "host/base/json/json.hpp"
+#include "host/operator/terminal/state_text.hpp"
 
 namespace liana::cli {
 namespace {
@@ -73,39 +73,6 @@ int exit_code_of(const std::vector<Talk>& talks) {
              : launcher::kExitFailure;
 }
 
-void print_state(const std::string& api, const Json& state) {
-  const std::string owner = state.value("owner", "");
-  std::printf("%s: %s, t = %.2f s, owner %s\n", api.c_str(), state.value("state", "?").c_str(),
-              state.value("time_s", 0.0), owner.empty() ? "nobody" : owner.c_str());
-  const Json stop = state.value("stop", Json());
-  if (stop.is_object())
-    std::printf("emergency stop by %s %s\n", stop.value("by", "").c_str(), stop.value("reason", "").c_str());
-  const Json step = state.value("step", Json());
-  if (step.is_object()) {
-    const Json waits = step.value("waits", Json());
-    std::printf("step %d %s%s\n", step.value("index", 0), step.value("name", "").c_str(),
-                waits.is_string() ? (" waits, " + waits.text()).c_str() : "");
-  }
-  for (const event::FaultGroup& group : event::fault_groups(state.value("faults", Json::array())))
-    std::printf("fault %s: %s\n", group.alarm().c_str(), group.text.c_str());
-  const Json recovery = state.value("recovery", Json());
-  if (recovery.is_object())
-    std::printf("lost: %s; next: %s (docs/how-to/a-cable-broke.md)\n", recovery.value("where", "").c_str(),
-                recovery.value("next", "").c_str());
-  if (const std::string waits = state.value("enabling_waits", ""); !waits.empty())
-    std::printf("enabling waits: %s\n", waits.c_str());
-  const Json clearance = state.value("clearance", Json());
-  if (clearance.is_object()) {
-    std::printf("clearance at least %.1f mm (%s, link %d; %s, bound %.1f mm; %s)\n",
-                1e3 * clearance.value("distance_m", 0.0), clearance.value("body", "").c_str(),
-                clearance.value("link", 0), clearance.value("confidence", "").c_str(),
-                1e3 * clearance.value("bound_m", 0.0), clearance.value("level", "").c_str());
-  }
-  std::printf("theta (deg):");
-  for (const Json& angle : state.value("measured_js_deg", Json::array())) std::printf(" %.3f", angle.get<double>());
-  std::printf("\n");
-}
-
 // Every state as it comes; lianad waits for none of them.
 int send_states(const StatusOptions& options) {
   UdpFeed feed(options.udp);
@@ -148,7 +115,7 @@ int status_command(const StatusOptions& given) {
       state["api"] = talk.api;
       std::puts(state.dump().c_str());
     } else {
-      print_state(talk.api, state);
+      std::printf("%s: %s", talk.api.c_str(), terminal::state_text(state).c_str());
     }
   }
   return exit_code_of(talks);

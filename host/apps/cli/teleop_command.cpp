@@ -68,14 +68,14 @@ void drive(const std::string& api, std::optional<terminal::Gamepad>& gamepad, co
   const auto welcome = launcher::wait_for(client, "welcome", kWelcome_s);
   if (!welcome)
     throw std::runtime_error("lianad at " + api + " did not answer within 30 s: see docs/how-to/nothing-answers.md");
-  terminal::Session session(name, *welcome);
+  terminal::Session session(name, *welcome, now_s());
   terminal::Terminal terminal;
   Beat goal(terminal::Session::kPeriod_s), picture(kDraw_s);
   while (goes_on() && !session.wants_end() && !session.is_over() && !terminal.is_gone()) {
     feel(terminal.read(client.fd(), terminal::Session::kPeriod_s), gamepad, session, client);
-    while (const auto message = client.receive(0.0)) session.hear(*message);
+    while (const auto message = client.receive(0.0)) session.hear(*message, now_s());
     if (goal.is_due(now_s())) send_all(client, session.pass(now_s()));
-    if (picture.is_due(now_s())) terminal.draw(session.lines(terminal.size()));
+    if (picture.is_due(now_s())) terminal.draw(session.lines(terminal.size(), now_s()));
   }
 }
 

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <numbers>
+#include <string_view>
 #include <utility>
 
 namespace liana::terminal {
 namespace {
 
 constexpr double kFaster = 1.25;
+// In lianad's refusal: how a client takes motion by name.
+constexpr std::string_view kByName = "(acquire with from)", kByKey = "(press t again)";
 constexpr double kMinTip_m_s = 0.001, kMinTurn_rad_s = 0.005;
 
 Json pose_json(const Pose& pose) {
@@ -18,7 +21,7 @@ Json pose_json(const Pose& pose) {
 Json state_command(const char* command) { return {{"op", "state_command"}, {"command", command}}; }
 
 // What a key asks for that is neither a jog nor for us alone; null for those.
-Json request_of(Deed deed) {
+Json plain_request_of(Deed deed) {
   switch (deed) {
     case Deed::kStop:
       return {{"op", "stop"}, {"reason", "key in the terminal"}};
@@ -47,14 +50,20 @@ JogLimits limits_of(const Json& welcome) {
 
 }  // namespace
 
-Session::Session(std::string name, const Json& welcome)
-    : name_(std::move(name)), robot_(welcome.at("robot").value("name", "")), limits_(limits_of(welcome)) {
+Session::Session(std::string name, const Json& welcome, double now_s)
+    : name_(std::move(name)),
+      robot_(welcome.at("robot").value("name", "")),
+      is_fast_(welcome.value("time_mode", "") == "fast"),
+      heard_s_(now_s),
+      limits_(limits_of(welcome)) {
   speed_.tip_m_s = std::min(speed_.tip_m_s, limits_.tip_m_s);
   speed_.turn_rad_s = std::min(speed_.turn_rad_s, limits_.turn_rad_s);
 }
 
 std::vector<Json> Session::press(const Key& key, double now_s) {
+  const bool is_stop = key.deed == Deed::kStop, is_silent = silent_s(now_s) > 0.0;
   if (key.deed == Deed::kJog) {
+    if (is_silent) return {};
     const std::string why = why_still();
     if (why.empty()) {
       held_.press(key, now_s);
@@ -67,15 +76,34 @@ std::vector<Json> Session::press(const Key& key, double now_s) {
   if (key.deed == Deed::kSlower) change_speed(1.0 / kFaster);
   if (key.deed == Deed::kFrame) speed_.in_tip = !speed_.in_tip;
   if (key.deed == Deed::kEnd) wants_end_ = true;
-  Json request = request_of(key.deed);
+  Json request = request_of(key);
   if (request.is_null()) return {};
   held_.let_go();
   leant_.reset();
   goal_.reset();
-  return {asked(std::move(request))};
+  if (is_silent && (!is_stop || stop_)) return {};
+  said_.clear();
+  request = asked(std::move(request));
+  if (is_stop) stop_ = Stop{last_id_, stop_ ? stop_->since_s : now_s};
+  if (key.deed == Deed::kTake) take_id_ = last_id_;
+  return {std::move(request)};
+}
+
+// To take motion from an owner by its name is for the second press: the first one's refusal says who that is.
+Json Session::request_of(const Key& key) {
+  Json request = plain_request_of(key.deed);
+  if (key.deed == Deed::kTake && !take_from_.empty() && take_from_ == state_.value("owner", ""))
+    request["from"] = take_from_;
+  if (!request.is_null()) take_from_.clear();
+  return request;
 }
 
 std::vector<Json> Session::pass(double now_s) {
+  if (silent_s(now_s) > 0.0) {
+    held_.let_go();
+    goal_.reset();
+    return {};
+  }
   const std::string why = leant_ ? why_still() : "";
   if (!why.empty()) said_ = why;
   if (!held_.any(now_s) && (!leant_ || !why.empty())) {
@@ -90,17 +118,41 @@ std::vector<Json> Session::pass(double now_s) {
   return {asked({{"op", "servo_cp"}, {"goal", pose_json(*goal_)}, {"ttl_s", kTimeToLive_s}})};
 }
 
-void Session::hear(const Json& message) {
+void Session::hear(const Json& message, double now_s) {
   const std::string op = message.value("op", "");
-  if (op == "state") state_ = message;
+  if (op == "state") {
+    state_ = message;
+    heard_s_ = now_s;
+  }
   if (op == "event" && message.value("kind", "") != "client") said_ = message.value("text", "");
-  if (op != "error") return;
-  said_ = message.value("message", "");
-  goal_.reset();  // begins anew at the commanded tip
+  if (op == "ok" || op == "error") hear_answer(message);
 }
 
-std::vector<std::string> Session::lines(Size size) const {
-  return status_lines(state_, {name_, robot_, speed_, goal_.has_value(), said_}, size);
+void Session::hear_answer(const Json& answer) {
+  const int id = answer.value("id", 0);
+  const bool is_error = answer.value("op", "") == "error";
+  if (stop_ && stop_->id == id && !is_error) stop_.reset();
+  if (!is_error) return;
+  said_ = answer.value("message", "");
+  goal_.reset();  // begins anew at the commanded tip
+  if (id != take_id_ || answer.value("code", "") != "not_owner") return;
+  take_from_ = state_.value("owner", "");
+  if (const std::size_t at = said_.find(kByName); at != std::string::npos) said_.replace(at, kByName.size(), kByKey);
+}
+
+std::vector<std::string> Session::lines(Size size, double now_s) const {
+  return status_lines(state_, {name_, robot_, speed_, goal_.has_value(), said_, silent_s(now_s), unconfirmed_s(now_s)},
+                      size);
+}
+
+double Session::silent_s(double now_s) const {
+  const double silent_s = now_s - heard_s_;
+  return !is_fast_ && silent_s > kMaxSilence_s ? silent_s : 0.0;
+}
+
+double Session::unconfirmed_s(double now_s) const {
+  const double waited_s = stop_ ? now_s - stop_->since_s : 0.0;
+  return waited_s > kMaxSilence_s ? waited_s : 0.0;
 }
 
 std::string Session::why_still() const {

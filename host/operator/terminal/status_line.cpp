@@ -9,6 +9,7 @@
 #include "host/base/event/fault_groups.hpp"
 #include "host/base/json/json.hpp"
 #include "host/base/text/printable.hpp"
+#include "host/operator/terminal/state_text.hpp"
 
 namespace liana::terminal {
 namespace {
@@ -51,9 +52,20 @@ std::string owner_of(const Json& state, const std::string& name) {
 std::string what_next(const Json& state, const Shown& shown) {
   const std::string phase = state.value("state", "");
   if (phase == "ENABLED") return shown.is_jogging ? "moving" : state.value("at_rest", false) ? "at rest" : "";
-  if (phase == "DISABLED") return object(state, "stop").empty() ? "n enables" : "c clears the stop";
+  if (phase == "DISABLED" && !object(state, "stop").empty()) return "c clears the stop";
+  if (phase == "DISABLED") return why_not_homed(state).empty() ? "n enables" : "not homed";
   if (phase == "FAULT") return "c clears what is over";
   return "wait";
+}
+
+// Of a lianad that sends nothing, nothing is claimed to be so now.
+std::string head_line(const Json& state, const Shown& shown) {
+  const std::string phase = state.value("state", "no state yet"), owner = owner_of(state, shown.name);
+  if (shown.silent_s > 0.0)
+    return text_of("%s  NOT LIVE for %.1f s  last seen: %s  %s", shown.robot.c_str(), shown.silent_s, phase.c_str(),
+                   owner.c_str());
+  return text_of("%s  %s  %s  %s  %.1f s", shown.robot.c_str(), phase.c_str(), owner.c_str(),
+                 what_next(state, shown).c_str(), state.value("time_s", 0.0));
 }
 
 std::string tip_line(const Json& state) {
@@ -89,10 +101,20 @@ std::string force_line(const Json& state) {
 }
 
 // What stands in the way, the gravest first.
-std::vector<std::string> trouble_lines(const Json& state) {
+std::vector<std::string> trouble_lines(const Json& state, const Shown& shown) {
   std::vector<std::string> lines;
-  if (const Json& stop = object(state, "stop"); !stop.empty())
-    lines.push_back("STOPPED     by " + stop.value("by", "") + ": " + stop.value("reason", ""));
+  if (shown.unconfirmed_s > 0.0)
+    lines.push_back(
+        text_of("NOT STOPPED lianad did not confirm the stop within %.1f s, perhaps it stands still; "
+                "cut the power",
+                shown.unconfirmed_s));
+  if (shown.silent_s > 0.0)
+    lines.push_back(
+        text_of("NOT LIVE    no state from lianad for %.1f s, perhaps it stands still: these lines are old; "
+                "only SPACE and ESCAPE are sent",
+                shown.silent_s));
+  if (const Json& stop = object(state, "stop"); !stop.empty()) lines.push_back("STOPPED     by " + stopped_by(stop));
+  if (const std::string why = why_not_homed(state); !why.empty()) lines.push_back("NOT HOMED   " + why);
   if (const Json& faults = state.member_or_null("faults"); faults.is_array()) {
     for (const event::FaultGroup& group : event::fault_groups(faults))
       lines.push_back("FAULT       " + group.alarm() + "  " + group.remedy);
@@ -150,8 +172,7 @@ std::vector<std::string> folded(const std::vector<std::string>& lines, std::size
 std::vector<std::string> status_lines(const Json& state, const Shown& shown, Size size) {
   std::vector<std::string> lines = folded(
       {
-          text_of("%s  %s  %s  %s  %.1f s", shown.robot.c_str(), state.value("state", "no state yet").c_str(),
-                  owner_of(state, shown.name).c_str(), what_next(state, shown).c_str(), state.value("time_s", 0.0)),
+          head_line(state, shown),
           text_of("speed       %.0f mm/s, %.1f deg/s, along the %s axes", 1e3 * shown.speed.tip_m_s,
                   shown.speed.turn_rad_s / kDegree, shown.speed.in_tip ? "tip's" : "base's"),
           tip_line(state),
@@ -166,7 +187,7 @@ std::vector<std::string> status_lines(const Json& state, const Shown& shown, Siz
        "t   take motion    n   enable   b   disable   c   clear", "SPACE or ESCAPE   emergency stop",
        "x or Ctrl-C   quit: the arm holds, motion is given back"},
       size.columns);
-  std::vector<std::string> trouble = folded(trouble_lines(state), size.columns);
+  std::vector<std::string> trouble = folded(trouble_lines(state, shown), size.columns);
   const std::size_t taken = lines.size() + below.size();
   const std::size_t room = size.rows > taken ? size.rows - taken : 0;
   if (trouble.size() > room) {

@@ -16,7 +16,9 @@ struct Shown {
   std::string robot;  // name of its table
   JogSpeed speed;
   bool is_jogging = false;
-  std::string said;  // what became of what was asked last
+  std::string said;            // what became of what was asked last
+  double silent_s = 0.0;       // since lianad's last state, once that is too long ago; else 0
+  double unconfirmed_s = 0.0;  // since an emergency stop was asked for, once its answer is late; else 0
 };
 
 // Of a terminal [letters].

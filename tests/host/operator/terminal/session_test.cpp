@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
+
+#include "host/operator/terminal/state_text.hpp"
 #include "tests/message.hpp"
 
 namespace liana::terminal {
@@ -32,14 +35,14 @@ Json state(const std::string& owner = "me", const std::string& phase = "ENABLED"
 }
 
 Session session_at(const Json& said) {
-  Session session("me", welcome());
-  session.hear(said);
+  Session session("me", welcome(), 1.0);
+  session.hear(said, 1.0);
   return session;
 }
 
-std::string text_of(const Session& session) {
+std::string text_of(const Session& session, double now_s = 1.0) {
   std::string text;
-  for (const std::string& line : session.lines({.columns = 200, .rows = 50})) text += line + "\n";
+  for (const std::string& line : session.lines({.columns = 200, .rows = 50}, now_s)) text += line + "\n";
   return text;
 }
 
@@ -49,6 +52,7 @@ TEST(TeleopSession, AGamepadThatLeansIsAStreamOfGoalsAndLettingItGoIsOneHold) {
   session.lean(Direction{{0.0, 0.5, 0.0}, {}});
   double last_m = 0.2;
   for (double now_s = 1.0; now_s < 2.0; now_s += Session::kPeriod_s) {
+    session.hear(state(), now_s);
     const auto requests = session.pass(now_s);
     ASSERT_EQ(requests.size(), 1U);
     ASSERT_EQ(requests[0].at("op"), "servo_cp");
@@ -114,7 +118,7 @@ TEST(TeleopSession, WhatLianadRefusesIsSaidAndTheNextGoalBeginsAtTheCommandedTip
   Session session = session_at(state());
   session.press(*key_of('w'), 1.0);
   for (int k = 0; k < 8; ++k) session.pass(1.0 + k * Session::kPeriod_s);
-  session.hear({{"op", "error"}, {"id", 1}, {"code", "refused"}, {"message", "too near the wall"}});
+  session.hear({{"op", "error"}, {"id", 1}, {"code", "refused"}, {"message", "too near the wall"}}, 1.1);
   EXPECT_NE(text_of(session).find("too near the wall"), std::string::npos);
   const auto next = session.pass(1.14);
   ASSERT_EQ(next.size(), 1U);
@@ -147,9 +151,11 @@ TEST(TeleopSession, EverythingFitsATerminalOf80By24AndItsLastLineSaysHowToQuit) 
     bad["faults"].push_back({{"number", number}, {"name", "drive_silent"}, {"remedy", std::string(150, 'a') + " b"}});
   Session session = session_at(bad);
   session.say(std::string(100, 'x') + " " + std::string(300, 'y'));
-  for (const Json& shown : {state(), bad}) {
-    session.hear(shown);
-    const std::vector<std::string> lines = session.lines({});
+  session.press(*key_of(' '), 1.0);
+  bad["is_homed"] = false;
+  for (const auto& [shown, now_s] : {std::pair(state(), 1.0), {bad, 1.0}, {bad, 1000.0}}) {
+    session.hear(shown, 1.0);
+    const std::vector<std::string> lines = session.lines({}, now_s);
     EXPECT_LE(lines.size(), 24U);
     for (const std::string& line : lines) EXPECT_LE(line.size(), 80U) << line;
     EXPECT_NE(lines.back().find("Ctrl-C"), std::string::npos);
@@ -157,9 +163,117 @@ TEST(TeleopSession, EverythingFitsATerminalOf80By24AndItsLastLineSaysHowToQuit) 
   EXPECT_NE(text_of(session).find("3001"), std::string::npos);
 }
 
+TEST(TeleopSession, ALianadThatSaysNothingForASecondIsShownAsNotLiveAndGetsOneStopAndNothingElse) {
+  Session session = session_at(state());
+  session.press(*key_of('w'), 1.9);
+  ASSERT_FALSE(session.pass(1.9).empty());
+  EXPECT_EQ(text_of(session, 1.9).find("NOT LIVE"), std::string::npos);
+  EXPECT_TRUE(names(text_of(session, 2.1), {"NOT LIVE", "1.1 s", "ENABLED"}));
+  EXPECT_EQ(text_of(session, 2.1).find("at rest"), std::string::npos) << "nobody knows";
+  session.lean(Direction{{1.0, 0.0, 0.0}, {}});
+  for (const char key : {'w', 't', 'n', 'b', 'c', 'r', 'h'}) EXPECT_TRUE(session.press(*key_of(key), 2.1).empty());
+  EXPECT_TRUE(session.pass(2.1).empty());
+  EXPECT_EQ(session.press(*key_of(' '), 2.2).size(), 1U);
+  EXPECT_TRUE(session.press(*key_of(' '), 2.3).empty()) << "the first one waits in lianad's socket";
+  session.hear(state(), 9.0);
+  EXPECT_EQ(text_of(session, 9.5).find("NOT LIVE"), std::string::npos);
+  EXPECT_EQ(session.press(*key_of('n'), 9.5).size(), 1U);
+}
+
+TEST(TeleopSession, InFastTimeALianadThatWaitsForOthersIsLive) {
+  Json fast = welcome();
+  fast["time_mode"] = "fast";
+  Session session("me", fast, 1.0);
+  session.hear(state(), 1.0);
+  EXPECT_EQ(text_of(session, 9.0).find("NOT LIVE"), std::string::npos);
+  EXPECT_EQ(session.press(*key_of('n'), 9.0).size(), 1U);
+}
+
+TEST(TeleopSession, AStopThatIsNotConfirmedWithinASecondSaysSoUntilItIs) {
+  Session session = session_at(state());
+  session.press(*key_of(' '), 1.0);
+  const int id = session.press(*key_of(' '), 1.5)[0].at("id").get<int>();
+  EXPECT_EQ(text_of(session, 1.9).find("NOT STOPPED"), std::string::npos);
+  session.hear(state(), 2.0);
+  EXPECT_TRUE(names(text_of(session, 2.1), {"NOT STOPPED", "1.1 s", "cut the power"})) << "counted from the first one";
+  session.hear({{"op", "ok"}, {"id", id - 1}}, 2.2);
+  EXPECT_NE(text_of(session, 2.2).find("NOT STOPPED"), std::string::npos) << "the answer to something else";
+  session.hear({{"op", "ok"}, {"id", id}}, 2.3);
+  EXPECT_EQ(text_of(session, 2.3).find("NOT STOPPED"), std::string::npos);
+}
+
+TEST(TeleopSession, TheSecondPressTakesMotionByNameFromTheOwnerThatTheRefusalNames) {
+  Session session = session_at(state("pilot"));
+  const Json first = session.press(*key_of('t'), 1.0)[0];
+  EXPECT_FALSE(first.contains("from"));
+  const Json refusal{
+      {"op", "error"}, {"id", first.at("id")}, {"code", "not_owner"}, {"message", "'pilot' (acquire with from)"}};
+  session.hear(refusal, 1.1);
+  EXPECT_TRUE(names(text_of(session, 1.1), {"pilot", "press t again"}));
+  EXPECT_EQ(session.press(*key_of('t'), 1.2)[0].at("from"), "pilot");
+  session.hear(state("other"), 1.3);
+  EXPECT_FALSE(session.press(*key_of('t'), 1.3)[0].contains("from")) << "of this owner nothing was said";
+}
+
+TEST(TeleopSession, MotionIsTakenByNameOnlyRightAfterTheRefusal) {
+  Session session = session_at(state("pilot"));
+  const Json refusal{{"op", "error"}, {"id", 1}, {"code", "not_owner"}, {"message", "'pilot'"}};
+  session.press(*key_of('t'), 1.0);
+  session.hear(refusal, 1.0);
+  session.press(*key_of('h'), 1.1);
+  EXPECT_FALSE(session.press(*key_of('t'), 1.2)[0].contains("from")) << "another key came between";
+  session.hear(refusal, 1.2);
+  EXPECT_FALSE(session.press(*key_of('t'), 1.3)[0].contains("from")) << "the answer to something else";
+}
+
+TEST(TeleopSession, AnArmThatIsNotHomedIsShownWithTheReasonAndIsNotSaidToEnable) {
+  Json unhomed = state("me", "DISABLED");
+  EXPECT_TRUE(names(text_of(session_at(unhomed)), {"n enables"}));
+  unhomed["is_homed"] = false;
+  unhomed["events"] = {{{"tick", 1}, {"text", "booted"}}, {{"tick", 9}, {"text", "not homed: cables 1 to 3"}}};
+  const std::string text = text_of(session_at(unhomed));
+  EXPECT_TRUE(names(text, {"NOT HOMED", "cables 1 to 3"}));
+  EXPECT_EQ(text.find("n enables"), std::string::npos);
+}
+
+TEST(TeleopSession, WhatWasSaidGoesWithTheNextRequestAndAStopWithoutReasonEndsWithItsName) {
+  Json stopped = state("me", "DISABLED");
+  stopped["stop"] = {{"by", "liana estop"}, {"reason", ""}};
+  Session session = session_at(stopped);
+  session.hear({{"op", "event"}, {"kind", "retract"}, {"text", "retract refused"}}, 1.0);
+  EXPECT_NE(text_of(session).find("retract refused"), std::string::npos);
+  EXPECT_NE(text_of(session).find("by liana estop\n"), std::string::npos);
+  session.press(*key_of('c'), 1.1);
+  EXPECT_EQ(text_of(session).find("retract refused"), std::string::npos);
+}
+
+TEST(StateText, NamesStopReasonDeviceFaultWithRemedyAndWhyTheArmIsNotHomed) {
+  Json bad = state("", "DISABLED");
+  EXPECT_EQ(state_text(bad).find("device"), std::string::npos) << "none leads";
+  bad["stop"] = {{"by", "anna"}, {"reason", "smoke"}};
+  bad["faults"] = {{{"number", 3002}, {"name", "drive_silent"}, {"text", "It fell silent."}, {"remedy", "Check it."}}};
+  bad["is_homed"] = false;
+  bad["device"] = "omega";
+  bad["device_engaged"] = false;
+  bad["device_reason"] = "device silent";
+  bad["device_rate"] = {{"hz", 90.0}};
+  const std::string text = state_text(bad);
+  for (const char* words : {"owner nobody", "emergency stop by anna: smoke\n", "3002 drive_silent", "It fell silent.",
+                            "Check it.", "not homed: ", "device omega", "device silent", "90.0 samples/s"})
+    EXPECT_NE(text.find(words), std::string::npos) << words << " in\n" << text;
+  bad["stop"]["reason"] = "";
+  bad["state"] = "BOOTING";
+  bad["device_reason"] = "";
+  bad["device_engaged"] = true;
+  EXPECT_NE(state_text(bad).find("by anna\n"), std::string::npos);
+  EXPECT_EQ(state_text(bad).find("not homed"), std::string::npos) << "nobody has looked yet";
+  EXPECT_TRUE(names(state_text(bad), {"omega", "90.0", "engaged"}));
+}
+
 TEST(TeleopSession, NoLineIsLongerThanTheTerminalIsWideAndBeforeTheFirstStateThereAreSome) {
-  for (const std::string& line : session_at(state()).lines({.columns = 20, .rows = 24})) EXPECT_LE(line.size(), 20U);
-  EXPECT_NE(text_of(Session("me", welcome())).find("no state yet"), std::string::npos);
+  for (const std::string& line : session_at(state()).lines({.columns = 20, .rows = 24}, 1.0))
+    EXPECT_LE(line.size(), 20U);
+  EXPECT_NE(text_of(Session("me", welcome(), 1.0)).find("no state yet"), std::string::npos);
 }
 
 TEST(TeleopSession, SpeedStaysWithinTheRobotsLimits) {
