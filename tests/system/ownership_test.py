@@ -264,15 +264,14 @@ class StopsFromTheCommandLine(SystemTest):
         self.assertEqual(code, 1)
         self.assertRegex(error, "nothing was cleared|'test'")  # the arm may still be stopping
         client.until(lambda state: state["state"] == "FAULT")
-        self.assertEqual(self.while_running("estop", [client])[0], 0)
         code, refused, error = self.while_running("clear", [client])
-        self.assertEqual((code, refused[0]["cleared"], refused[0]["stop"]["by"]), (1, False, "liana estop"))
-        self.assert_names(error, "test", "owns")
+        self.assertEqual((code, refused[0]["cleared"], refused[0]["taken_from"]), (1, False, ""))
+        self.assert_names(error, "test", "owns", "press c")
         self.assert_names(refused[0]["said"], "test", "owns")
-        self.assertEqual((client.state["stop"]["by"], len(client.state["faults"])), ("liana estop", 1))
-        client.call("release")
+        self.assertEqual((client.state["owner"], len(client.state["faults"])), ("test", 1))
+        self.assertEqual(self.while_running("estop", [client])[0], 0)
         code, cleared, error = self.while_running("clear", [client])
-        self.assertEqual((code, error), (0, ""))
+        self.assertEqual((code, error, cleared[0]["taken_from"]), (0, "", "test"))
         self.assertEqual(
             (cleared[0]["cleared"], cleared[0]["stop"]["by"], cleared[0]["faults"][0]["number"]),
             (True, "liana estop", 3003),
@@ -382,8 +381,8 @@ class StopsFromTheCommandLine(SystemTest):
         self.assertEqual(self.while_running("estop", [client])[0], 0)
         client.until(lambda state: state["state"] == "DISABLED")
 
-    def test_an_owner_that_stands_still_loses_motion_after_a_stop_and_is_named_by_process(self):
-        system, client = self.moving()
+    def stuck_owner(self, system, client):
+        """A process that owns motion and stands still."""
         client.call("release")
         code = "import sys; from liana.client import Client; c = Client(sys.argv[1], 'stuck'); c.call('acquire')"
         words = [sys.executable, "-c", code + "; print('owns', flush=True); c.receive(); import time; time.sleep(999)"]
@@ -394,6 +393,21 @@ class StopsFromTheCommandLine(SystemTest):
         self.addCleanup(owner.kill)
         client.until(lambda state: state["owner"] == "stuck")
         owner.send_signal(signal.SIGSTOP)
+        return owner
+
+    def test_clear_takes_motion_from_an_owner_that_stands_still_and_gives_it_back(self):
+        system, client = self.moving([{"drive": 4, "kind": "fault", "at_slot": 2500}])
+        self.stuck_owner(system, client)
+        client.until(lambda state: state["state"] == "FAULT")
+        begin = time.monotonic()
+        wait_until(lambda: (client.step(), time.monotonic() > begin + 5.5)[1], "5 s of silence")
+        code, cleared, error = self.while_running("clear", [client])
+        self.assertEqual((code, error, cleared[0]["taken_from"]), (0, "", "stuck"))
+        client.until(lambda state: not state["owner"] and state["state"] == "DISABLED")
+
+    def test_an_owner_that_stands_still_loses_motion_after_a_stop_and_is_named_by_process(self):
+        system, client = self.moving()
+        owner = self.stuck_owner(system, client)
         self.assert_refused(client.ask("hold"), "not_owner", "'stuck' owns motion", f"process {owner.pid}")
         self.assert_refused(client.ask("acquire"), "not_owner", "'stuck' owns motion", f"process {owner.pid}")
         self.assertEqual(self.while_running("estop", [client])[0], 0)

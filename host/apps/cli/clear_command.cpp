@@ -6,16 +6,18 @@
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/observer.hpp"
 #include "host/base/event/fault_groups.hpp"
+#include "host/operator/terminal/state_text.hpp"
 
 namespace liana::cli {
 namespace {
 
 // What a clear is for, as it was before and as lianad judged it.
 struct Clearing {
-  Json stop;         // as in the state; null: no emergency stop was in force
-  Json faults;       // as in the state
-  int whole = 0;     // cable that was called whole, and taken so
-  std::string said;  // of the faults; empty when there were none
+  Json stop;               // as in the state; null: no emergency stop was in force
+  Json faults;             // as in the state
+  int whole = 0;           // cable that was called whole, and taken so
+  std::string taken_from;  // who owned motion; empty: nobody did
+  std::string said;        // of the faults; empty when there were none
   bool good = true;
   bool is_needed() const { return !stop.is_null() || !faults.empty(); }
 };
@@ -36,7 +38,7 @@ void clear(api::ApiClient& client, const ClearOptions& options, Clearing& cleari
   clearing.faults = state.value("faults", Json::array());
   if (!clearing.is_needed() && options.whole == 0) return;
   require_settled(clearing, state);
-  ask(client, {{"op", "acquire"}}, 1);
+  clearing.taken_from = take_motion(client, state, 1);
   Json request{{"op", "state_command"}, {"command", "clear"}};
   if (options.whole != 0) request["whole"] = options.whole;
   ask(client, request, 2);
@@ -55,11 +57,8 @@ void print_text(const std::string& api, const Clearing& clearing) {
     std::printf("%s: %s\n", api.c_str(), clearing.whole == 0 ? "nothing to clear" : whole.c_str());
     return;
   }
-  if (!clearing.stop.is_null()) {
-    const std::string reason = clearing.stop.value("reason", "");
-    std::printf("%s: cleared: emergency stop by %s%s\n", api.c_str(), clearing.stop.value("by", "").c_str(),
-                (reason.empty() ? "" : ": " + reason).c_str());
-  }
+  if (!clearing.stop.is_null())
+    std::printf("%s: cleared: emergency stop by %s\n", api.c_str(), terminal::stopped_by(clearing.stop).c_str());
   for (const event::FaultGroup& group : event::fault_groups(clearing.faults))
     std::printf("%s: %s: fault %s\n", api.c_str(), clearing.good ? "cleared" : "not cleared", group.alarm().c_str());
   if (!clearing.said.empty()) std::printf("%s: %s\n", api.c_str(), clearing.said.c_str());
@@ -78,11 +77,14 @@ int clear_command(const ClearOptions& options) {
     clearing.good = false;
     clearing.said = problem = error.what();
   }
+  if (!options.json && !clearing.taken_from.empty())
+    std::printf("%s: motion was taken from '%s' and is given back\n", api.c_str(), clearing.taken_from.c_str());
   if (options.json) {
     std::puts(Json{{"api", api},
                    {"cleared", clearing.good && clearing.is_needed()},
                    {"stop", clearing.stop},
                    {"faults", clearing.faults},
+                   {"taken_from", clearing.taken_from},
                    {"said", clearing.said}}
                   .dump()
                   .c_str());

@@ -16,6 +16,21 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kVerdictTimeout_s = 15.0;  // the drives get their reset first
 
+bool is_refused(const Json& answer) { return answer.value("op", "") == "error"; }
+
+// Lianad's ok or error; throws std::runtime_error when none comes within 5 s.
+Json answer_to(api::ApiClient& client, Json request, int id) {
+  request["id"] = id;
+  client.send(request);
+  const auto deadline = Clock::now() + std::chrono::duration<double>(kAnswerTimeout_s);
+  for (auto now = Clock::now(); now < deadline; now = Clock::now()) {
+    const auto message = client.receive(std::chrono::duration<double>(deadline - now).count());
+    if (message && (message->value("op", "") == "ok" || is_refused(*message))) return *message;
+  }
+  throw std::runtime_error("lianad did not answer " + request.value("op", "") +
+                           " within 5 s: see docs/how-to/nothing-answers.md");
+}
+
 }  // namespace
 
 std::string only_system(const std::string& command, const std::string& given) {
@@ -34,11 +49,21 @@ Json next_state(api::ApiClient& client) {
 }
 
 void ask(api::ApiClient& client, Json request, int id) {
-  request["id"] = id;
-  client.send(request);
-  if (!launcher::wait_for(client, "ok", kAnswerTimeout_s))
-    throw std::runtime_error("lianad did not answer " + request.value("op", "") +
-                             " within 5 s: see docs/how-to/nothing-answers.md");
+  const Json answer = answer_to(client, std::move(request), id);
+  if (is_refused(answer)) throw std::runtime_error("lianad: " + answer.value("message", answer.dump()));
+}
+
+std::string take_motion(api::ApiClient& client, const Json& state, int id) {
+  const std::string owner = state.value("owner", "");
+  Json request{{"op", "acquire"}};
+  if (!owner.empty()) request["from"] = owner;
+  const Json answer = answer_to(client, std::move(request), id);
+  if (is_refused(answer))
+    throw std::runtime_error("lianad: " + answer.value("message", answer.dump()) +
+                             (answer.value("code", "") == "not_owner"
+                                  ? "; press c where motion is owned, or give it back there, then clear again"
+                                  : ""));
+  return owner;
 }
 
 event::Event clear_verdict(api::ApiClient& client) {

@@ -18,6 +18,10 @@ Json next_state(api::ApiClient& client);
 // Sends `request` under this number and waits for its answer; throws std::runtime_error with lianad's refusal.
 void ask(api::ApiClient& client, Json request, int id);
 
+// Takes motion, by its name from the owner that `state` shows: lianad allows that after an emergency stop or 5 s of the
+// owner's silence. Returns that owner, empty when nobody owned motion; throws as `ask`, with what to do.
+std::string take_motion(api::ApiClient& client, const Json& state, int id);
+
 // What lianad says, within 15 s, of the faults that it was to clear.
 event::Event clear_verdict(api::ApiClient& client);
 
