@@ -269,7 +269,7 @@ int device_watch_command(const DeviceOptions& options);
 int estop_command(const ClientOptions& options);
 
 // Clears the emergency stop in force and the latched faults of one running system, and names them; it enables nothing.
-// Exit code 1 when somebody else owns motion, the arm is not at rest yet, or a fault is still there.
+// Exit code 1 when somebody else keeps motion, the arm is not at rest yet, or a fault is still there.
 struct ClearOptions : ClientOptions {
   int whole = 0;  // cable of fault 5006 that somebody has looked at; 0: none
 };
