@@ -56,7 +56,7 @@ function engine.new(mission, welcome, native, name, is_rehearsal)
   return setmetatable({
     mission = mission, native = native, name = name, arm = arm, is_rehearsal = is_rehearsal,
     phase = "boot", index = 0, pending = pending, not_before = 0, first_retract_tick = nil, current_hold = {},
-    index_to_begin = 1, single_step = false, taken = {}, -- of each way how often
+    index_to_begin = 1, single_step = false, heard = 0, taken = {}, -- of each way how often
     boot_reason = "state_command got no refusal",
     report = { mission = mission.name, outcome = "failed", reason = "", steps = {}, duration_s = 0 },
   }, Runner)
@@ -144,6 +144,9 @@ function Runner:begin_step(index, goes_on)
   self.native.progress { event = "begin", index = index, count = #self.mission.steps, name = step.name, device = step.device, time_s = state.time_s }
   self:tell_report()
   self:enter_phase("enter")
+  local by = self.pause_by
+  self.pause_by = nil
+  if by then return self:pause("asked for by " .. by) end
   if self.single_step and not goes_on then self:pause("one step at a time") end
 end
 
@@ -358,12 +361,15 @@ function Runner:fail(outcome, reason, for_good, ended_by)
   local action = step and step.on_fail or "hold"
   if action == "pause" and not for_good then return self:get_stuck() end
   if action == "pause" then action = "hold" end
-  if action == "retract" then
-    self:request("retract", { until_tick = self.first_retract_tick })
-    return self:enter_phase("retract")
-  end
+  if action == "retract" then return self:go_back() end
   if self.owned or action == "stop" then self:request(action, action == "stop" and { reason = printable(reason, 200) } or {}) end
   self:enter_phase("give_up")
+end
+
+function Runner:go_back()
+  self.points_left = nil
+  self:request("retract", { until_tick = self.first_retract_tick })
+  self:enter_phase("retract")
 end
 
 -- The arm holds, and others may own motion meanwhile: to clear, to enable, to lead the arm back.

@@ -28,6 +28,10 @@ function people.methods:pause(why)
 end
 
 function people.methods:go_on()
+  if self.failed_reason and self.phase == "paused" then -- on the way back
+    self:announce_step()
+    return self:go_back()
+  end
   if self.phase == "stuck" then -- from the beginning of the step, as the owner of an arm that is enabled
     self.index_to_begin, self.not_before, self.failed_outcome, self.failed_reason = self.index, 0, nil, nil
     return self:enter_phase("boot")
@@ -40,18 +44,21 @@ end
 
 local kAsked = {}
 
+local kStepFollows = { boot = true, recover = true } -- phases before a step, which a pause lets begin and no more
+
 function kAsked.pause(runner, by)
-  if people.kUnderWay[runner.phase] then runner:pause("asked for by " .. by) end
+  if kStepFollows[runner.phase] then runner.pause_by = by end
+  if people.kUnderWay[runner.phase] or runner.phase == "retract" then runner:pause("asked for by " .. by) end
 end
 
 function kAsked.resume(runner)
-  runner.single_step = false
+  runner.single_step, runner.pause_by = false, nil
   if runner.phase == "paused" or runner.phase == "stuck" then runner:go_on() end
 end
 
 -- The step under way, or the next one, and then a pause.
 function kAsked.step(runner)
-  runner.single_step = true
+  runner.single_step, runner.pause_by = true, nil
   if runner.phase == "paused" or runner.phase == "stuck" then runner:go_on() end
 end
 
@@ -62,23 +69,36 @@ function kAsked.confirm(runner)
   runner:enter_phase("enter")
 end
 
-function kAsked.abort(runner, by)
-  local reason = "ended by " .. by
-  if runner.phase == "stuck" then return runner:over(runner.failed_outcome, runner.failed_reason .. "; " .. reason) end
-  if people.kUnderWay[runner.phase] or runner.phase == "recover" or runner.phase == "paused" then runner:fail("aborted", reason, true) end
+-- A paused step fails; a paused way back goes on, for it is what the step's failure has led to.
+local function end_pause(runner, outcome, reason)
+  if runner.failed_reason then return runner:go_on() end
+  runner:fail(outcome, reason, true)
 end
 
--- What somebody has asked for since the last look (docs/reference/api.md, mission_control).
+local kTakesPower = { DISABLED = true, ENABLING = true } -- states in which this runner's `enable` may be under way
+
+function kAsked.abort(runner, by)
+  local phase, reason = runner.phase, "ended by " .. by
+  if phase == "stuck" then return runner:over(runner.failed_outcome, runner.failed_reason .. "; " .. reason) end
+  if phase == "paused" then return end_pause(runner, "aborted", reason) end
+  if phase == "boot" and runner.owned and kTakesPower[runner.arm.state.state] then runner:request("state_command", { command = "disable" }) end
+  if phase == "boot" or phase == "finish" then return runner:over("aborted", reason) end -- no step is under way: the arm holds
+  if people.kUnderWay[phase] or phase == "recover" then runner:fail("aborted", reason, true) end
+end
+
+-- What somebody has asked this mission for since the last look (docs/reference/api.md, mission_control).
 function people.methods:heed()
   local asked = self.arm.state.mission_control
   local number = asked and asked.number or 0
-  if self.heard ~= nil and number > self.heard then kAsked[asked.command](self, asked.by) end
-  self.heard = number
+  if number > self.heard then
+    self.heard = number
+    kAsked[asked.command](self, asked.by)
+  end
 end
 
 -- Waiting for people has an end, too.
 function people.wait(runner)
-  if runner:phase_s() > kPatience_s then runner:fail("failed", ("nobody said how to go on within %g s"):format(kPatience_s), true) end
+  if runner:phase_s() > kPatience_s then end_pause(runner, "failed", ("nobody said how to go on within %g s"):format(kPatience_s)) end
 end
 
 function people.wait_stuck(runner)

@@ -102,6 +102,7 @@ void FakeLianad::converse() {
       std::this_thread::sleep_for(std::chrono::milliseconds(2500));
       behaviour_.slow_in_step = 0;
     }
+    listen_to_people();
     send(state());
     if (!handle_until_done()) return;
     advance();
@@ -142,6 +143,7 @@ void FakeLianad::obey(const Json& request) {
   if (op == "release") owner_ = "";
   if (op == "state_command" && request["command"] == "home") is_homed_ = true;
   if (op == "state_command" && request["command"] == "enable") state_ = "ENABLING";
+  if (op == "state_command" && request["command"] == "disable") state_ = "DISABLED";
   if (op == "move_jp") goal_deg_ = request["goal_deg"];
   if (op == "move_path") {
     goal_deg_ = request["points_deg"][request["points_deg"].size() - 1];
@@ -172,10 +174,6 @@ void FakeLianad::advance() {
   if (state_ == "ENABLING" && tick_ > 200) state_ = "ENABLED";
   if (path_intervals_ > 0) --path_intervals_;
   ++intervals_in_step_;
-  if (asked_ < behaviour_.people.size() && behaviour_.people[asked_].first == step_ && intervals_in_step_ >= 25) {
-    ++asked_;
-    intervals_in_step_ = 0;
-  }
   if (behaviour_.hold_fault_goes && step_ == behaviour_.hold_fault_in_step && owner_.empty())
     behaviour_.hold_fault_in_step = 0;
   if (busy_intervals_ > 0 && --busy_intervals_ == 0) {
@@ -196,6 +194,13 @@ void FakeLianad::advance() {
   if (intervals_with_device_ < 80) return;
   engaged_ = false;
   if (!behaviour_.operator_speaks_too_early) said_ = {{"what", "arrived"}, {"tick", tick_}};
+}
+
+void FakeLianad::listen_to_people() {
+  if (asked_ == behaviour_.people.size() || behaviour_.people[asked_].first != step_) return;
+  if (intervals_in_step_ < behaviour_.people_after_intervals) return;
+  ++asked_;
+  intervals_in_step_ = 0;
 }
 
 Json FakeLianad::state() const {

@@ -30,7 +30,8 @@ struct FakeBehaviour {
   int steal_in_step = 0;                           // another owner
   bool way_back_ends_early = false;                // retract is accepted, but does not go all the way
   bool way_back_stalls = false;                    // retract is accepted, and nothing comes of it
-  std::vector<std::pair<int, std::string>> people = {};  // (step, command): each once, 25 intervals into that step
+  std::vector<std::pair<int, std::string>> people = {};  // (step, command): each once, and so far into that step
+  int people_after_intervals = 25;                       // in step 0 since the first state
   bool hold_fault_goes = false;                          // once nobody owns motion any more
   double speed_share = 1.0;                              // of the tip's speed, what a hand is left
   double tip_in_slit_u_m = 3.2;                          // where the hand steps bring the tip
@@ -60,6 +61,7 @@ class FakeLianad {
   void answer(const Json& request);
   void obey(const Json& request);
   void advance();
+  void listen_to_people();
   Json state() const;
   Json retract() const;
   int planar_segments() const;

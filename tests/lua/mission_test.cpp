@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "host/apps/mission_runner/mission_run.hpp"
@@ -540,6 +541,109 @@ TEST(Mission, FaultsAndErrorsOfTheScriptAreNoFailureThatNextLeadsOnFrom) {
       {}, steps_with(folder, {"next = { step = 'b', when = c('c', function() error 'x' end) }", ""}));
   EXPECT_EQ(order_of(in_next), "a");
   EXPECT_NE(in_next.report["reason"].get<std::string>().find("error in next: "), std::string::npos) << in_next.report;
+}
+
+// Booting (tick 0 to 55), asked to enable, and ENABLING (to tick 200); a state has five ticks.
+constexpr int kBeforeTheFirstStep[] = {0, 1, 11, 12, 25};
+
+TEST(Mission, AnAbortBeforeTheFirstStepEndsItAndTakesPowerAway) {
+  const TemporaryFolder folder;
+  const std::string mission = two_steps(folder, "on_fail = 'hold'");
+  for (const int interval : kBeforeTheFirstStep) {
+    const MissionRun run = run_mission_against({.people = {{0, "abort"}}, .people_after_intervals = interval}, mission);
+    EXPECT_EQ(run.report["outcome"], "aborted") << interval;
+    EXPECT_EQ(run.report["reason"], "ended by ann") << interval;
+    EXPECT_TRUE(run.report["steps"].empty()) << interval;
+    EXPECT_TRUE(run.ops("move_jp").empty()) << interval;
+    const std::vector<std::string> asked = run.ops("state_command");
+    const auto is_enable = [](const std::string& request) { return Json::parse(request)["command"] == "enable"; };
+    if (std::any_of(asked.begin(), asked.end(), is_enable)) {
+      EXPECT_EQ(Json::parse(asked.back())["command"], "disable") << interval;
+    }
+  }
+}
+
+TEST(Mission, APauseBeforeTheFirstStepHoldsWhereThatBegins) {
+  const TemporaryFolder folder;
+  const std::string mission = two_steps(folder, "on_fail = 'hold'");
+  for (const int interval : kBeforeTheFirstStep) {
+    const MissionRun aborted =
+        run_mission_against({.people = {{0, "pause"}, {1, "abort"}}, .people_after_intervals = interval}, mission);
+    EXPECT_EQ(aborted.report["outcome"], "aborted") << interval;
+    EXPECT_EQ(waits_of(aborted), (std::vector<std::string>{"paused: asked for by ann"})) << interval;
+    EXPECT_TRUE(aborted.ops("move_jp").empty()) << interval;
+  }
+  const MissionRun resumed = run_mission_against({.people = {{0, "pause"}, {1, "resume"}}}, mission);
+  EXPECT_EQ(resumed.report["outcome"], "success") << resumed.ended.error;
+  EXPECT_EQ(resumed.ops("move_jp").size(), 2u);
+  for (const std::string& taken_back : std::vector<std::string>{"resume", "step"}) {
+    const MissionRun run = run_mission_against(
+        {.people = {{0, "pause"}, {0, taken_back}, {2, "resume"}}, .people_after_intervals = 12}, mission);
+    EXPECT_EQ(run.report["outcome"], "success") << taken_back;
+    EXPECT_EQ(waits_of(run).size(), taken_back == "step" ? 1u : 0u) << taken_back;
+  }
+}
+
+TEST(Mission, AnAbortActsInAStepInAPauseAndRightAfterResume) {
+  const TemporaryFolder folder;
+  const std::string mission = two_steps(folder, "on_fail = 'pause'");
+  const std::vector<std::vector<std::pair<int, std::string>>> orders = {
+      {{1, "abort"}}, {{1, "pause"}, {1, "abort"}}, {{1, "pause"}, {1, "resume"}, {1, "abort"}}};
+  for (const auto& people : orders) {
+    const MissionRun run = run_mission_against({.people = people, .people_after_intervals = 3}, mission);
+    EXPECT_EQ(run.report["outcome"], "aborted") << people.size();
+    EXPECT_EQ(run.report["reason"], "ended by ann") << people.size();
+    EXPECT_EQ(order_of(run), "one") << people.size();
+    EXPECT_EQ(run.last_command(), "hold") << people.size();
+  }
+  // The pause comes with the fault, which counts first; the abort in the only interval of boot.
+  const MissionRun after_a_fault = run_mission_against({.hold_fault_in_step = 2,
+                                                        .people = {{2, "pause"}, {2, "resume"}, {2, "abort"}},
+                                                        .people_after_intervals = 1,
+                                                        .hold_fault_goes = true},
+                                                       mission);
+  EXPECT_EQ(after_a_fault.report["outcome"], "aborted");
+  EXPECT_EQ(after_a_fault.report["reason"], "ended by ann");
+  EXPECT_EQ(after_a_fault.report["steps"].size(), 2u) << "the failed step does not begin anew";
+}
+
+TEST(Mission, BetweenTwoStepsAnAbortEndsItAndAPauseHoldsTheSecond) {
+  const TemporaryFolder folder;
+  const std::string move = "run = liana.move_to 'prepare', ";
+  const std::string mission = steps_with(
+      folder, {move + "exit = after(99), fail_when = after(0.1), next = { step = 'b', on = 'failure' }", move});
+  // Step a has failed after 0.1 s, and its motion ends at 0.4 s.
+  const MissionRun aborted = run_mission_against({.people = {{1, "abort"}}, .people_after_intervals = 12}, mission);
+  EXPECT_EQ(order_of(aborted), "a");
+  EXPECT_EQ(aborted.report["outcome"], "aborted");
+  const MissionRun paused =
+      run_mission_against({.people = {{1, "pause"}, {2, "abort"}}, .people_after_intervals = 12}, mission);
+  EXPECT_EQ(order_of(paused), "ab");
+  EXPECT_EQ(waits_of(paused), (std::vector<std::string>{"paused: asked for by ann"}));
+  EXPECT_EQ(paused.ops("move_jp").size(), 1u);
+}
+
+TEST(Mission, APauseHoldsTheWayBackWhichGoesOnWhenPeopleSaySoOrAbort) {
+  const TemporaryFolder folder;
+  const std::string mission = steps_with(folder, {"exit = after(99), fail_when = after(0.1)"});
+  for (const std::string& word : std::vector<std::string>{"resume", "abort"}) {
+    const MissionRun run = run_mission_against(
+        {.way_back_stalls = true, .people = {{1, "pause"}, {1, word}}, .people_after_intervals = 12}, mission);
+    EXPECT_EQ(run.ops("retract").size(), 2u) << word;
+    EXPECT_EQ(run.ops("hold").size(), 2u) << word << ": one at the pause, one when the way back stalls";
+    EXPECT_EQ(waits_of(run), (std::vector<std::string>{"paused: asked for by ann"})) << word;
+    EXPECT_TRUE(names(run.report["reason"].get<std::string>(), {"fail_when", "60 s", "7 points"})) << run.report;
+  }
+}
+
+TEST(Mission, AnAbortBehindTheLastStepHoldsAndDoesNotRetract) {
+  const TemporaryFolder folder;
+  const MissionRun run =
+      run_mission_against({.people = {{1, "abort"}}, .people_after_intervals = 8}, steps_with(folder, {""}));
+  ASSERT_EQ(run.report["steps"].size(), 1u);
+  EXPECT_EQ(run.report["steps"][0]["outcome"], "success") << "it was over";
+  EXPECT_EQ(run.report["outcome"], "aborted");
+  EXPECT_TRUE(run.ops("retract").empty());
 }
 
 TEST(Mission, WhatTheOperatorSaidBeforeTheStepDoesNotEndIt) {
