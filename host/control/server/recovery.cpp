@@ -73,6 +73,12 @@ std::string why_drive_holds(const LossView& arm) {
   return "no cable is lost: fault 5006 is not latched; see docs/how-to/arm-stands-in-the-slit-with-a-fault.md";
 }
 
+// An arm whose path is at its end is out: what is left to do is the repair.
+std::string next_after_clear(const Path& path, Index lost) {
+  const std::string whole = "liana clear --whole " + std::to_string(lost + 1);
+  return path.size() < 2 ? "replace the cable, then " + whole : "liana recover goes on; after a repair " + whole;
+}
+
 }  // namespace
 
 std::vector<std::size_t> lost_cables(const LossView& arm) {
@@ -124,13 +130,9 @@ Json recovery_json(const LossView& arm, const Path& path) {
     if (is_released(release, layout, c)) slack.push_back(c + 1);
   // The plan of an arm with weight is long: it is made when somebody asks.
   const bool recovers = cable::does_without(arm.release) && arm.outputs.faults.count == 0;
-  return {{"cables", cables},
-          {"where", arm.names.drive(lost[0])},
-          {"slack", slack},
-          {"recovers", recovers},
-          {"points", path.size()},
-          {"next", recovers ? "liana recover goes on; after a repair liana clear --whole " + std::to_string(lost[0] + 1)
-                            : "liana recover"}};
+  return {{"cables", cables},      {"where", arm.names.drive(lost[0])},
+          {"slack", slack},        {"recovers", recovers},
+          {"points", path.size()}, {"next", recovers ? next_after_clear(path, lost[0]) : "liana recover"}};
 }
 
 std::string slack_cables(const LossView& arm) {

@@ -61,7 +61,8 @@ Json Service::answer_to(const api::RequestRow& row, const api::ClientInfo& clien
   return (this->*found->second)(client, fields);
 }
 
-Json Service::welcome(const api::ClientInfo&) {
+Json Service::welcome(const api::ClientInfo& client) {
+  if (client.role == api::Role::kMission) notes_.mission_control = nullptr;  // that was for the mission before
   return {{"op", "welcome"},
           {"time_mode", timing::time_mode_name(config_.time_mode)},
           {"period_s", config_.buses.tick_s()},
@@ -209,9 +210,10 @@ Json Service::on_announce(const api::ClientInfo&, const api::Arguments& fields) 
 
 // The mission reads it in the next state, and does what its step allows.
 Json Service::on_mission_control(const api::ClientInfo& client, const api::Arguments& fields) {
-  if (!server_.has_role(api::Role::kMission))
-    throw api::RequestError("refused", "no mission runs: start one with liana run");
   const std::string command = fields.text("command");
+  if (!server_.has_role(api::Role::kMission))
+    throw api::RequestError(
+        "refused", "no mission runs, so there is nothing to " + command + ": liana status says what the arm does");
   notes_.mission_control = {{"number", ++mission_asked_}, {"command", command}, {"by", printable(client.name)}};
   note({.kind = event::EventKind::kOperator, .subject = client.name, .text = "mission: " + command});
   return {{"tick", tick()}};

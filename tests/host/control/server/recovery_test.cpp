@@ -7,6 +7,7 @@
 
 #include "host/base/json/json.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
+#include "tests/message.hpp"
 
 namespace liana::server {
 namespace {
@@ -56,6 +57,15 @@ TEST_F(RecoveryTest, AFaultThatWasClearedForTheWayBackStandsUntilTheCableIsWhole
   EXPECT_EQ(now["cables"], Json(std::vector<int>{5}));
   EXPECT_EQ(now["slack"], Json(std::vector<int>({4, 5, 6})));
   EXPECT_TRUE(now["recovers"].get<bool>());
+}
+
+TEST_F(RecoveryTest, AnArmThatIsOutIsToBeRepairedAndNotLedOutAgain) {
+  release_ = {cable::SegmentReleaseStage::kBroken, 1, 4, cable::kLetGoSettleTicks};
+  EXPECT_TRUE(names(recovery_json(arm(), path_)["next"].text(), {"liana recover", "--whole 5"}));
+  path_.keep(1);
+  const std::string next = recovery_json(arm(), path_)["next"];
+  EXPECT_EQ(next.find("recover"), std::string::npos) << next;
+  EXPECT_TRUE(names(next, {"--whole 5"})) << next;
 }
 
 TEST_F(RecoveryTest, WithoutALossOrAPathThereIsNoRecovery) {

@@ -634,6 +634,22 @@ TEST_F(ServiceOverSocket, WhatMissionAndOperatorTellEachOtherIsRepeated) {
   EXPECT_TRUE(state(mission)["step"].is_null());
 }
 
+TEST_F(ServiceOverSocket, WhatPeopleAskOfAMissionIsRepeatedUntilAnotherMissionComes) {
+  api::ApiClient person = join("client");
+  const Json abort{{"op", "mission_control"}, {"command", "abort"}};
+  const Json none = full_answer(person, abort);
+  EXPECT_EQ(none["code"], "refused");
+  EXPECT_TRUE(state(person)["mission_control"].is_null());
+  {
+    api::ApiClient mission = join("mission");
+    EXPECT_EQ(ask(person, abort), "ok");
+    EXPECT_EQ(state(mission)["mission_control"]["command"], "abort") << "asked for before its first state";
+  }
+  state(person);
+  api::ApiClient next = join("mission");
+  EXPECT_TRUE(state(next)["mission_control"].is_null());
+}
+
 TEST_F(ServiceOverSocket, AFullDiskOfTheFlightRecorderIsAnEventAndNobodyElseCanSayIt) {
   api::ApiClient archive = join("archive"), person = join("client");
   const Json alarm{{"op", "archive_alarm"}, {"text", "ticks 5 to 9 missing"}, {"count", 5}};
