@@ -230,8 +230,8 @@ local function ended_by_condition(runner)
   return is_over or not is_well
 end
 
--- How much of this state's time does not count for the step's limit: while lianad leaves a hand, or a motion that waits for a
--- cable, a share of its speed, that share of the time counts.
+-- How much of this state's time does not count for the step's limit: while lianad lets the hand lead the arm at a share of its
+-- speed, that share of the time counts.
 local function slowed_s(runner, state)
   local guidance = state.guidance
   local share = guidance and guidance.speed_share or 1

@@ -218,7 +218,7 @@ template <class Arm>
 std::optional<typename Arm::Setpoint> Arbiter<Arm>::ask(const Now& now) {
   const auto* path = std::get_if<PathMove<Arm>>(&way_);
   const bool awaits = path != nullptr && !path->outlook();
-  const Goal<Arm> goal = std::visit([&](auto& way) { return way.next(now, pace_); }, way_);
+  const Goal<Arm> goal = std::visit([&](auto& way) { return way.next(now); }, way_);
   if (awaits && path->outlook()) tell_of_outlook(*path);
   if (std::visit([](const auto& way) { return way.is_over(); }, way_)) end_motion();
   return setpoint_for(now, goal);
@@ -267,7 +267,7 @@ typename Arm::Setpoint Arbiter<Arm>::tip_setpoint(const Now& now, const Pose& go
   setpoint.tip_in_base = goal;
   Kind::add_wishes(wishes_, setpoint);
   const auto* target = std::get_if<TipTarget<Arm>>(&way_);
-  const double max_m_s = pace_ * tip_speed_m_s_ * (target != nullptr ? target->speed_share() : 1.0);
+  const double max_m_s = tip_speed_m_s_ * (target != nullptr ? pace_ * target->speed_share() : 1.0);
   const double zone_m_s =
       zone_.advice_at(now.tip_command.position_m, zone_.advice_at(goal.position_m, SpeedRise::kMost_m_s));
   setpoint.tip_speed_m_s = std::min(max_m_s, speed_rise_.limited(zone_m_s));

@@ -110,7 +110,7 @@ class Arbiter {
   void ask_anew();
   // Of `limit_m_s`, what a tip that is led along `way_m` may have now.
   virtual double speed_left_m_s(const Vec3& way_m, double limit_m_s);
-  // Of the speed of planned motions, what the arm leaves in this interval, 0..1.
+  // Of the tip's speed, what the arm leaves hands and streams in this interval, 0..1.
   virtual double pace_left(const Now&) { return 1.0; }
   double pace() const { return pace_; }
   void limit_tip_speed(double speed_m_s) { tip_speed_m_s_ = speed_m_s; }
@@ -123,7 +123,7 @@ class Arbiter {
   // Nothing is asked for.
   struct Idle {
     static constexpr bool kIsPlanned = false;
-    Goal<Arm> next(const Now&, double) { return {}; }
+    Goal<Arm> next(const Now&) { return {}; }
     bool is_over() const { return false; }
     bool refused() { return false; }
   };

@@ -65,13 +65,12 @@ concept SupportedArm = requires(const typename Arm::Table& table, const Joints<A
 template <class Arm>
 using Goal = std::variant<std::monostate, Pose, Joints<Arm>>;
 
-// A way of moving, begun by its constructor. Once per command interval `next` is asked, and `is_over` after it; `pace`
-// is the share of its speed that the arm leaves a planned motion now.
+// A way of moving, begun by its constructor. Once per command interval `next` is asked, and `is_over` after it.
 // `refused` follows when verification refuses what was asked for: true, the way goes on nevertheless. While a planned
 // one is under way, other requests are busy.
 template <class W, class Arm>
 concept MotionGenerator = requires(W way, const W& seen, const liana::Outputs<Arm>& now) {
-  { way.next(now, 1.0) } -> std::same_as<Goal<Arm>>;
+  { way.next(now) } -> std::same_as<Goal<Arm>>;
   { seen.is_over() } -> std::same_as<bool>;
   { way.refused() } -> std::same_as<bool>;
   { W::kIsPlanned } -> std::convertible_to<bool>;

@@ -296,7 +296,6 @@ double CableArbiter::speed_left_m_s(const Vec3& way_m, double limit_m_s) {
 }
 
 virtual_fixtures::Ease CableArbiter::ease() const {
-  if (Base::is_busy() && pace() < 1.0) return {pace(), virtual_fixtures::SlowdownCause::kTension};
   if (!was_engaged_ || lag_share_ > kLagTold || lag_share_ >= ease_.share) return ease_;
   return {lag_share_, virtual_fixtures::SlowdownCause::kLag};
 }

@@ -81,7 +81,7 @@ class CableArbiter final : public Arbiter<cable::CableArm> {
   const cable::KeepClearTargets& keep_clear() const { return wishes().clear; }
   std::uint32_t held_mask() const { return wishes().held_mask; }
   const virtual_fixtures::Guidance& guidance() const { return guidance_; }
-  // Why the hand is followed, or a planned motion goes, more slowly than asked, and how much.
+  // Why the hand is followed more slowly than it asks, and how much; nothing while nobody steers.
   virtual_fixtures::Ease ease() const;
   TeleopInput& device() { return device_; }
   const TeleopInput& device() const { return device_; }

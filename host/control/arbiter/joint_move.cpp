@@ -100,7 +100,7 @@ bool JointMove<Arm>::is_looked_at(const Joints<Arm>& from_rad) {
 }
 
 template <class Arm>
-Goal<Arm> JointMove<Arm>::next(const liana::Outputs<Arm>& now, double pace) {
+Goal<Arm> JointMove<Arm>::next(const liana::Outputs<Arm>& now) {
   if (again_.waits(now.at_rest != 0)) return {};
   if (!has_begun_ && now.at_rest == 0) return {};
   const Joints<Arm>& stands_rad = ArmTraits<Arm>::command_rad(now);
@@ -108,7 +108,7 @@ Goal<Arm> JointMove<Arm>::next(const liana::Outputs<Arm>& now, double pace) {
   is_over_ = !refusal_.empty();
   if (is_over_) return {};
   if (!std::exchange(has_begun_, true) && (again_.begins_again() || stands_rad != from_rad_)) plan(stands_rad);
-  time_s_ += pace * pace_ * interval_s_;
+  time_s_ += pace_ * interval_s_;
   pace_ = std::min(1.0, pace_ + kPaceRise_1_s * interval_s_);
   is_over_ = time_s_ >= law_.duration_s() && now.at_rest != 0;
   return at(time_s_);

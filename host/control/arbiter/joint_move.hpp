@@ -36,7 +36,7 @@ class JointMove {
   // Joints at a time since the start.
   Joints<Arm> at(double time_s) const;
 
-  Goal<Arm> next(const liana::Outputs<Arm>& now, double pace = 1.0);
+  Goal<Arm> next(const liana::Outputs<Arm>& now);
   // The time is up and the arm, which follows, is at rest.
   bool is_over() const { return is_over_; }
   bool refused();

@@ -2,7 +2,6 @@
 // seconds, the arm holds; what is wrong with it is said before anything moves.
 #pragma once
 
-#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -62,8 +61,8 @@ class PathMove {
   PathMove& operator=(const PathMove&) = delete;
 
   PathProgress progress() const {
-    if (gone_ == 0.0) return {hash_, 0.0};
-    return {hash_, gone_ / static_cast<double>(outlook_->along_rad.size())};
+    if (next_ == 0) return {hash_, 0.0};
+    return {hash_, static_cast<double>(next_) / static_cast<double>(outlook_->along_rad.size())};
   }
   // Of the whole path; 0 while it is looked at, and when it is refused.
   double duration_s(const typename Arm::Table& table) const {
@@ -72,34 +71,24 @@ class PathMove {
   // What looking at it has come to; nothing yet.
   const std::optional<PathPrecheck<Arm>>& outlook() const { return outlook_; }
 
-  Goal<Arm> next(const liana::Outputs<Arm>& now, double pace) {
+  Goal<Arm> next(const liana::Outputs<Arm>& now) {
     if (!outlook_) outlook_ = work_.take(taken_ == SearchResult::kInItsInterval);
     if (!outlook_) return {};
     const std::vector<double>& along_rad = outlook_->along_rad;
-    const auto whole = static_cast<double>(along_rad.size());
-    is_over_ = !outlook_->refusal.empty() || (gone_ >= whole && now.at_rest != 0);
+    is_over_ = !outlook_->refusal.empty() || (next_ >= along_rad.size() && now.at_rest != 0);
     if (!outlook_->refusal.empty()) return {};
-    gone_ = std::min(whole, gone_ + pace);
-    return outlook_->path->at(place_rad(along_rad));
+    return outlook_->path->at(next_ < along_rad.size() ? along_rad[next_++] : along_rad.back());
   }
   // Refused, or the last point is reached and the arm, which follows, is at rest.
   bool is_over() const { return is_over_; }
   bool refused() { return false; }
 
  private:
-  // Between the ends of two intervals.
-  double place_rad(const std::vector<double>& along_rad) const {
-    const auto ended = static_cast<std::size_t>(gone_);
-    const double from_rad = ended == 0 ? 0.0 : along_rad[ended - 1];
-    const double share = gone_ - static_cast<double>(ended);
-    return share > 0.0 ? from_rad + share * (along_rad[ended] - from_rad) : from_rad;
-  }
-
   Work& work_;
   SearchResult taken_;
   std::string hash_;
   std::optional<PathPrecheck<Arm>> outlook_;
-  double gone_ = 0.0;  // intervals of its time law
+  std::size_t next_ = 0;  // of the intervals
   bool is_over_ = false;
 };
 

@@ -47,7 +47,7 @@ class RetractMove {
   // Empty when all the way has been gone, or is still under way.
   const std::string& why_ended() const { return why_ended_; }
 
-  Goal<Arm> next(const liana::Outputs<Arm>& now, double pace) {
+  Goal<Arm> next(const liana::Outputs<Arm>& now) {
     if (!allow_retract(now.faults)) {
       why_ended_ = "a fault is latched that does not let the arm be led back";
       is_over_ = true;
@@ -56,7 +56,7 @@ class RetractMove {
     const bool was_faulty = std::exchange(is_faulty_, now.faults.count > 0 || ArmTraits<Arm>::recovers(table_, now));
     if (was_faulty != is_faulty_) start_again();
     if (!rests()) return come_to_rest(now);
-    return arrived_ ? arrive(now) : step(now, pace);
+    return arrived_ ? arrive(now) : step(now);
   }
   // All the way has been gone, or it cannot go on.
   bool is_over() const { return is_over_; }
@@ -118,10 +118,10 @@ class RetractMove {
   }
 
   // One command interval on.
-  Goal<Arm> step(const liana::Outputs<Arm>& now, double pace) {
-    if (join_) return go_on_joining(now, pace);
+  Goal<Arm> step(const liana::Outputs<Arm>& now) {
+    if (join_) return go_on_joining(now);
     pace_ = risen(std::min(is_faulty_ ? kFaultyPace : kWayBackPace, pace_ + kPaceGain));
-    share_ += is_faulty_ ? std::min(pace_, retract_share()) : pace * pace_;
+    share_ += is_faulty_ ? std::min(pace_, retract_share()) : pace_;
     while (share_ >= 1.0 && ahead() != nullptr && !path_.newest().begins) pass_point();
     const typename Memory::Point* to = ahead();
     if (to == nullptr) {
@@ -131,7 +131,7 @@ class RetractMove {
     }
     if (!path_.newest().begins) return between(path_.newest().joint_rad, to->joint_rad, share_);
     join_.emplace(table_, path_.newest().joint_rad, to->joint_rad, kJoinRate_rad_s);
-    return go_on_joining(now, pace);
+    return go_on_joining(now);
   }
   // The way in may have ended its pieces with quick stops; the way back does not begin them as quickly, because the tip
   // of an arm that has stood in its friction springs ahead then. Braking is as quick as it was.
@@ -161,8 +161,8 @@ class RetractMove {
     path_.drop_newest();
     share_ -= 1.0;
   }
-  Goal<Arm> go_on_joining(const liana::Outputs<Arm>& now, double pace) {
-    const Goal<Arm> joint_rad = join_->next(now, pace);
+  Goal<Arm> go_on_joining(const liana::Outputs<Arm>& now) {
+    const Goal<Arm> joint_rad = join_->next(now);
     if (!join_->is_over()) return joint_rad;
     join_.reset();
     path_.drop_newest();

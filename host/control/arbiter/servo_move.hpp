@@ -14,7 +14,7 @@ class ServoMove {
   // `servo` is under way, and has to outlive this.
   explicit ServoMove(visual_servo::TargetServo& servo) : servo_(servo) {}
 
-  Goal<Arm> next(const liana::Outputs<Arm>& now, double) {
+  Goal<Arm> next(const liana::Outputs<Arm>& now) {
     const std::optional<Pose> goal = servo_.next(now.tip_command);
     return goal ? Goal<Arm>(*goal) : Goal<Arm>{};
   }

@@ -1,4 +1,4 @@
-// How fast a cable arm may go on while one of its cables is on its way to slack.
+// How fast a hand may lead a cable arm while one of its cables is on its way to slack.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,9 @@
 namespace liana::arbiter {
 
 // Friction of a long bend holds the arm behind its command, and a cable that is paid out then loses its tension faster
-// than the core winds it in: 100 N/s at 6 mm/s of the tip, with all angles near their limits. Motion that waits for the
-// cable keeps it taut. By the measured tension at the motor, and by where it is going.
+// than the core winds it in: 100 N/s at 6 mm/s of the tip, with all angles near their limits. A hand that waits for the
+// cable keeps it taut; planned motions would sway by it, and be refused. By the measured tension at the motor, and by
+// where it is going.
 class TautPace {
  public:
   static constexpr double kLeast = 0.02;  // of the speed: who waits for ever is not told why

@@ -39,13 +39,13 @@ class LineMove {
 
   Pose end() const { return line_.at(line_.duration_s()); }
 
-  Goal<Arm> next(const liana::Outputs<Arm>& now, double pace) {
+  Goal<Arm> next(const liana::Outputs<Arm>& now) {
     if (again_.waits(now.at_rest != 0)) return {};
     if (again_.begins_again()) {
       line_ = TipLine(bounds_, now.tip_command, end(), speed_m_s_ * again_.speed_share(), swings_);
       time_s_ = 0.0;
     }
-    return line_.at(time_s_ += pace * interval_s_);
+    return line_.at(time_s_ += interval_s_);
   }
   bool is_over() const { return time_s_ >= line_.duration_s(); }
   bool refused() { return again_.refused(); }

@@ -30,7 +30,7 @@ class TipTarget {
   // Something else was asked for besides the tip.
   void ask_anew() { intervals_ = 0; }
 
-  Goal<Arm> next(const liana::Outputs<Arm>& now, double) {
+  Goal<Arm> next(const liana::Outputs<Arm>& now) {
     if (again_.waits(now.at_rest != 0)) return {};
     is_over_ = intervals_ >= kSettledIntervals && ArmTraits<Arm>::has_arrived(wishes_, now, is_near(now.tip_command));
     ++intervals_;
