@@ -56,14 +56,20 @@ class DriveHarness : public ::testing::Test {
     return {out[0].data.begin(), out[0].data.end()};
   }
 
-  // Abort code of an expedited write, 0 when accepted.
-  std::uint32_t write(std::uint16_t index, std::uint8_t sub, std::size_t size, std::uint32_t value) {
+  // The request of an expedited write.
+  static std::vector<std::uint8_t> write_request(std::uint16_t index, std::uint8_t sub, std::size_t size,
+                                                 std::uint32_t value) {
     std::vector<std::uint8_t> request(8);
     request[0] = static_cast<std::uint8_t>(0x23U | ((4U - size) << 2U));
     put_little_endian(&request[1], 2, index);
     request[3] = sub;
     put_little_endian(&request[4], size, value);
-    return aborted(sdo(request));
+    return request;
+  }
+
+  // Abort code of it, 0 when accepted.
+  std::uint32_t write(std::uint16_t index, std::uint8_t sub, std::size_t size, std::uint32_t value) {
+    return aborted(sdo(write_request(index, sub, size, value)));
   }
 
   std::optional<std::uint32_t> read(std::uint16_t index, std::uint8_t sub) {

@@ -168,12 +168,7 @@ class TwoAxisNode : public DriveHarness {
                        : std::vector<std::uint8_t>(out[0].data.begin(), out[0].data.end());
   }
   std::uint32_t tell(std::uint16_t index, std::uint8_t sub, std::size_t size, std::uint32_t value) {
-    std::vector<std::uint8_t> request(8);
-    request[0] = static_cast<std::uint8_t>(0x23U | ((4U - size) << 2U));
-    put_little_endian(&request[1], 2, index);
-    request[3] = sub;
-    put_little_endian(&request[4], size, value);
-    return aborted(ask(request));
+    return aborted(ask(write_request(index, sub, size, value)));
   }
   std::uint32_t get(std::uint16_t index, std::uint8_t sub) {
     const std::vector<std::uint8_t> answer =

@@ -5,19 +5,15 @@ table names, or with --corners where all of its angles are bent at 0.6 of their 
 
 Alone: hands.py [--bin DIR] [--count HANDS] [--first SEED] [--corners] [--json].
 """
-import argparse
-import concurrent.futures
+import functools
 import json
 import math
-import os
-import pathlib
 import random
-import sys
 
-import folders
+import folders  # makes what follows importable
+import seeds
 from liana import System
 from liana import system as tables
-from liana.client import LianaError
 from liana.devices import Device
 from page import table
 
@@ -286,14 +282,6 @@ def one_hand(seed, in_corner):
         return {**figures, **told(hand, session), **truth_of(system.truth(), robot, rows)}
 
 
-def named_hand(seed, in_corner=False):
-    """What a client raises does not pass from one process to another, and does not say whose hand it was."""
-    try:
-        return one_hand(seed, in_corner)
-    except LianaError as error:
-        raise RuntimeError(f"hand {seed}: {error}") from None
-
-
 # Key, heading, whether more is worse, digits.
 FIGURES = [
     ("refusals", "refusals in 10 s of motion", True, 1),
@@ -342,28 +330,22 @@ def text_of(found):
     return text + "\n\n" + faults_text(found)
 
 
-def measure(binaries, count=HANDS, first=FIRST_SEED, in_corner=False):
-    os.environ["LIANA_BIN"] = str(binaries.resolve())
-    with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
-        found = []
-        for one in pool.map(named_hand, range(first, first + count), [in_corner] * count):
-            found.append(one)
-            told_of = f"{one['robot']} {one['kind']}: faults {one['faults']}, {one['refusals']:.1f} refusals in 10 s"
-            print(f"   {one['seed']} {told_of}", file=sys.stderr, flush=True)
+def told_of(one):
+    return f"{one['robot']} {one['kind']}: faults {one['faults']}, {one['refusals']:.1f} refusals in 10 s"
+
+
+def measure(binaries, count=HANDS, first=FIRST_SEED, corners=False):
+    one = functools.partial(one_hand, in_corner=corners)
+    found = seeds.found(one, "hand", binaries, range(first, first + count), told_of)
     return found, text_of(found)
 
 
-def main():
-    line = argparse.ArgumentParser(description=__doc__)
-    line.add_argument("--bin", type=pathlib.Path, default=folders.ROOT / "build/bin", help="where the programs are")
-    line.add_argument("--count", type=int, default=HANDS)
-    line.add_argument("--first", type=int, default=FIRST_SEED, help="seed of the first hand")
-    line.add_argument("--corners", action="store_true", help="begin where all angles are bent far")
-    line.add_argument("--json", action="store_true")
-    options = line.parse_args()
-    values, text = measure(options.bin, options.count, options.first, options.corners)
-    print(json.dumps(values) if options.json else text)
-
-
 if __name__ == "__main__":
-    main()
+    import alone
+
+    alone.run(
+        measure,
+        __doc__,
+        first={"type": int, "help": "seed of the first hand"},
+        corners={"action": "store_true", "help": "begin where all angles are bent far"},
+    )

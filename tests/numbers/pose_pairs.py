@@ -3,20 +3,15 @@ back again. A third of them have two angles or more at their limits. What is ref
 
 Alone: pose_pairs.py [--bin DIR] [--count PAIRS] [--first SEED] [--json].
 """
-import argparse
 import collections
-import concurrent.futures
 import json
-import os
-import pathlib
 import random
-import sys
 
-import folders
+import seeds
 from hands import ARMS, truth_of
 from liana import System
 from liana import system as tables
-from liana.client import LianaError, NotReached
+from liana.client import NotReached
 from page import table
 
 PAIRS = 60
@@ -108,14 +103,6 @@ def one_pair(seed):
         return {**figures, "ways": ways, "faults": faults, **truth_of(system.truth(), robot, slice(begin, end))}
 
 
-def named_pair(seed):
-    """What a client raises does not say whose pair it was."""
-    try:
-        return one_pair(seed)
-    except LianaError as error:
-        raise RuntimeError(f"pair {seed}: {error}") from None
-
-
 def text_of(found):
     rows = []
     for at_limit in (False, True):
@@ -143,27 +130,17 @@ def text_of(found):
     return text
 
 
+def told_of(one):
+    ways = ", ".join(f"{way['outcome']} {way['why']}".strip() for way in one["ways"])
+    return f"{one['robot']}: {ways} {one['faults']}"
+
+
 def measure(binaries, count=PAIRS, first=FIRST_SEED):
-    os.environ["LIANA_BIN"] = str(binaries.resolve())
-    with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
-        found = []
-        for one in pool.map(named_pair, range(first, first + count)):
-            found.append(one)
-            ways = ", ".join(f"{way['outcome']} {way['why']}".strip() for way in one["ways"])
-            print(f"   {one['seed']} {one['robot']}: {ways} {one['faults']}", file=sys.stderr, flush=True)
+    found = seeds.found(one_pair, "pair", binaries, range(first, first + count), told_of)
     return found, text_of(found)
 
 
-def main():
-    line = argparse.ArgumentParser(description=__doc__)
-    line.add_argument("--bin", type=pathlib.Path, default=folders.ROOT / "build/bin", help="where the programs are")
-    line.add_argument("--count", type=int, default=PAIRS)
-    line.add_argument("--first", type=int, default=FIRST_SEED, help="seed of the first pair")
-    line.add_argument("--json", action="store_true")
-    options = line.parse_args()
-    values, text = measure(options.bin, options.count, options.first)
-    print(json.dumps(values) if options.json else text)
-
-
 if __name__ == "__main__":
-    main()
+    import alone
+
+    alone.run(measure, __doc__, first={"type": int, "help": "seed of the first pair"})

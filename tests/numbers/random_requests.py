@@ -4,19 +4,15 @@ any moment, from five start poses, with the scene as drawn or 10 mm and 1 degree
 
 Alone: random_requests.py [--bin DIR] [--count SEQUENCES] [--first SEED] [--jobs N] [--json].
 """
-import argparse
 import collections
-import concurrent.futures
 import functools
 import json
 import math
-import os
-import pathlib
 import random
 import resource
-import sys
 
 import folders
+import seeds
 from hands import direction, product
 from liana import System
 from liana import system as tables
@@ -365,14 +361,6 @@ def processor_s():
     return sum(each.ru_utime + each.ru_stime for each in used)
 
 
-def named_sequence(seed):
-    """What a client raises does not say whose sequence it was."""
-    try:
-        return one_sequence(seed)
-    except LianaError as error:
-        raise RuntimeError(f"sequence {seed}: {error}") from None
-
-
 # Key, heading, which is the worst.
 FIGURES = [
     ("motor_N", "least true tension at a motor, N", min),
@@ -422,28 +410,21 @@ def text_of(found):
     )
 
 
+def told_of(one):
+    return f"{one['pose']} {one['physics']}{' beside' * one['beside']}: faults {one['faults']}, {one['wrong']}"
+
+
 def measure(binaries, count=SEQUENCES, first=FIRST_SEED, jobs=None):
-    os.environ["LIANA_BIN"] = str(binaries.resolve())
-    found = []
-    with concurrent.futures.ProcessPoolExecutor(jobs or os.cpu_count()) as pool:
-        for one in pool.map(named_sequence, range(first, first + count)):
-            found.append(one)
-            told = f"{one['pose']} {one['physics']}{' beside' * one['beside']}: faults {one['faults']}, {one['wrong']}"
-            print(f"   {one['seed']} {told}", file=sys.stderr, flush=True)
+    found = seeds.found(one_sequence, "sequence", binaries, range(first, first + count), told_of, jobs)
     return found, text_of(found)
 
 
-def main():
-    line = argparse.ArgumentParser(description=__doc__)
-    line.add_argument("--bin", type=pathlib.Path, default=folders.ROOT / "build/bin", help="where the programs are")
-    line.add_argument("--count", type=int, default=SEQUENCES)
-    line.add_argument("--first", type=int, default=FIRST_SEED, help="seed of the first sequence")
-    line.add_argument("--jobs", type=int, help="sequences at once; as many as processors without")
-    line.add_argument("--json", action="store_true")
-    options = line.parse_args()
-    values, text = measure(options.bin, options.count, options.first, options.jobs)
-    print(json.dumps(values) if options.json else text)
-
-
 if __name__ == "__main__":
-    main()
+    import alone
+
+    alone.run(
+        measure,
+        __doc__,
+        first={"type": int, "help": "seed of the first sequence"},
+        jobs={"type": int, "help": "sequences at once; as many as processors without"},
+    )

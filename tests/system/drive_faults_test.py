@@ -56,7 +56,25 @@ class DrivesThatDoNotBoot(SystemTest):
         )
 
 
-class DrivesThatFailInMotion(SystemTest):
+class FaultsInMotion(SystemTest):
+    """What a moving arm does after a fault of its drives."""
+
+    def ended(self, system, client, stop_deg=1.0):
+        self.assertEqual(system.shut_down(client), {"lianad": 0, "liana-bus": 0, "liana-bench": 0})
+        truth = system.truth()
+        self.assertGreater(truth.travel_deg(FAULT_SLOT - 50, FAULT_SLOT), 0.03, "the fault has to meet a moving arm")
+        self.assert_stopped(truth, FAULT_SLOT, stop_deg)
+
+    def assert_usable_again(self, client):
+        """After a clear that was asked for: the arm can be enabled and disabled."""
+        client.until(lambda state: state["state"] == "DISABLED" and not state["faults"])
+        client.call("state_command", command="enable")
+        client.until(lambda state: state["state"] == "ENABLED" and state["at_rest"])
+        client.call("state_command", command="disable")
+        client.until(lambda state: state["state"] == "DISABLED")
+
+
+class DrivesThatFailInMotion(FaultsInMotion):
     def moving_into(self, kind):
         """A system whose drive fails while the arm moves; the state some time after it."""
         system = self.enterContext(System(faults=fault(kind)))
@@ -71,12 +89,6 @@ class DrivesThatFailInMotion(SystemTest):
             "slack is debounced for 25 ticks, and the cable needs some to come loose",
         )
         return system, client
-
-    def ended(self, system, client, stop_deg=1.0):
-        self.assertEqual(system.shut_down(client), {"lianad": 0, "liana-bus": 0, "liana-bench": 0})
-        truth = system.truth()
-        self.assertGreater(truth.travel_deg(FAULT_SLOT - 50, FAULT_SLOT), 0.03, "the fault has to meet a moving arm")
-        self.assert_stopped(truth, FAULT_SLOT, stop_deg)
 
     def in_fault(self, client):
         client.until(lambda state: state["state"] == "FAULT")
@@ -111,11 +123,7 @@ class DrivesThatFailInMotion(SystemTest):
         self.assertEqual(client.state["state"], "FAULT", "nothing clears itself")
         client.call("state_command", command="clear")
         client.until(lambda state: says(state, "faults cleared; checked: "))
-        client.until(lambda state: state["state"] == "DISABLED" and not state["faults"])
-        client.call("state_command", command="enable")
-        client.until(lambda state: state["state"] == "ENABLED" and state["at_rest"])
-        client.call("state_command", command="disable")
-        client.until(lambda state: state["state"] == "DISABLED")
+        self.assert_usable_again(client)
         self.ended(system, client)
         self.assertEqual(system.emergencies()[NODE][:2], [0x2310, 0])
 
@@ -160,7 +168,7 @@ class DrivesThatFailInMotion(SystemTest):
         self.assertLess(truth.travel_deg(FAULT_SLOT, None), 12.0)
 
 
-class TwoAxesOnANode(SystemTest):
+class TwoAxesOnANode(FaultsInMotion):
     """15 drives on 8 nodes: drive 3 is node 2, drive 4 its axis 2."""
 
     def started(self, **changes):
@@ -174,12 +182,6 @@ class TwoAxesOnANode(SystemTest):
         self.assertLess(client.state["tick"], FAULT_SLOT - 5, "the move must be under way before the fault")
         client.until(lambda state: state["state"] == "FAULT")
         return system, client
-
-    def ended(self, system, client):
-        self.assertEqual(system.shut_down(client), {"lianad": 0, "liana-bus": 0, "liana-bench": 0})
-        truth = system.truth()
-        self.assertGreater(truth.travel_deg(FAULT_SLOT - 50, FAULT_SLOT), 0.03, "the fault has to meet a moving arm")
-        self.assert_stopped(truth, FAULT_SLOT)
 
     def found(self, client, number):
         return [fault["index"] for fault in client.state["faults"] if fault["number"] == number]
@@ -222,11 +224,7 @@ class TwoAxesOnANode(SystemTest):
         self.assertEqual(self.found(client, 3003), [DRIVE])
         client.go_on(1.0)
         client.call("state_command", command="clear")
-        client.until(lambda state: state["state"] == "DISABLED" and not state["faults"])
-        client.call("state_command", command="enable")
-        client.until(lambda state: state["state"] == "ENABLED" and state["at_rest"])
-        client.call("state_command", command="disable")
-        client.until(lambda state: state["state"] == "DISABLED")
+        self.assert_usable_again(client)
         self.ended(system, client)
         self.assertEqual(system.emergencies()[2][:2], [0x2310, 0])
 

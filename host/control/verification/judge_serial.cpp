@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "firmware_like/math/trig.hpp"
 #include "host/control/verification/judge.hpp"
+#include "host/model/clearance/free_part.hpp"
 #include "host/model/simulation/straight_way.hpp"
 
 namespace liana::verification {
@@ -110,18 +110,12 @@ std::string refusal_of_way(const serial::RobotParams& table, simulation::SerialS
       judge_way(simulation, simulation.run(points_rad[k], way, carries), too_near, verdict);
       return verdict.passed() ? std::string() : verdict.text;
     };
-    std::string first = refusal(1.0);
-    if (first.empty()) continue;
-    double free = 0.0, beyond = 1.0;
-    while (beyond - free > 0.01) {
-      const double middle = 0.5 * (free + beyond);
-      std::string found = refusal(middle);
-      found.empty() ? free = middle : beyond = middle;
-      if (!found.empty()) first = std::move(found);
-    }
-    const std::string place = "after " + std::to_string(static_cast<int>(100.0 * free)) + " % of the straight way ";
-    if (points_rad.size() == 2) return place + "in the joint angles " + first;
-    return place + "between points " + std::to_string(k) + " and " + std::to_string(k + 1) + " " + first;
+    const clearance::FreePart part = clearance::free_part(refusal);
+    if (part.refusal.empty()) continue;
+    const std::string place =
+        "after " + std::to_string(static_cast<int>(100.0 * part.share)) + " % of the straight way ";
+    if (points_rad.size() == 2) return place + "in the joint angles " + part.refusal;
+    return place + "between points " + std::to_string(k) + " and " + std::to_string(k + 1) + " " + part.refusal;
   }
   return "";
 }

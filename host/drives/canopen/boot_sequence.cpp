@@ -6,14 +6,24 @@
 
 namespace liana::canopen {
 
+namespace {
+
+// The axes of each node.
+std::vector<std::span<const ExpectedDrive>> by_node(std::span<const ExpectedDrive> drives) {
+  std::vector<std::span<const ExpectedDrive>> nodes;
+  for (; !drives.empty(); drives = drives.subspan(nodes.back().size()))
+    nodes.push_back(drives.first(axes_of_first(drives)));
+  return nodes;
+}
+
+}  // namespace
+
 BootSequence::BootSequence(const std::vector<ExpectedDrive>& drives, double rate_hz) {
-  for (std::span<const ExpectedDrive> left = drives; !left.empty(); left = left.subspan(axes_of_first(left)))
-    add(left.first(axes_of_first(left)), boot_timing(rate_hz, left[0].type.times));
+  for (const auto axes : by_node(drives)) add(axes, boot_timing(rate_hz, axes[0].type.times));
 }
 
 BootSequence::BootSequence(const std::vector<ExpectedDrive>& drives, const BootTiming& timing) {
-  for (std::span<const ExpectedDrive> left = drives; !left.empty(); left = left.subspan(axes_of_first(left)))
-    add(left.first(axes_of_first(left)), timing);
+  for (const auto axes : by_node(drives)) add(axes, timing);
 }
 
 void BootSequence::add(std::span<const ExpectedDrive> axes, const BootTiming& timing) {

@@ -1,8 +1,8 @@
 #include "host/planning/planner/check/way_check.hpp"
 
 #include <algorithm>
-#include <utility>
 
+#include "host/model/clearance/free_part.hpp"
 #include "host/planning/planner/check/plan_check.hpp"
 #include "host/planning/planner/text.hpp"
 
@@ -64,16 +64,11 @@ std::string refusal_of_move(const config::RobotConfig& robot, const config::Scen
   const Allowed allowed{std::min(scene.margins.prediction_m + scene.margins.refuse_m, stands.min_clearance_m),
                         std::min(kSelfMargin_m, stands.self.clearance_m),
                         std::max(robot.table.tension.ceiling_free_N, kLetOut * stands.max_tension_N)};
-  std::string first = refusal(robot, scene, straight(from, goal, 1.0), allowed);
-  if (first.empty()) return {};
-  double free = 0.0, beyond = 1.0;
-  while (beyond - free > 0.01) {
-    const double middle = 0.5 * (free + beyond);
-    std::string found = refusal(robot, scene, straight(from, goal, middle), allowed);
-    found.empty() ? free = middle : beyond = middle;
-    if (!found.empty()) first = std::move(found);
-  }
-  return text("after %d %% of the straight way in the joint angles ", static_cast<int>(100.0 * free)) + first;
+  const clearance::FreePart part =
+      clearance::free_part([&](double share) { return refusal(robot, scene, straight(from, goal, share), allowed); });
+  if (part.refusal.empty()) return {};
+  return text("after %d %% of the straight way in the joint angles ", static_cast<int>(100.0 * part.share)) +
+         part.refusal;
 }
 
 }  // namespace liana::planner
