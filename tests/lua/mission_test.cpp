@@ -678,10 +678,10 @@ TEST(GrowingReport, IsAsLongAsItsStepsAndWholeAtAnyTime) {
     return report.whole()["steps"];
   };
   EXPECT_EQ(take(0, {}), Json::array());
-  EXPECT_EQ(take(0, {step_of("a", "running")}), Json({step_of("a", "running")}));
+  EXPECT_EQ(take(0, {step_of("a", "running")}), Json::array({step_of("a", "running")}));
   take(0, {step_of("a", "success")});
   take(0, {step_of("a", "success", "b"), step_of("b", "running")});
-  const Json all({step_of("a", "success", "b"), step_of("b", "failed"), step_of("c", "running")});
+  const Json all = Json::array({step_of("a", "success", "b"), step_of("b", "failed"), step_of("c", "running")});
   EXPECT_EQ(take(1, {step_of("b", "failed"), step_of("c", "running")}, "aborted"), all);
   EXPECT_EQ(report.whole()["outcome"], "aborted");
   EXPECT_EQ(Json::parse(failed_report(activity, "m", "killed"))["steps"][2]["reason"], "killed");

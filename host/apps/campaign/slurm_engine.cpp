@@ -59,12 +59,6 @@ SlurmEngine::SlurmEngine(std::string folder, const Json& table, Rows& rows, cons
     : folder_(std::move(folder)), rows_(rows), interrupts_(interrupts), say_(std::move(say)), look_(look) {
   for (const char* below : {"/results", "/logs", "/rows"}) fs::create_directories(folder_ + below);
   launcher::write_output(folder_ + "/campaign.json", table.dump() + "\n");
-  launcher::write_output(folder_ + "/task.sh",
-                         "#!/bin/sh\n# One task of an array: the rows that its line of the file $1 names.\n"
-                         "rows=$(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" \"$1\")\nshift\nexec " +
-                             quoted(launcher::sibling_program("liana")) + " campaign " +
-                             quoted(folder_ + "/campaign.json") + " --rows \"$rows\" --results " +
-                             quoted(folder_ + "/results") + " --jobs \"${SLURM_CPUS_PER_TASK:-1}\" \"$@\"\n");
   std::ifstream job(folder_ + "/job");
   std::getline(job, job_);
 }
@@ -92,6 +86,12 @@ void SlurmEngine::take_results(std::set<std::uint64_t>& missing, const TakeResul
 }
 
 void SlurmEngine::submit(const std::set<std::uint64_t>& missing, const std::string& full_folder) {
+  launcher::write_output(folder_ + "/task.sh",
+                         "#!/bin/sh\n# One task of an array: the rows that its line of the file $1 names.\n"
+                         "rows=$(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" \"$1\")\nshift\nexec " +
+                             quoted(launcher::sibling_program("liana")) + " campaign " +
+                             quoted(folder_ + "/campaign.json") + " --rows \"$rows\" --results " +
+                             quoted(folder_ + "/results") + " --jobs \"${SLURM_CPUS_PER_TASK:-1}\" \"$@\"\n");
   std::string lines;
   const auto tasks = tasks_of({missing.begin(), missing.end()});
   for (const std::vector<std::uint64_t>& task : tasks) {
