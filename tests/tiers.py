@@ -8,12 +8,14 @@ end. A failure does not keep later stages from running. Exit code 0: all passed;
 import collections
 import concurrent.futures
 import contextlib
+import functools
 import json
 import os
 import pathlib
 import re
 import resource
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -164,7 +166,7 @@ def processor_seconds():
 
 @contextlib.contextmanager
 def stage(name):
-    """Headline, what is done in it, time; what ran behind it works, too."""
+    """Headline, what is done in it, time; what ran behind it is counted at the end."""
     tell(f"== {name}")
     start, worked_s = time.monotonic(), processor_seconds()
     yield
@@ -225,12 +227,30 @@ def build_tests(*targets, **options):
     return build_programs("tests", *targets, **options)
 
 
+def give_way():
+    """This process and what it starts take what all others leave of the processors; false where the kernel cannot. Linux
+    shares between sessions first, so that it takes a session of its own."""
+    os.setsid()
+    os.nice(19)
+    try:
+        pathlib.Path("/proc/self/autogroup").write_text("19", encoding="ascii")
+    except OSError:
+        return False
+    return True
+
+
 @contextlib.contextmanager
 def behind():
-    """Gives a function that begins what it is given, one after the other, on what the rest leaves of the processors; what
-    that gives back waits for the end and returns what came out."""
-    with concurrent.futures.ThreadPoolExecutor(1, initializer=os.nice, initargs=(19,)) as pool:
-        yield lambda *work: pool.submit(*work).result
+    """Gives a function that begins what it is given, one after the other, behind all else; what that gives back waits for
+    the end and returns what came out. Where nothing can run behind, it does the work when it is asked for."""
+    with concurrent.futures.ProcessPoolExecutor(1) as pool:
+        worker = pool.submit(os.getpid).result()
+        gives_way = pool.submit(give_way).result()
+        try:
+            yield lambda *work: pool.submit(*work).result if gives_way else functools.partial(*work)
+        except BaseException:  # an interrupt of the keyboard does not reach its session
+            os.killpg(worker, signal.SIGTERM)
+            raise
 
 
 def compile_quietly(preset, *targets):
@@ -373,20 +393,19 @@ def proof():
 
 
 def deep():
-    """All the rest. The page comes first: some of the tests are of the page that it builds. Nothing runs behind it: a
-    browser is a session of its own, and would share the processors with that evenly."""
+    """All the rest. The page comes first: some of the tests are of the page that it builds."""
     install(*ALL_PACKAGES)
     with stage("lint"):
         for name, is_clean in lint.CHECKS.items():
             TALLY.count(name, is_clean())
     if not built(lambda: build_tests("all", *UNSANITIZED, env=keeping_objects())):
         return
-    with stage("page"):
-        page()
     with behind() as begin:
         compiled = begin(compile_quietly, "checked", "unit_tests", "fuzz_targets")
         threaded = begin(compile_quietly, "tsan", *targets_of(THREADED))
         tidied = begin(is_tidy)
+        with stage("page"):
+            page()
         with stage("tests"):
             other_tests()
         with stage("vcan"):
