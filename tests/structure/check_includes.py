@@ -17,8 +17,8 @@ TABLE = pathlib.Path(__file__).with_name("rooms.ini")
 PRODUCT = ("firmware_like", "host", "hil")
 INCLUDE = re.compile(r'\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 CLOCK = re.compile(
-    r"\b(steady_clock|system_clock|high_resolution_clock|utc_clock|clock_gettime|clock_nanosleep|timespec_get"
-    r"|gettimeofday|timerfd_create|__rdtsc|std::time|std::clock)\b"
+    r"\b(steady_clock|steady_s|steady_us|system_clock|high_resolution_clock|utc_clock|clock_gettime|clock_nanosleep"
+    r"|timespec_get|gettimeofday|timerfd_create|__rdtsc|std::time|std::clock)\b"
 )
 
 

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <deque>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -21,6 +20,7 @@
 #include "host/apps/launcher/output.hpp"
 #include "host/apps/launcher/process.hpp"
 #include "host/apps/launcher/system_layout.hpp"
+#include "host/base/file/in_file.hpp"
 
 namespace liana::campaign {
 namespace {
@@ -30,11 +30,6 @@ namespace fs = std::filesystem;
 constexpr int kMaxTries = 3;  // of a row whose run was killed, or whose programs did not start
 constexpr double kEndGrace_s = 10.0;
 constexpr auto kLook = std::chrono::milliseconds(20);
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 // Names of folders that chance has chosen are no part of a report.
 std::string without_scratch(std::string text, const std::string& scratch) {
@@ -128,7 +123,8 @@ class Workers {
 
   void finish(const Slot& slot, const launcher::ExitStatus& end) {
     const std::uint64_t number = slot.row.number;
-    const Json report = Json::parse_or_null(without_scratch(text_of(slot.folder + "/report.json"), slot.folder));
+    const Json report =
+        Json::parse_or_null(without_scratch(file::content_of(slot.folder + "/report.json").value_or(""), slot.folder));
     const bool is_refused = end.signal == 0 && end.code == launcher::kExitBadInput;
     const bool has_begun = report.is_object() && report.value("ticks", 0) > 0;
     const std::string words = without_scratch(slot.run->last_words(), slot.folder);

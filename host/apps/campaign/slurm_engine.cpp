@@ -16,6 +16,7 @@
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/output.hpp"
 #include "host/apps/launcher/process.hpp"
+#include "host/base/file/in_file.hpp"
 
 namespace liana::campaign {
 namespace {
@@ -69,8 +70,7 @@ void SlurmEngine::take_results(std::set<std::uint64_t>& missing, const TakeResul
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   }
   for (const fs::path& path : files) {
-    std::ifstream file(path);
-    const Json found = Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}});
+    const Json found = Json::parse_or_null(file::content_of(path).value_or(""));
     std::error_code error;
     try {
       const RowResult result = row_result(found);

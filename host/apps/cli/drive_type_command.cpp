@@ -1,13 +1,12 @@
 // `liana drive type`: a drive type from an electronic data sheet.
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "host/apps/cli/commands.hpp"
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/output.hpp"
 #include "host/apps/launcher/tables.hpp"
+#include "host/base/file/in_file.hpp"
 #include "host/base/json/json.hpp"
 #include "host/drives/commissioning/type_from_eds.hpp"
 
@@ -23,9 +22,9 @@ std::string read_sheet(const std::string& path) {
   if (std::filesystem::file_size(path, error) > kMaxBytes || error)
     throw launcher::BadInput("--from-eds: " + path + ": allowed are files of at most " +
                              std::to_string(kMaxBytes >> 20) + " MiB");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw launcher::BadInput("--from-eds: " + path + ": cannot be read: check its permissions");
-  return {std::istreambuf_iterator<char>(file), {}};
+  const auto text = file::content_of(path);
+  if (!text) throw launcher::BadInput("--from-eds: " + path + ": cannot be read: check its permissions");
+  return *text;
 }
 
 // The name of a file in a table: only letters that a table takes.

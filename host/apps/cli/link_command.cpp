@@ -17,6 +17,7 @@
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/interrupt.hpp"
 #include "host/apps/launcher/tables.hpp"
+#include "host/base/clock/steady.hpp"
 #include "host/base/json/json.hpp"
 #include "host/base/net/connect.hpp"
 #include "host/operator/station/relay.hpp"
@@ -26,11 +27,6 @@ namespace {
 
 constexpr int kStep_ms = 1;
 constexpr std::size_t kMaxDevices = 8;  // as lianad has them
-
-std::int64_t now_us() {
-  const auto since = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::microseconds>(since).count();
-}
 
 haptics::Delays delays_of(const LinkOptions& options) {
   try {
@@ -65,7 +61,7 @@ class LinkRelay {
   void step() {
     wait();
     let_in();
-    std::erase_if(relays_, [](const auto& relay) { return !relay->carry(now_us()); });
+    std::erase_if(relays_, [](const auto& relay) { return !relay->carry(timing::steady_us()); });
   }
 
  private:
@@ -133,7 +129,7 @@ int relay_packets(const LinkOptions& options) {
   std::fflush(stdout);
   while (interrupts.count() == 0) {
     relay->wait(kStep_ms);
-    relay->step(now_us());
+    relay->step(timing::steady_us());
   }
   if (options.json) {
     std::puts(Json{{"sent", relay->sent()}, {"received", relay->received()}}.dump().c_str());

@@ -2,8 +2,6 @@
 #include <cinttypes>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <tuple>
 
@@ -29,9 +27,7 @@ namespace fs = std::filesystem;
 archive::Reader reader_of(const std::string& run) { return archive::Reader(archive_folder("log", run)); }
 
 std::string report_text(const std::string& folder, const char* member, const char* fallback) {
-  file::require_ordinary(folder + "/report.json");
-  std::ifstream file(folder + "/report.json");
-  const Json report = Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}});
+  const Json report = Json::parse_or_null(file::content_of(folder + "/report.json").value_or(""));
   const Json& found = report.member_or_null(member);
   return found.is_string() ? found.text() : fallback;
 }

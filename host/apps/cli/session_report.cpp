@@ -1,11 +1,10 @@
 #include "host/apps/cli/session_report.hpp"
 
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 
 #include "host/apps/launcher/output.hpp"
 #include "host/apps/launcher/start_pose.hpp"
+#include "host/base/file/in_file.hpp"
 #include "host/base/json/json.hpp"
 #include "host/model/config/field.hpp"
 
@@ -13,8 +12,7 @@ namespace liana::cli {
 namespace {
 
 report::Criteria criteria(const std::string& robot_file, const std::string& physics) {
-  std::ifstream file(robot_file);
-  return report::criteria_of(Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}}), physics);
+  return report::criteria_of(Json::parse_or_null(file::content_of(robot_file).value_or("")), physics);
 }
 
 report::BodyAt body_at(const launcher::RunOptions& options, const launcher::SystemLayout& plan) {

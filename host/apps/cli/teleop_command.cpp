@@ -1,7 +1,6 @@
 // The arm driven from this terminal: of a running system, or of a simulated arm that it starts.
 #include <unistd.h>
 
-#include <chrono>
 #include <cstdio>
 #include <functional>
 #include <optional>
@@ -15,6 +14,7 @@
 #include "host/apps/launcher/interrupt.hpp"
 #include "host/apps/launcher/observer.hpp"
 #include "host/apps/launcher/system_layout.hpp"
+#include "host/base/clock/steady.hpp"
 #include "host/base/json/json.hpp"
 #include "host/operator/terminal/gamepad.hpp"
 #include "host/operator/terminal/session.hpp"
@@ -25,8 +25,6 @@ namespace {
 
 constexpr double kDraw_s = 0.1;
 constexpr double kWelcome_s = 30.0;  // a simulated arm is starting
-
-double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 // True once in `period_s`.
 class Beat {
@@ -49,9 +47,10 @@ void send_all(api::ApiClient& client, const std::vector<Json>& requests) {
 // Keys of the terminal and of the gamepad, and where its sticks lean.
 void feel(const std::string& typed, std::optional<terminal::Gamepad>& gamepad, terminal::Session& session,
           api::ApiClient& client) {
-  for (const terminal::Key& key : terminal::keys_in(typed)) send_all(client, session.press(key, now_s()));
+  for (const terminal::Key& key : terminal::keys_in(typed)) send_all(client, session.press(key, timing::steady_s()));
   if (!gamepad) return;
-  for (const terminal::Key& key : gamepad->read(now_s())) send_all(client, session.press(key, now_s()));
+  for (const terminal::Key& key : gamepad->read(timing::steady_s()))
+    send_all(client, session.press(key, timing::steady_s()));
   session.lean(gamepad->is_held() ? std::optional(gamepad->direction()) : std::nullopt);
   if (gamepad->take_silence())
     session.say("the gamepad has said nothing for 2 s: the arm holds; press its shoulder button anew");
@@ -68,14 +67,14 @@ void drive(const std::string& api, std::optional<terminal::Gamepad>& gamepad, co
   const auto welcome = launcher::wait_for(client, "welcome", kWelcome_s);
   if (!welcome)
     throw std::runtime_error("lianad at " + api + " did not answer within 30 s: see docs/how-to/nothing-answers.md");
-  terminal::Session session(name, *welcome, now_s());
+  terminal::Session session(name, *welcome, timing::steady_s());
   terminal::Terminal terminal;
   Beat goal(terminal::Session::kPeriod_s), picture(kDraw_s);
   while (goes_on() && !session.wants_end() && !session.is_over() && !terminal.is_gone()) {
     feel(terminal.read(client.fd(), terminal::Session::kPeriod_s), gamepad, session, client);
-    while (const auto message = client.receive(0.0)) session.hear(*message, now_s());
-    if (goal.is_due(now_s())) send_all(client, session.pass(now_s()));
-    if (picture.is_due(now_s())) terminal.draw(session.lines(terminal.size(), now_s()));
+    while (const auto message = client.receive(0.0)) session.hear(*message, timing::steady_s());
+    if (goal.is_due(timing::steady_s())) send_all(client, session.pass(timing::steady_s()));
+    if (picture.is_due(timing::steady_s())) terminal.draw(session.lines(terminal.size(), timing::steady_s()));
   }
 }
 

@@ -1,7 +1,6 @@
 // liana-gateway: the console's way to lianad, for browsers and other programs (docs/reference/console-protocol.md).
 #include <sys/resource.h>
 
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <optional>
@@ -10,6 +9,7 @@
 #include "host/api/device/driver.hpp"
 #include "host/apps/gateway/gateway.hpp"
 #include "host/apps/gateway/web_server.hpp"
+#include "host/base/clock/steady.hpp"
 #include "host/base/install_paths/places.hpp"
 #include "host/base/options/command_line.hpp"
 
@@ -22,8 +22,6 @@ constexpr int kNice = 5;  // whatever clients do here, lianad has its turn first
 struct Options {
   std::string api, devices, listen = "127.0.0.1:8765", token_file, certificate, key, runs, page, practice;
 };
-
-double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 // Beyond this machine nobody is let in without a token, and nothing goes in the clear.
 void require_safe(const Options& options, const liana::api::InternetAddress& listen) {
@@ -55,7 +53,7 @@ int run(const Options& options) {
   std::signal(SIGPIPE, SIG_IGN);
   ::setpriority(PRIO_PROCESS, 0, kNice);
   const std::string devices = options.devices.empty() ? liana::device::devices_path(options.api) : options.devices;
-  Gateway gateway(options.api, devices, tokens ? &*tokens : nullptr, listen.is_loopback(), now_s,
+  Gateway gateway(options.api, devices, tokens ? &*tokens : nullptr, listen.is_loopback(), liana::timing::steady_s,
                   {liana::install_paths::program_folder() + "/liana", options.practice});
   const std::string page = options.page.empty() ? liana::install_paths::page_file("console.html") : options.page;
   WebServer server({listen, options.certificate, options.key, page, options.runs}, gateway);

@@ -8,6 +8,8 @@
 #include <chrono>
 #include <utility>
 
+#include "host/base/clock/steady.hpp"
+
 namespace liana::ground {
 namespace {
 
@@ -18,10 +20,6 @@ constexpr std::uint16_t kStoreSource = 15;  // of its telecommands
 constexpr const char* kTable =
     "CREATE TABLE IF NOT EXISTS packets (apid INTEGER NOT NULL, count INTEGER NOT NULL, time_us INTEGER NOT NULL, "
     "service INTEGER, subtype INTEGER, packet BLOB NOT NULL, PRIMARY KEY (time_us, apid, count)) WITHOUT ROWID";
-
-double monotonic_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 std::string question(std::uint16_t count, const Gaps::Span& span) {
   Telecommand out;
@@ -41,11 +39,11 @@ class Keeper {
  public:
   Keeper(const StoreConfig& config, const std::function<void(const std::string&)>& news)
       : config_(config), news_(news), file_(config.file, archive::Database::Open::kQuick) {
-    file_.begin(gaps_, monotonic_s());
+    file_.begin(gaps_, timing::steady_s());
   }
 
   void step() {
-    now_s_ = monotonic_s();
+    now_s_ = timing::steady_s();
     connect();
     read();
     ask();

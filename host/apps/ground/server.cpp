@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "host/base/clock/steady.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::ground {
@@ -77,8 +78,7 @@ void Server::wait() const {
 }
 
 void Server::set_time() {
-  using std::chrono::duration;
-  now_s_ = duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  now_s_ = timing::steady_s();
   const auto utc = std::chrono::system_clock::now().time_since_epoch();
   on_board_.set_time(now_s_,
                      static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::microseconds>(utc).count()));

@@ -5,11 +5,11 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <utility>
 
 #include "host/apps/launcher/observer.hpp"
+#include "host/base/file/in_file.hpp"
 
 namespace liana::launcher {
 namespace {
@@ -107,8 +107,7 @@ bool RunSession::matters(const ChildProcess& child) const {
 
 // The run is no success as far as processes and mission tell.
 bool RunSession::has_failed(const RunResult& end) const {
-  std::ifstream file(plan_.file("mission.json"));
-  const Json mission = Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}});
+  const Json mission = Json::parse_or_null(file::content_of(plan_.file("mission.json")).value_or(""));
   return !end.outcome.empty() || mission.value("outcome", "") != "success";
 }
 

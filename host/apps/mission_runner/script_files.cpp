@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <vector>
+
+#include "host/base/file/in_file.hpp"
 
 namespace liana::mission_runner {
 namespace {
@@ -28,10 +29,9 @@ ScriptFile read_script(const fs::path& path, const std::string& display) {
                              ": allowed a Lua file: check the path");
   if (fs::file_size(path, error) > kLargestScript)
     throw std::runtime_error(display + ": too large: allowed 1 MiB: split it into modules");
-  std::ifstream in(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in) throw std::runtime_error(display + ": cannot be read: allowed a readable Lua file: check its permissions");
-  return {display, std::move(text), path.has_parent_path() ? path.parent_path().string() : ".", false};
+  auto text = file::content_of(path);
+  if (!text) throw std::runtime_error(display + ": cannot be read: allowed a readable Lua file: check its permissions");
+  return {display, std::move(*text), path.has_parent_path() ? path.parent_path().string() : ".", false};
 }
 
 // The names of all scripts of a kind, in alphabetical order.

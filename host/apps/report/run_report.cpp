@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "firmware_like/math/trig.hpp"
 #include "host/apps/report/line.hpp"
@@ -19,10 +18,7 @@ namespace liana::report {
 namespace {
 
 Json read_json(const std::string& path) {
-  file::require_ordinary(path);
-  std::ifstream file(path);
-  if (!file) return Json::object();
-  Json parsed = Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}});
+  Json parsed = Json::parse_or_null(file::content_of(path).value_or(""));
   return parsed.is_object() ? parsed : Json::object();
 }
 

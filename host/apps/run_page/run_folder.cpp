@@ -17,10 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string text_of(const std::string& file) {
-  file::require_ordinary(file);
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::runtime_error("'" + file + "': cannot be read");
-  return {std::istreambuf_iterator<char>(in), {}};
+  const auto text = file::content_of(file);
+  if (!text) throw std::runtime_error("'" + file + "': cannot be read");
+  return *text;
 }
 
 // A run whose mission is known is called by it, any other one by when it began.

@@ -2,6 +2,8 @@
 
 #include <sys/stat.h>
 
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 namespace liana::file {
@@ -21,6 +23,13 @@ void require_ordinary(const std::string& path) {
   if (::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode)) return;
   throw std::runtime_error(path + ": is " + kind_of(status.st_mode) +
                            "; allowed is an ordinary file: write its content to one, and give that");
+}
+
+std::optional<std::string> content_of(const std::string& path) {
+  require_ordinary(path);
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return std::nullopt;
+  return std::string{std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace liana::file

@@ -10,6 +10,7 @@
 #include "host/api/server/request_error.hpp"
 #include "host/api/server/request_text.hpp"
 #include "host/api/server/welcome_size.hpp"
+#include "host/base/clock/steady.hpp"
 #include "host/base/event/event_json.hpp"
 #include "host/control/verification/refusal_table.hpp"
 #include "host/storage/recording/tick_packet.hpp"
@@ -59,9 +60,7 @@ Service::Service(const ServiceConfig& config, ArmServer& desk)
 std::int64_t Service::arm_time_us() {
   const std::int64_t tick_us = std::llround(time_s() * 1e6);
   if (config_.time_mode != timing::TimeMode::kReal) return tick_us;
-  using std::chrono::microseconds;
-  const auto since = std::chrono::steady_clock::now().time_since_epoch();
-  const std::int64_t clock_us = std::chrono::duration_cast<microseconds>(since).count();
+  const std::int64_t clock_us = timing::steady_us();
   if (!clock_ahead_us_) clock_ahead_us_ = clock_us - tick_us;
   return clock_us - *clock_ahead_us_;
 }

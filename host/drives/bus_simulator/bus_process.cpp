@@ -40,10 +40,9 @@ WireConfig read_wire(const std::string& path, const std::string& where, const Js
 }  // namespace
 
 void load_wires(const std::string& path, BusHubOptions& options) {
-  file::require_ordinary(path);
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error(path + ": cannot be read; give the bus table with --buses");
-  const Json table = parse_file(std::string{std::istreambuf_iterator<char>(file), {}}, path);
+  const auto text = file::content_of(path);
+  if (!text) throw std::runtime_error(path + ": cannot be read; give the bus table with --buses");
+  const Json table = parse_file(*text, path);
   if (!table.is_object())
     throw std::runtime_error(path + ": is no JSON object; write it with liana-mission eval buses");
   const auto rate = field(table, "rate_hz");

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -167,10 +166,9 @@ std::uint64_t FaultScript::awake_from(std::uint64_t slot) const {
 }
 
 FaultScript load_fault_script(const std::string& path, int bus_count) {
-  file::require_ordinary(path);
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error(path + ": cannot be read; give the fault script of --script");
-  return parse_fault_script(std::string{std::istreambuf_iterator<char>(file), {}}, path, bus_count);
+  const auto text = file::content_of(path);
+  if (!text) throw std::runtime_error(path + ": cannot be read; give the fault script of --script");
+  return parse_fault_script(*text, path, bus_count);
 }
 
 FaultScript parse_fault_script(const std::string& text, const std::string& path, int bus_count) {

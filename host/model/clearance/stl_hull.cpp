@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <iterator>
 #include <numbers>
 #include <sstream>
@@ -26,10 +25,9 @@ static_assert(std::endian::native == std::endian::little, "binary STL is read as
 [[noreturn]] void refuse(const std::string& why) { throw std::runtime_error(why); }
 
 std::string read(const std::string& path) {
-  file::require_ordinary(path);
-  std::ifstream file(path, std::ios::binary);
-  if (!file) refuse("cannot be read: allowed a file that can be: put it beside the scene's");
-  return {std::istreambuf_iterator<char>(file), {}};
+  const auto text = file::content_of(path);
+  if (!text) refuse("cannot be read: allowed a file that can be: put it beside the scene's");
+  return *text;
 }
 
 template <class T>

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "host/api/device/driver.hpp"
+#include "host/base/clock/steady.hpp"
 #include "host/base/options/command_line.hpp"
 #include "host/operator/spacemouse/spacenav.hpp"
 
@@ -28,11 +29,6 @@ struct SpacemouseOptions {
   std::uint64_t button = kNoButton;
   PuckTable puck;
 };
-
-std::int64_t now_us() {
-  const auto since = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::microseconds>(since).count();
-}
 
 void check_range(const char* option, double value, double low, double high) {
   if (value >= low && value <= high) return;
@@ -56,17 +52,17 @@ device::Capability capability(const SpacemouseOptions& options) {
 }
 
 void sleep_until(std::int64_t due_us) {
-  const std::int64_t left_us = due_us - now_us();
+  const std::int64_t left_us = due_us - timing::steady_us();
   if (left_us > 0) std::this_thread::sleep_for(std::chrono::microseconds(left_us));
 }
 
 // What fails from here on is no longer what was given.
 void serve(Spacenav& spacenav, device::Driver& driver, const PuckTable& table) {
   Puck puck(table);
-  for (std::int64_t due_us = now_us(); g_over == 0; due_us += kPeriod_us) {
+  for (std::int64_t due_us = timing::steady_us(); g_over == 0; due_us += kPeriod_us) {
     sleep_until(due_us);
     if (!spacenav.read(puck)) throw std::runtime_error("spacenavd is gone; the arm holds");
-    const std::int64_t t_us = now_us();
+    const std::int64_t t_us = timing::steady_us();
     driver.receive(t_us);
     if (!driver.is_open()) throw std::runtime_error(driver.problem());
     driver.send(puck.step(t_us, 1.0 / kRate_hz));
@@ -80,7 +76,7 @@ int run(SpacemouseOptions options) {
   if (options.button != kNoButton) options.puck.button = static_cast<int>(options.button);
   Spacenav spacenav;
   const std::string path = options.devices.empty() ? device::devices_path(options.api) : options.devices;
-  device::Driver driver = device::Driver::connect(path, capability(options), now_us(), kConnectTimeout_s);
+  device::Driver driver = device::Driver::connect(path, capability(options), timing::steady_us(), kConnectTimeout_s);
   for (const int signal : {SIGTERM, SIGINT}) std::signal(signal, [](int) { g_over = 1; });
   try {
     serve(spacenav, driver, options.puck);
