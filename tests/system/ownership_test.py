@@ -395,12 +395,23 @@ class StopsFromTheCommandLine(SystemTest):
         owner.send_signal(signal.SIGSTOP)
         return owner
 
-    def test_clear_takes_motion_from_an_owner_that_stands_still_and_gives_it_back(self):
-        system, client = self.moving([{"drive": 4, "kind": "fault", "at_slot": 2500}])
+    def silent_owner(self, system, client):
+        """The same, until lianad lets others take motion from it."""
         self.stuck_owner(system, client)
-        client.until(lambda state: state["state"] == "FAULT")
         begin = time.monotonic()
         wait_until(lambda: (client.step(), time.monotonic() > begin + 5.5)[1], "5 s of silence")
+
+    def test_recover_takes_motion_from_an_owner_that_stands_still_though_nothing_is_lost(self):
+        system, client = self.moving()
+        self.silent_owner(system, client)
+        code, said, _ = self.while_running("recover", [client])
+        self.assertEqual((code, said[0]["taken_from"], said[0]["recovered"]), (1, "stuck", False))
+        client.until(lambda state: not state["owner"])
+
+    def test_clear_takes_motion_from_an_owner_that_stands_still_and_gives_it_back(self):
+        system, client = self.moving([{"drive": 4, "kind": "fault", "at_slot": 2500}])
+        self.silent_owner(system, client)
+        client.until(lambda state: state["state"] == "FAULT")
         code, cleared, error = self.while_running("clear", [client])
         self.assertEqual((code, error, cleared[0]["taken_from"]), (0, "", "stuck"))
         client.until(lambda state: not state["owner"] and state["state"] == "DISABLED")

@@ -61,7 +61,7 @@ std::string take_motion(api::ApiClient& client, const Json& state, int id) {
   if (is_refused(answer))
     throw std::runtime_error("lianad: " + answer.value("message", answer.dump()) +
                              (answer.value("code", "") == "not_owner"
-                                  ? "; press c where motion is owned, or give it back there, then clear again"
+                                  ? "; press c where motion is owned, or give it back there, then ask again"
                                   : ""));
   return owner;
 }

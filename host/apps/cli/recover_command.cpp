@@ -31,6 +31,7 @@ class Recovery {
   }
   const Json& loss() const { return loss_; }
   const Json& state() const { return state_; }
+  const std::string& taken_from() const { return taken_from_; }
 
  private:
   void tell(const std::string& text) {
@@ -44,7 +45,8 @@ class Recovery {
 
   void begin() {
     loss_ = look().value("recovery", Json());
-    request({{"op", "acquire"}});
+    taken_from_ = take_motion(client_, state_, ++asked_);
+    if (!taken_from_.empty()) tell("motion was taken from '" + taken_from_ + "'");
     if (!loss_.is_object()) return command("recover");  // lianad says why not
     std::string slack;
     for (const Json& cable : loss_["slack"]) slack += (slack.empty() ? "" : ", ") + std::to_string(cable.get<int>());
@@ -131,6 +133,7 @@ class Recovery {
 
   api::ApiClient client_;
   Json loss_, state_ = Json::object();
+  std::string taken_from_;  // who owned motion; empty: nobody did
   int asked_ = 0;
 };
 
@@ -138,7 +141,7 @@ class Recovery {
 
 int recover_command(const ClientOptions& options) {
   const std::string api = only_system("recover", options.api);
-  Json result{{"api", api}, {"recovered", false}, {"said", ""}};
+  Json result{{"api", api}, {"recovered", false}, {"said", ""}, {"taken_from", ""}};
   try {
     Recovery recovery(api);
     try {
@@ -148,6 +151,7 @@ int recover_command(const ClientOptions& options) {
       result["said"] = error.what();
     }
     result["recovery"] = recovery.loss();
+    result["taken_from"] = recovery.taken_from();
     result["state"] = recovery.state().value("state", "");
     result["points_left"] = recovery.state().value("retract", Json::object()).value("points_left", 0);
   } catch (const std::exception& error) {
