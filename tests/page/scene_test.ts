@@ -50,6 +50,11 @@ test('a stop and a fault come before the step in the sentence', () => {
   assert.match(sentenceOf(sampleOf({}, { state: 'DISABLED', step, stop }), ARM, scene, null), /^emergency stop by anna/);
 });
 
+test('an arm that goes back says how much of the path is left', () => {
+  const back = sampleOf({ 'retract.points_left': [21] }, { state: 'ENABLED', retract: { phase: 'back', points: 50 } });
+  assert.match(sentenceOf(back, ARM, scene, null), /42 % left/);
+});
+
 test('lengths are said in the unit that people use', () => {
   assert.deepEqual([0.0134, 0.041, 0.86, NaN, -0.002].map(lengthText), ['13.4 mm', '41 mm', '0.86 m', '?', '-2.0 mm']);
 });

@@ -77,6 +77,7 @@ class TheWayOut(SystemTest):
         while client.state["retract"]["phase"] not in ("done", "ended"):
             if client.state["retract"]["phase"] not in phases:
                 phases.append(client.state["retract"]["phase"])
+            self.assertLessEqual(client.state["retract"]["points_left"], client.state["retract"]["points"])
             client.step()
             self.assertLess(len(client.state["faults"]), 3, brief(client.state))
         return client.state, phases

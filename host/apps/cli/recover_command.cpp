@@ -6,6 +6,7 @@
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/observer.hpp"
 #include "host/base/event/fault_groups.hpp"
+#include "host/operator/terminal/state_text.hpp"
 
 namespace liana::cli {
 namespace {
@@ -105,8 +106,7 @@ class Recovery {
       require_enabled();
       if (time_s() < told_s + kTold_s) continue;
       told_s = time_s();
-      tell(state_["retract"].value("phase", "") + ", " + std::to_string(state_["retract"].value("points_left", 0)) +
-           " points of the path left");
+      if (const std::string left = terminal::retract_progress(state_); !left.empty()) tell(left);
     }
     return true;
   }

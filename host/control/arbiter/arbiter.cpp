@@ -163,7 +163,10 @@ void Arbiter<Arm>::retract(const Now& now, std::uint64_t until_tick) {
 template <class Arm>
 RetractState Arbiter<Arm>::retract_state() const {
   const auto* back = std::get_if<RetractMove<Arm>>(&way_);
-  return back != nullptr ? RetractState{back->phase(), back->points_left(), ""} : retract_request_.last_retract();
+  const RetractState& last = retract_request_.last_retract();
+  if (back == nullptr) return last;
+  const std::size_t left = back->points_left();
+  return {back->phase(), left, std::max(last.points, left), ""};  // until the arm rests the path still grows
 }
 
 template <class Arm>

@@ -25,6 +25,7 @@ const char* retract_phase_name(RetractPhase phase);
 struct RetractState {
   RetractPhase phase = RetractPhase::kNone;
   std::size_t points_left = 0;  // of the path, one for each command interval of the way in
+  std::size_t points = 0;       // with which it began
   std::string reason;           // of kEnded, one sentence; else empty
 };
 

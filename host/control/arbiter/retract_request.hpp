@@ -50,6 +50,7 @@ class RetractRequest {
   void begin(std::uint64_t until_tick) {
     until_tick_ = until_tick;
     retract_ = {};
+    retract_.points = points_left();
     tell(event::RetractEvent::kBegins, points_left(), 0.0,
          "retract: " + count_text(points_left()) + " to go back along");
   }
@@ -110,7 +111,8 @@ template <class Arm>
 void RetractRequest<Arm>::end(const std::string& why, const Joints<Arm>& joint_rad) {
   const std::size_t left = points_left();
   const bool too_short = why.empty() && until_tick_ > 0 && path_.at(0).tick > until_tick_;
-  retract_ = {RetractPhase::kDone, left, too_short ? "the path does not lead farther back" + why_lost_ : why};
+  retract_ = {RetractPhase::kDone, left, retract_.points,
+              too_short ? "the path does not lead farther back" + why_lost_ : why};
   done_rad_ = joint_rad;
   if (retract_.reason.empty()) return tell(event::RetractEvent::kArrives, left, 0.0, "retract: the arm is back");
   retract_.phase = RetractPhase::kEnded;

@@ -26,6 +26,7 @@ inline void add_retract(Json& state, const arbiter::RetractState& retract) {
   state["retracted"] = retract.phase == arbiter::RetractPhase::kDone;
   state["retract"] = {{"phase", arbiter::retract_phase_name(retract.phase)},
                       {"points_left", retract.points_left},
+                      {"points", retract.points},
                       {"reason", retract.reason}};
 }
 

@@ -43,6 +43,11 @@ std::string device_text(const Json& state) {
   return text + "\n";
 }
 
+std::string retract_text(const Json& state) {
+  const std::string progress = retract_progress(state);
+  return progress.empty() ? "" : "retract: " + progress + "\n";
+}
+
 std::string faults_text(const Json& faults) {
   std::string text;
   for (const event::FaultGroup& group : event::fault_groups(faults)) {
@@ -67,6 +72,17 @@ std::string stopped_by(const Json& stop) {
   return stop.value("by", "") + (reason.empty() ? "" : ": " + reason);
 }
 
+std::string retract_progress(const Json& state) {
+  const Json& retract = state.member_or_null("retract");
+  if (!retract.is_object()) return "";
+  const std::string phase = retract.value("phase", "");
+  if (phase != "stopping" && phase != "joining" && phase != "back") return "";
+  const int left = retract.value("points_left", 0), points = retract.value("points", 0);
+  const double share = points > 0 ? static_cast<double>(left) / points : 0.0;
+  return phase + number(", %.0f %% of the path left", 100.0 * share) + " (" + std::to_string(left) + " of " +
+         std::to_string(points) + " points)";
+}
+
 std::string why_not_homed(const Json& state) {
   if (state.value("is_homed", true) || state.value("state", "") == "BOOTING") return "";
   std::string why;
@@ -82,8 +98,8 @@ std::string state_text(const Json& state) {
   std::string text = head_text(state);
   if (const Json& stop = state.member_or_null("stop"); stop.is_object())
     text += "emergency stop by " + stopped_by(stop) + "\n";
-  if (const std::string why = why_not_homed(state); !why.empty()) text += std::string(kNotHomed) + why + "\n";
-  text += step_text(state.member_or_null("step")) + device_text(state);
+  if (const std::string why = why_not_homed(state); !why.empty()) text += "not homed: " + why + "\n";
+  text += step_text(state.member_or_null("step")) + retract_text(state) + device_text(state);
   text += faults_text(state.value("faults", Json::array()));
   if (const Json& recovery = state.member_or_null("recovery"); recovery.is_object())
     text += "lost: " + recovery.value("where", "") + "; next: " + recovery.value("next", "") +

@@ -13,6 +13,9 @@ std::string stopped_by(const Json& stop);
 // Why the arm is not homed, as lianad said last; empty while it is homed, and while its drives boot.
 std::string why_not_homed(const Json& state);
 
+// What is left of the way back: "back, 42 % of the path left (21 of 50 points)"; empty when the arm does not go back.
+std::string retract_progress(const Json& state);
+
 // What `liana status` prints of one system, in lines that each end in a newline.
 std::string state_text(const Json& state);
 

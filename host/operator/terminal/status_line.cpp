@@ -114,6 +114,7 @@ std::vector<std::string> trouble_lines(const Json& state, const Shown& shown) {
                 "only SPACE and ESCAPE are sent",
                 shown.silent_s));
   if (const Json& stop = object(state, "stop"); !stop.empty()) lines.push_back("STOPPED     by " + stopped_by(stop));
+  if (const std::string left = retract_progress(state); !left.empty()) lines.push_back("RETRACT     " + left);
   if (const std::string why = why_not_homed(state); !why.empty()) lines.push_back("NOT HOMED   " + why);
   if (const Json& faults = state.member_or_null("faults"); faults.is_array()) {
     for (const event::FaultGroup& group : event::fault_groups(faults))

@@ -727,6 +727,7 @@ TEST_F(RetractRequest, SaysWhatItIsDoingAndHowMuchIsLeft) {
   arbiter_.retract(now_, 0);
   EXPECT_EQ(arbiter_.retract_state().phase, RetractPhase::kStopping);
   EXPECT_EQ(arbiter_.retract_state().points_left, 19u);
+  EXPECT_EQ(arbiter_.retract_state().points, 19u);
   wait_for_rest();
   for (int i = 0; i < 40; ++i) now_.theta_command_rad = next()->joint_rad;
   EXPECT_EQ(arbiter_.retract_state().phase, RetractPhase::kBack);
@@ -734,6 +735,7 @@ TEST_F(RetractRequest, SaysWhatItIsDoingAndHowMuchIsLeft) {
   follow();
   EXPECT_EQ(arbiter_.retract_state().phase, RetractPhase::kDone);
   EXPECT_EQ(arbiter_.retract_state().points_left, 0u);
+  EXPECT_EQ(arbiter_.retract_state().points, 19u);
   const auto news = arbiter_.take_way_news();
   ASSERT_EQ(news.size(), 2u);
   EXPECT_EQ(news[0].what, event::RetractEvent::kBegins);

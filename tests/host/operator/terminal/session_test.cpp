@@ -226,6 +226,18 @@ TEST(TeleopSession, MotionIsTakenByNameOnlyRightAfterTheRefusal) {
   EXPECT_FALSE(session.press(*key_of('t'), 1.3)[0].contains("from")) << "the answer to something else";
 }
 
+TEST(TeleopSession, AnArmThatGoesBackShowsWhatIsLeftOfThePathHereAndInItsState) {
+  Json back = state();
+  back["retract"] = {{"phase", "back"}, {"points_left", 21}, {"points", 50}, {"reason", ""}};
+  EXPECT_TRUE(names(text_of(session_at(back)), {"RETRACT", "back", "42 %", "21 of 50"}));
+  EXPECT_TRUE(names(state_text(back), {"retract: ", "back", "42 %", "21 of 50"}));
+  for (const char* over : {"none", "done", "ended"}) {
+    back["retract"]["phase"] = over;
+    EXPECT_EQ(text_of(session_at(back)).find("RETRACT"), std::string::npos) << over;
+    EXPECT_EQ(state_text(back).find("retract: "), std::string::npos) << over;
+  }
+}
+
 TEST(TeleopSession, AnArmThatIsNotHomedIsShownWithTheReasonAndIsNotSaidToEnable) {
   Json unhomed = state("me", "DISABLED");
   EXPECT_TRUE(names(text_of(session_at(unhomed)), {"n enables"}));

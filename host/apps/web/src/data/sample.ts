@@ -27,7 +27,7 @@ export interface Facts {
   verdict?: { released?: boolean; code?: number; name?: string; text?: string; remedy?: string; margin?: string };
   buses?: { name: string; state: string; lost?: boolean; refused?: number; worst_load?: number }[];
   drives?: { node: number; state: string; serial?: number | null }[];
-  retract?: { phase: string; reason?: string };
+  retract?: { phase: string; points?: number; reason?: string };
   retracted?: boolean;
   ik?: { outcome: string };
   shape?: { settled: boolean; searching: boolean };

@@ -1,5 +1,5 @@
 // What the arm does, in one sentence that a visitor understands.
-import { isKnown, values, type Sample } from '../data/sample';
+import { isKnown, value, values, type Sample } from '../data/sample';
 import { mainDistance } from './distances';
 import type { Robot, Scene } from './robot';
 
@@ -17,11 +17,16 @@ const MODES: Record<string, string> = {
   hand: 'moved with the hand controller',
 };
 
+function leftOf(sample: Sample): string {
+  const share = value(sample, 'retract.points_left') / (sample.facts.retract?.points ?? NaN);
+  return Number.isFinite(share) ? `, ${Math.round(100 * share)} % left` : '';
+}
+
 function doing(sample: Sample, stepCount: number | null): string {
   const { step, state, retract, stop, device_engaged, device } = sample.facts;
   if (stop) return `emergency stop by ${stop.by}`;
   if (state === 'FAULT') return STATES.FAULT;
-  if (retract && ['stopping', 'joining', 'back'].includes(retract.phase)) return 'going back along the verified path';
+  if (retract && ['stopping', 'joining', 'back'].includes(retract.phase)) return `going back along the verified path${leftOf(sample)}`;
   if (step) return `step ${step.index}${stepCount ? ` of ${stepCount}` : ''}: ${step.name}${step.waits ? `, waits: ${step.waits}` : ''}`;
   const what = STATES[state ?? ''] ?? 'no state yet';
   if (state !== 'ENABLED') return what;
