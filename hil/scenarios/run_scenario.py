@@ -184,7 +184,8 @@ class Run(LimitedRun):
         expect_that(not client.state["is_homed"], "the arm counts as homed")
         answer = client.ask("state_command", command="enable")
         expect_that(answer["op"] == "error", f"the arm was enabled: {answer}")
-        for text in [answer["message"], " ".join(event["text"] for event in client.events)]:
+        seen = (client.state["not_homed"] or {}).get("text", "")
+        for text in [answer["message"], " ".join(event["text"] for event in client.events), f"not homed: {seen}"]:
             expect_that(
                 all(words in text for words in self.expect["refused"]), f"{self.expect['refused']} is not in: {text}"
             )

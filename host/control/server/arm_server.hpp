@@ -55,6 +55,23 @@ struct CameraObservation {
   std::string target_name = "target";
 };
 
+// Why the arm is not homed; the names stand in docs/reference/api.md.
+enum class NotHomedReason : std::uint8_t {
+  kHomed = 0,
+  kDriveNotHeard = 1,
+  kOtherPose = 2,          // not that in which the arm is said to lie
+  kLengthsContradict = 3,  // those of a segment's cables
+  kNotSettled = 4,         // what the encoders say changes too fast
+  kOutOfRange = 5,         // a joint beyond its range
+};
+const char* not_homed_name(NotHomedReason reason);  // snake_case, as the state message has it
+
+struct NotHomed {
+  NotHomedReason reason = NotHomedReason::kDriveNotHeard;
+  std::string text = "the drives have not been heard yet";  // what contradicts what and what to do; empty while homed
+  bool is_homed() const { return reason == NotHomedReason::kHomed; }
+};
+
 class ArmServer {
  public:
   virtual ~ArmServer() = default;
@@ -77,8 +94,7 @@ class ArmServer {
 
   // Once per interval: what changes by itself. `booted`: the drives are.
   virtual void watch(bool booted) = 0;
-  // Empty when homed; otherwise what contradicts what and what to do.
-  virtual const std::string& why_not_homed() const = 0;
+  virtual const NotHomed& not_homed() const = 0;
 
   // Empty, or which latched cause a clear would be untrue about; `whole`: somebody has looked at this cable (from 1, 0:
   // none), and it is whole.

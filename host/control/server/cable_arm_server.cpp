@@ -180,7 +180,7 @@ bool CableArmServer::is_untrue() const {
 // An arm whose cables have slipped or broken, or that is not homed, may be anywhere: nothing is claimed of it, and what
 // the camera has shown with such angles is forgotten. The scene stands where it was seen to stand.
 void CableArmServer::watch_clearance() {
-  if (!homing_.why_not().empty() || !lengths_are_sound(outputs().faults) || cable::does_without(loss().release)) {
+  if (!homing_.not_homed().is_homed() || !lengths_are_sound(outputs().faults) || cable::does_without(loss().release)) {
     clearance_.reset();
     foresee({{}, outlook_.drawing_in_base, std::max(outlook_.prediction_m, scene_.margins.prediction_m)});
     return arbiter_.cap_tip_speed(table_.limits.tip_speed_m_s);

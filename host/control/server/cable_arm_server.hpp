@@ -33,7 +33,7 @@ class CableArmServer final : public TypedArmServer<cable::CableArm, arbiter::Cab
     if (!kept.points.empty()) homing_.remember(kept.points.back().joint_rad);
     TypedArmServer::restore_way(kept);
   }
-  const std::string& why_not_homed() const override { return homing_.why_not(); }
+  const NotHomed& not_homed() const override { return homing_.not_homed(); }
   std::string why_not_clear(std::int64_t whole) override;
   std::string why_not_recover() const override;
   bool recovers() const override;

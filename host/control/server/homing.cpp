@@ -42,15 +42,18 @@ std::string text_of(const Contradiction& found) {
   return text;
 }
 
-std::string why_lengths_do_not_fit(const cable::RobotParams& table, const cable::EstimatorState& estimator) {
+NotHomed why_lengths_do_not_fit(const cable::RobotParams& table, const cable::EstimatorState& estimator) {
   std::string out;
   for (const Contradiction& found : contradictions(table, estimator))
     out += (out.empty() ? "cables " : ", cables ") + text_of(found);
   if (out.empty())
-    return "the angles that the cables' lengths say have not settled: wait, or look for a drum that turns";
+    return {NotHomedReason::kNotSettled,
+            "the angles that the cables' lengths say have not settled: wait, or look for a drum that turns"};
   char allowed[40];
   std::snprintf(allowed, sizeof allowed, "; allowed %.1f mm: ", 1e3 * cable::kHomingResidual_m);
-  return out + allowed + "look for cables on each other's drums, slack ones and wrong zeros, then run liana calibrate";
+  return {
+      NotHomedReason::kLengthsContradict,
+      out + allowed + "look for cables on each other's drums, slack ones and wrong zeros, then run liana calibrate"};
 }
 
 }  // namespace
@@ -107,16 +110,19 @@ void Homing::look(const realtime::ArmTickStatus<cable::CableArm>& report, const 
   for (Index i = 0; i < static_cast<Index>(table.cable_count()); ++i) {
     if (report.inputs.drive[i].feedback_age_ticks == 0xFFFF) return;
   }
-  why_not_.clear();
-  if (!in_pose_.empty()) {
-    why_not_ = calibration::contradiction(robot_, in_pose_, paid_out_m(table, report.inputs),
-                                          reported_tension_N(table, report.inputs));
-    if (why_not_.empty() && report.outputs.homed != 0) in_pose_.clear();
-  }
   const cable::CableVector now_m = paid_out_m(table, report.inputs);
-  if (why_not_.empty() && report.outputs.homed == 0)
-    why_not_ = why_lengths_do_not_fit(table, estimator) + lost_turns(now_m);
-  if (why_not_.empty()) left_m_ = now_m;
+  not_homed_ = {NotHomedReason::kHomed, ""};
+  if (!in_pose_.empty()) {
+    const std::string why =
+        calibration::contradiction(robot_, in_pose_, now_m, reported_tension_N(table, report.inputs));
+    if (!why.empty()) not_homed_ = {NotHomedReason::kOtherPose, why};
+    if (why.empty() && report.outputs.homed != 0) in_pose_.clear();
+  }
+  if (not_homed_.is_homed() && report.outputs.homed == 0) {
+    not_homed_ = why_lengths_do_not_fit(table, estimator);
+    not_homed_.text += lost_turns(now_m);
+  }
+  if (not_homed_.is_homed()) left_m_ = now_m;
 }
 
 }  // namespace liana::server

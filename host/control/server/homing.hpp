@@ -8,6 +8,7 @@
 
 #include "firmware_like/cable_controller.hpp"
 #include "host/control/realtime/link.hpp"
+#include "host/control/server/arm_server.hpp"
 #include "host/model/config/config.hpp"
 
 namespace liana::server {
@@ -33,9 +34,7 @@ class Homing {
   // Once per interval after booting. The pose is compared until it fits once: then the arm may leave it.
   void look(const realtime::ArmTickStatus<cable::CableArm>& report, const cable::EstimatorState& estimator);
 
-  bool is_homed() const { return why_not_.empty(); }
-  // What contradicts what and what to do; empty while homed.
-  const std::string& why_not() const { return why_not_; }
+  const NotHomed& not_homed() const { return not_homed_; }
 
  private:
   std::string lost_turns(const cable::CableVector& now_m) const;
@@ -43,7 +42,7 @@ class Homing {
   const config::RobotConfig& robot_;
   std::string in_pose_;                       // still to be found
   std::optional<cable::CableVector> left_m_;  // paid out beyond zero when it was homed last
-  std::string why_not_ = "the drives have not been heard yet";
+  NotHomed not_homed_;
 };
 
 }  // namespace liana::server

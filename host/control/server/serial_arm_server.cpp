@@ -21,19 +21,21 @@ std::vector<double> deg(const serial::RobotParams& table, const serial::JointVec
 std::string deg_text(double rad) { return Json(std::round(in_degrees(rad) * 1e3) / 1e3).dump(); }
 
 // The first joint that keeps the arm from being homed.
-std::string why_not(const serial::RobotParams& table, const serial::Inputs& inputs) {
+NotHomed why_not(const serial::RobotParams& table, const serial::Inputs& inputs) {
+  using enum NotHomedReason;
   for (std::size_t i = 0; i < table.joints(); ++i) {
     const std::string joint = "joint " + std::to_string(i + 1);
-    if (inputs.drive[i].feedback_age_ticks == 0xFFFF) return joint + ": its drive has not been heard yet";
+    if (inputs.drive[i].feedback_age_ticks == 0xFFFF)
+      return {kDriveNotHeard, joint + ": its drive has not been heard yet"};
     const double angle_rad = serial::joint_at_counts(table.drive[i], inputs.drive[i].position_counts);
     if (angle_rad < table.joint[i].low_rad - serial::kRangeMargin_rad ||
         angle_rad > table.joint[i].high_rad + serial::kRangeMargin_rad) {
-      return joint + ": its encoder reads " + deg_text(angle_rad) + " deg; allowed " +
-             deg_text(table.joint[i].low_rad) + " to " + deg_text(table.joint[i].high_rad) +
-             ": check zero_counts and direction of the table";
+      return {kOutOfRange, joint + ": its encoder reads " + deg_text(angle_rad) + " deg; allowed " +
+                               deg_text(table.joint[i].low_rad) + " to " + deg_text(table.joint[i].high_rad) +
+                               ": check zero_counts and direction of the table"};
     }
   }
-  return "the encoders have not been plausible for 25 ticks: one of them jumps";
+  return {kNotSettled, "the encoders have not been plausible for 25 ticks: one of them jumps"};
 }
 
 // Called in another thread: it has all it needs with it.
@@ -80,7 +82,7 @@ void SerialArmServer::tell_adapter(const api::Arguments& fields) {
 }
 
 void SerialArmServer::watch(bool booted) {
-  if (booted) why_not_homed_ = outputs().homed != 0 ? "" : why_not(table_, inputs());
+  if (booted) not_homed_ = outputs().homed != 0 ? NotHomed{NotHomedReason::kHomed, ""} : why_not(table_, inputs());
 }
 
 std::vector<double> SerialArmServer::joints_deg(const serial::Outputs& outputs) const {

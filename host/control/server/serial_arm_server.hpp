@@ -13,7 +13,7 @@ class SerialArmServer final : public TypedArmServer<serial::SerialArm, arbiter::
                   realtime::ArmMailbox<serial::SerialArm>& link);
 
   void watch(bool booted) override;
-  const std::string& why_not_homed() const override { return why_not_homed_; }
+  const NotHomed& not_homed() const override { return not_homed_; }
   void drop_motion() override { arbiter_.hold(); }
   void add_state(Json& state) const override;
   void add_drive_state(std::size_t drive, Json& state) const override;
@@ -25,7 +25,7 @@ class SerialArmServer final : public TypedArmServer<serial::SerialArm, arbiter::
 
   config::SerialRobotConfig robot_;
   std::uint8_t adapter_sequence_ = 0;
-  std::string why_not_homed_ = "the drives have not been heard yet";
+  NotHomed not_homed_;
 };
 
 }  // namespace liana::server

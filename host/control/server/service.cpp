@@ -135,13 +135,13 @@ void Service::note_clear() {
 
 // An arm that is not homed some time after booting says why, once; the refusal to enable it says how it stands.
 void Service::watch_homing() {
-  if (boot_seen_ == realtime::BootPhase::kDone && !homed_told_ && desk_.why_not_homed().empty()) {
+  if (boot_seen_ == realtime::BootPhase::kDone && !homed_told_ && desk_.not_homed().is_homed()) {
     homed_told_ = true;
     note(homed_event());
   }
   if (!homing_due_tick_ || tick() < *homing_due_tick_) return;
   homing_due_tick_.reset();
-  if (!desk_.why_not_homed().empty()) note(not_homed_event(desk_.why_not_homed()));
+  if (!desk_.not_homed().is_homed()) note(not_homed_event(desk_.not_homed().text));
 }
 
 // Who enables has to know soon what keeps the arm; a cable that is not whole is not pulled for up to a minute.

@@ -160,7 +160,7 @@ Json Service::on_state_command(const api::ClientInfo&, const api::Arguments& fie
 }
 
 void Service::require_homed() const {
-  if (!desk_.why_not_homed().empty()) throw api::RequestError("refused", "not homed: " + desk_.why_not_homed());
+  if (!desk_.not_homed().is_homed()) throw api::RequestError("refused", "not homed: " + desk_.not_homed().text);
 }
 
 Json Service::on_tool(const api::ClientInfo& client, const api::Arguments& fields) {

@@ -129,6 +129,11 @@ Json verdict_json(const Notes& notes, double tick_s) {
           {"source_stamp", made_of_json(notes, tick_s)}};
 }
 
+Json not_homed_json(const NotHomed& found) {
+  if (found.is_homed()) return nullptr;
+  return {{"reason", not_homed_name(found.reason)}, {"text", found.text}};
+}
+
 Json events_json(const std::deque<event::Event>& events) {
   Json list = Json::array();
   for (const event::Event& event : events) list.push_back({{"tick", event.tick}, {"text", event.text}});
@@ -136,6 +141,12 @@ Json events_json(const std::deque<event::Event>& events) {
 }
 
 }  // namespace
+
+const char* not_homed_name(NotHomedReason reason) {
+  static constexpr std::array<const char*, 6> kNames{
+      "homed", "drive_not_heard", "other_pose", "lengths_contradict", "not_settled", "out_of_range"};
+  return kNames[static_cast<std::size_t>(reason)];
+}
 
 const char* state_name(const ArmServer& desk) {
   if (desk.report().boot == realtime::BootPhase::kBooting) return "BOOTING";
@@ -151,7 +162,8 @@ Json state_message(const config::BusesConfig& buses, const ArmServer& desk, cons
              {"tick", report.next_tick},
              {"time_s", static_cast<double>(report.next_tick) * buses.tick_s()},
              {"state", state_name(desk)},
-             {"is_homed", desk.why_not_homed().empty()},
+             {"is_homed", desk.not_homed().is_homed()},
+             {"not_homed", not_homed_json(desk.not_homed())},
              {"at_rest", o.at_rest != 0},
              {"owner", owner.name()},
              {"step", notes.step},

@@ -1,15 +1,12 @@
 #include "host/operator/terminal/state_text.hpp"
 
 #include <cstdio>
-#include <string_view>
 
 #include "host/base/event/fault_groups.hpp"
 #include "host/base/json/json.hpp"
 
 namespace liana::terminal {
 namespace {
-
-constexpr std::string_view kNotHomed = "not homed: ";
 
 std::string number(const char* format, double value) {
   char text[64];
@@ -84,14 +81,9 @@ std::string retract_progress(const Json& state) {
 }
 
 std::string why_not_homed(const Json& state) {
-  if (state.value("is_homed", true) || state.value("state", "") == "BOOTING") return "";
-  std::string why;
-  const Json& events = state.member_or_null("events");
-  for (std::size_t i = 0; events.is_array() && i < events.size(); ++i) {
-    const std::string text = events[i].value("text", "");
-    if (text.starts_with(kNotHomed)) why = text.substr(kNotHomed.size());
-  }
-  return why.empty() ? "an enable is refused with the reason" : why;
+  const Json& found = state.member_or_null("not_homed");
+  if (!found.is_object() || state.value("state", "") == "BOOTING") return "";
+  return found.value("text", "") + " (" + found.value("reason", "") + ")";
 }
 
 std::string state_text(const Json& state) {

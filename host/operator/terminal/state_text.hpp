@@ -10,7 +10,7 @@ namespace liana::terminal {
 // Of `stop` of the state: "anna: smoke", or "liana estop" where no reason was given.
 std::string stopped_by(const Json& stop);
 
-// Why the arm is not homed, as lianad said last; empty while it is homed, and while its drives boot.
+// Why the arm is not homed; empty while it is homed, and while its drives boot.
 std::string why_not_homed(const Json& state);
 
 // What is left of the way back: "back, 42 % of the path left (21 of 50 points)"; empty when the arm does not go back.

@@ -69,7 +69,7 @@ def wait_until(done: Callable[[], bool], what: str, check: Callable[[], None] = 
 
 def brief(state: Mapping[str, Any]) -> str:
     """What matters of a state when something went wrong, on one line."""
-    keys = ("tick", "state", "owner", "is_busy", "at_rest", "stop_category", "faults", "events")
+    keys = ("tick", "state", "owner", "is_busy", "at_rest", "stop_category", "faults", "not_homed", "events")
     return json.dumps({key: state.get(key) for key in keys})
 
 

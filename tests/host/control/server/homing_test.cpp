@@ -48,10 +48,11 @@ TEST_F(HomingOfAnArm, NeedsEveryDriveToHaveBeenHeard) {
   Homing homing(robot_, "");
   report_.inputs.drive[7].feedback_age_ticks = 0xFFFF;
   homing.look(report_, estimator_);
-  EXPECT_FALSE(homing.is_homed());
+  EXPECT_EQ(homing.not_homed().reason, NotHomedReason::kDriveNotHeard);
+  EXPECT_FALSE(homing.not_homed().is_homed());
   report_.inputs.drive[7].feedback_age_ticks = 0;
   homing.look(report_, estimator_);
-  EXPECT_TRUE(homing.is_homed());
+  EXPECT_TRUE(homing.not_homed().is_homed());
 }
 
 TEST_F(HomingOfAnArm, NamesTheCablesThatContradictEachOtherTheWorstFirst) {
@@ -61,9 +62,11 @@ TEST_F(HomingOfAnArm, NamesTheCablesThatContradictEachOtherTheWorstFirst) {
   estimator_.residual_m[9] = -0.012;
   estimator_.residual_m[6] = 0.001;
   homing.look(report_, estimator_);
-  EXPECT_TRUE(names(homing.why_not(),
+  EXPECT_EQ(homing.not_homed().reason, NotHomedReason::kLengthsContradict);
+  EXPECT_TRUE(names(homing.not_homed().text,
                     {"cables 10 to 12", "segment 4", "12.0 mm", "cables 1 to 3", "segment 1", "4.0 mm", "1.5 mm"}));
-  EXPECT_LT(homing.why_not().find("segment 4"), homing.why_not().find("segment 1")) << homing.why_not();
+  EXPECT_LT(homing.not_homed().text.find("segment 4"), homing.not_homed().text.find("segment 1"))
+      << homing.not_homed().text;
 }
 
 // An encoder that counts its turns only with power: before and after, and also from the file that outlives lianad.
@@ -80,14 +83,14 @@ TEST_F(HomingOfAnArm, ADriveThatStandsWholeTurnsFromWhereItWasLeftIsNamed) {
         homing.remember(left_rad);
       } else {
         homing.look(report_, estimator_);
-        ASSERT_TRUE(homing.is_homed());
+        ASSERT_TRUE(homing.not_homed().is_homed());
       }
       turn(turns * turn_m);
       report_.outputs.homed = 0;
       estimator_.residual_m[4] = turns * turn_m / 3.0;
       homing.look(report_, estimator_);
-      EXPECT_TRUE(names(homing.why_not(), {"drive 5 (node 5, segment 2)", said})) << homing.why_not();
-      EXPECT_EQ(homing.why_not().find("drive 4"), std::string::npos) << homing.why_not();
+      EXPECT_TRUE(names(homing.not_homed().text, {"drive 5 (node 5, segment 2)", said})) << homing.not_homed().text;
+      EXPECT_EQ(homing.not_homed().text.find("drive 4"), std::string::npos) << homing.not_homed().text;
       turn(-turns * turn_m);
     }
   }
@@ -97,28 +100,30 @@ TEST_F(HomingOfAnArm, ADriveThatStandsWholeTurnsFromWhereItWasLeftIsNamed) {
   turn(0.5 * turn_m);
   report_.outputs.homed = 0;
   part.look(report_, estimator_);
-  EXPECT_EQ(part.why_not().find("turn"), std::string::npos) << "half a turn is no lost turn";
+  EXPECT_EQ(part.not_homed().text.find("turn"), std::string::npos) << "half a turn is no lost turn";
 }
 
 TEST_F(HomingOfAnArm, IsRefusedUntilThePoseFitsOnceThenTheArmMayLeaveIt) {
   Homing homing(robot_, "jig");
   turn(0.004);
   homing.look(report_, estimator_);
-  EXPECT_TRUE(names(homing.why_not(), {"drive 5 (node 5, segment 2)", "4.0 mm"}));
+  EXPECT_EQ(homing.not_homed().reason, NotHomedReason::kOtherPose);
+  EXPECT_TRUE(names(homing.not_homed().text, {"drive 5 (node 5, segment 2)", "4.0 mm"}));
   turn(-0.004);
   report_.outputs.homed = 0;
   homing.look(report_, estimator_);
-  EXPECT_FALSE(homing.is_homed());
+  EXPECT_EQ(homing.not_homed().reason, NotHomedReason::kNotSettled);
+  EXPECT_FALSE(homing.not_homed().is_homed());
   turn(0.004);
   report_.outputs.homed = 1;
   homing.look(report_, estimator_);
-  EXPECT_FALSE(homing.is_homed()) << "the pose fitted, but only while the angles had not settled";
+  EXPECT_FALSE(homing.not_homed().is_homed()) << "the pose fitted, but only while the angles had not settled";
   turn(-0.004);
   homing.look(report_, estimator_);
-  EXPECT_TRUE(homing.is_homed());
+  EXPECT_TRUE(homing.not_homed().is_homed());
   turn(0.1);
   homing.look(report_, estimator_);
-  EXPECT_TRUE(homing.is_homed());
+  EXPECT_TRUE(homing.not_homed().is_homed());
 }
 
 }  // namespace

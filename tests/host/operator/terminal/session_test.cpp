@@ -152,7 +152,7 @@ TEST(TeleopSession, EverythingFitsATerminalOf80By24AndItsLastLineSaysHowToQuit) 
   Session session = session_at(bad);
   session.say(std::string(100, 'x') + " " + std::string(300, 'y'));
   session.press(*key_of(' '), 1.0);
-  bad["is_homed"] = false;
+  bad["not_homed"] = {{"reason", "lengths_contradict"}, {"text", "cables 1 to 3"}};
   for (const auto& [shown, now_s] : {std::pair(state(), 1.0), {bad, 1.0}, {bad, 1000.0}}) {
     session.hear(shown, 1.0);
     const std::vector<std::string> lines = session.lines({}, now_s);
@@ -241,10 +241,9 @@ TEST(TeleopSession, AnArmThatGoesBackShowsWhatIsLeftOfThePathHereAndInItsState) 
 TEST(TeleopSession, AnArmThatIsNotHomedIsShownWithTheReasonAndIsNotSaidToEnable) {
   Json unhomed = state("me", "DISABLED");
   EXPECT_TRUE(names(text_of(session_at(unhomed)), {"n enables"}));
-  unhomed["is_homed"] = false;
-  unhomed["events"] = {{{"tick", 1}, {"text", "booted"}}, {{"tick", 9}, {"text", "not homed: cables 1 to 3"}}};
+  unhomed["not_homed"] = {{"reason", "lengths_contradict"}, {"text", "cables 1 to 3"}};
   const std::string text = text_of(session_at(unhomed));
-  EXPECT_TRUE(names(text, {"NOT HOMED", "cables 1 to 3"}));
+  EXPECT_TRUE(names(text, {"NOT HOMED", "cables 1 to 3", "lengths_contradict"}));
   EXPECT_EQ(text.find("n enables"), std::string::npos);
 }
 
@@ -264,7 +263,7 @@ TEST(StateText, NamesStopReasonDeviceFaultWithRemedyAndWhyTheArmIsNotHomed) {
   EXPECT_EQ(state_text(bad).find("device"), std::string::npos) << "none leads";
   bad["stop"] = {{"by", "anna"}, {"reason", "smoke"}};
   bad["faults"] = {{{"number", 3002}, {"name", "drive_silent"}, {"text", "It fell silent."}, {"remedy", "Check it."}}};
-  bad["is_homed"] = false;
+  bad["not_homed"] = {{"reason", "lengths_contradict"}, {"text", "cables 1 to 3"}};
   bad["device"] = "omega";
   bad["device_engaged"] = false;
   bad["device_reason"] = "device silent";

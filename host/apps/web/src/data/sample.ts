@@ -5,6 +5,7 @@ export interface Facts {
   state?: string;
   owner?: string;
   is_homed?: boolean;
+  not_homed?: { reason: string; text: string } | null;
   is_busy?: boolean;
   at_rest?: boolean;
   step?: { index: number; name: string; device: string; waits?: string | null } | null;

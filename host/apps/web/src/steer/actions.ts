@@ -24,7 +24,7 @@ function enabled(facts: Facts): string {
 function enableBlocked(facts: Facts): string {
   if (facts.stop) return 'An emergency stop is in force: clear it first.';
   if ((facts.faults ?? []).length > 0) return 'Faults are latched: clear them first.';
-  if (facts.is_homed === false) return 'The arm is not homed.';
+  if (facts.is_homed === false) return `The arm is not homed${facts.not_homed ? `: ${facts.not_homed.text}` : ''}.`;
   return facts.state === 'DISABLED' ? '' : `It is ${facts.state ?? 'not known'}.`;
 }
 
