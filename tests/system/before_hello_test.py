@@ -102,6 +102,13 @@ class BeforeTheHello(GatewayAloneTest):
             self.assertNotIn(b" 101 ", self.answer_to(self.raw(gateway), asked.encode()))
         self.assert_serves(gateway)
 
+    def test_health_is_answered_without_token_and_tls_and_nothing_else_is(self):
+        gateway = self.secured()
+        place = gateway.address.split("/")[2]
+        for path, good in (("health", True), ("metrics", False), ("", False)):
+            asked = f"GET /{path} HTTP/1.1\r\nHost: {place}\r\n\r\n"
+            self.assertEqual(b" 200 " in self.answer_to(self.raw(gateway), asked.encode()), good, path)
+
     def test_requests_with_bodies_and_behind_each_other_end_nothing_but_their_connection(self):
         gateway = Gateway(self, self.api)
         post = b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 10\r\n\r\n12345"

@@ -635,6 +635,16 @@ class TheCommandConsole(SystemTest):
         self.assertIn("started again", error)
         self.assertIsNone(owner.poll())
 
+    def test_a_gateway_that_was_stopped_by_a_signal_is_ended_and_started_again(self):
+        process = self.start("console", "--listen", "127.0.0.1:0", "--json")
+        json.loads(process.stdout.readline())
+        (gateway,) = self.children_of(process, "liana-gateway")
+        os.kill(gateway, signal.SIGSTOP)
+        wait_until(lambda: self.children_of(process, "liana-gateway") not in ([], [gateway]), "its successor")
+        code, error = self.interrupt(process)
+        self.assertEqual(code, 0, error)
+        self.assert_names(error, "liana-gateway", "15 s", f"process {gateway}", "started again")
+
     def test_a_mission_goes_on_when_its_gateway_dies_again_and_again_and_gets_another(self):
         process = self.start("run", "slit_crossing", "--time", "paced", "--console", "--json", "-")
         address = process.stderr.readline().split()[-1]

@@ -89,6 +89,8 @@ int HttpHandler::look_at(lws* wsi) {
 
 int HttpHandler::serve(lws* wsi, const std::string& path) {
   strangers.asked(wsi);
+  if (path == "/health")
+    return answer_http(wsi, HTTP_STATUS_OK, kPlain, "ok\n");  // for everybody: it says nothing else
   const char* what = "";
   if (const auto why = problem(wsi, &what)) return refuse(wsi, what, HTTP_STATUS_FORBIDDEN, *why);
   if (path == "/") return answer_page(wsi, options_.page, PageSource::kOwn);

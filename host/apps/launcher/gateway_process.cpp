@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "host/apps/launcher/errors.hpp"
+#include "host/apps/launcher/health_check.hpp"
 #include "host/apps/launcher/runs.hpp"
+#include "host/base/clock/steady.hpp"
 
 namespace liana::launcher {
 namespace {
@@ -24,6 +26,7 @@ constexpr double kLookAfter_s = 0.05;
 constexpr double kFirstPause_s = 0.1, kLongestPause_s = 10.0;  // before it is started again
 constexpr double kStays_s = 60.0;                              // it is well again
 constexpr int kMaxTold = 3;                                    // ends in a row that are said
+constexpr double kMaxSilence_s = 15.0;                         // it hangs
 
 using GatewayClock = std::chrono::steady_clock;
 
@@ -96,11 +99,26 @@ void GatewayProcess::pause(double length_s) {
   while (!over_ && GatewayClock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(20));
 }
 
+// ADDR:PORT.
+std::string GatewayProcess::place() const {
+  const std::size_t begin = address_.find("//") + 2;
+  return address_.substr(begin, address_.size() - begin - 1);
+}
+
+// How it ended, in words; nothing while it lives. One that hangs is killed: it would keep its port.
+std::optional<std::string> GatewayProcess::look(HealthCheck& health) {
+  if (const std::optional<ExitStatus> end = child_->poll()) return how(*end);
+  if (health.silent_s(timing::steady_s()) < kMaxSilence_s) return std::nullopt;
+  const std::optional<pid_t> stopped = child_->stopped();
+  child_->end(0.0);
+  return "answered nothing for 15 s and was ended" +
+         (stopped ? ": its process " + std::to_string(*stopped) + " was stopped (SIGSTOP, a debugger)" : std::string());
+}
+
 // Its port may be taken for a moment, by a connection of somebody else: another try follows.
 std::string GatewayProcess::started_again() {
-  const std::size_t begin = address_.find("//") + 2;
   try {
-    start(address_.substr(begin, address_.size() - begin - 1));
+    start(place());
     return "";
   } catch (const std::exception& error) {
     child_->end(0.0);
@@ -112,8 +130,9 @@ void GatewayProcess::look_after() {
   double pause_s = kFirstPause_s;
   int ends = 0;
   auto since = GatewayClock::now();
+  HealthCheck health(api::parse_internet_address("--listen", place()), timing::steady_s());
   for (; !over_; pause(kLookAfter_s)) {
-    const std::optional<ExitStatus> end = child_->poll();
+    const std::optional<std::string> end = look(health);
     if (!end) continue;
     if (GatewayClock::now() - since > wall_s(kStays_s)) pause_s = kFirstPause_s, ends = 0;
     pause(pause_s);
@@ -121,8 +140,9 @@ void GatewayProcess::look_after() {
     pause_s = std::min(2.0 * pause_s, kLongestPause_s);
     const std::string problem = started_again();
     since = GatewayClock::now();
+    health.restart(timing::steady_s());
     if (++ends > kMaxTold) continue;
-    std::fprintf(stderr, "liana: liana-gateway %s; %s%s\n", how(*end).c_str(),
+    std::fprintf(stderr, "liana: liana-gateway %s; %s%s\n", end->c_str(),
                  problem.empty() ? "it was started again" : ("it is not there again yet: " + problem).c_str(),
                  ends == kMaxTold ? "; further ends of it are not said before it has stayed for a minute" : "");
   }

@@ -3,12 +3,15 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
 #include "host/apps/launcher/process.hpp"
 
 namespace liana::launcher {
+
+class HealthCheck;
 
 // What liana-gateway is told (docs/reference/console-protocol.md).
 struct GatewayOptions {
@@ -17,8 +20,9 @@ struct GatewayOptions {
   std::string practice;                      // socket of the bench that takes faults; empty: none
 };
 
-// It is looked after: when it dies it is started again at the same address, at once, and then ever less often as long
-// as it does not stay. Its clients' connections to lianad end with it, so the arm holds meanwhile.
+// It is looked after: when it dies, or answers nothing for 15 s, it is started again at the same address, at once, and
+// then ever less often as long as it does not stay. Its clients' connections to lianad end with it, so the arm holds
+// meanwhile.
 class GatewayProcess {
  public:
   // Starts it for the lianad that listens at `api`, or will; what it says goes to `log_file`. Waits until it listens.
@@ -36,6 +40,8 @@ class GatewayProcess {
   void start(const std::string& listen);
   void wait_until_it_listens();
   void look_after();
+  std::optional<std::string> look(HealthCheck& health);
+  std::string place() const;
   std::string started_again();
   void pause(double seconds);
 
