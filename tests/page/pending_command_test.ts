@@ -3,7 +3,7 @@ import { test } from 'node:test';
 import type { Facts, LianaEvent } from '../../host/apps/web/src/data/sample';
 import { nameProblem } from '../../host/apps/web/src/live/display_name';
 import type { Alarm } from '../../host/apps/web/src/model/alarms';
-import { alarmBadge, ownerBadge, stateBadge } from '../../host/apps/web/src/model/badges';
+import { alarmBadge, deviceBadge, ownerBadge, stateBadge } from '../../host/apps/web/src/model/badges';
 import { endingOf, refusalText, type Ending, type Taken } from '../../host/apps/web/src/model/outcome_text';
 import { hardwareText } from '../../host/apps/web/src/model/hardware';
 import { ARM, MICRO, sampleOf } from './support';
@@ -71,6 +71,17 @@ test('nothing looks good that is only remembered', () => {
   assert.equal(stateBadge({ state: 'FAULT' }, true).look, 'bad');
   assert.deepEqual(ownerBadge(resting, true, false), { text: 'motion was: you', look: 'stale' });
   assert.deepEqual(ownerBadge(resting, false, true), { text: 'motion: anna', look: '' });
+});
+
+test('the input device is named with what it does, and says when it is let go, silent or only remembered', () => {
+  const vr = { ...resting, device: 'vr', device_engaged: true };
+  assert.deepEqual(deviceBadge(vr, 90, true), { text: 'vr: moves the arm', look: 'good' });
+  assert.deepEqual(deviceBadge({ ...vr, device_engaged: false }, 90, true), { text: 'vr: clutch open', look: '' });
+  assert.equal(deviceBadge(vr, 0, true).look, 'bad');
+  assert.deepEqual(deviceBadge({ ...vr, device_reason: 'device silent' }, 0, true), { text: 'vr let go: device silent', look: 'bad' });
+  assert.equal(deviceBadge({ ...resting, device: 'none', device_reason: 'device silent' }, 0, true).look, 'bad');
+  assert.deepEqual(deviceBadge(vr, 90, false), { text: 'device was: vr', look: 'stale' });
+  assert.deepEqual(deviceBadge({ ...resting, device: 'none' }, 0, true), { text: '', look: '' });
 });
 
 test('alarms that are over or seen are not counted as alarms', () => {

@@ -1,5 +1,5 @@
 // State, owner, device and link as short words at the top.
-import { alarmBadge, ownerBadge, stateBadge, type Badge } from '../model/badges';
+import { alarmBadge, deviceBadge, ownerBadge, stateBadge, type Badge } from '../model/badges';
 import { h, setClass, setText } from '../ui/dom';
 import type { Live } from './live';
 
@@ -12,9 +12,10 @@ function show(element: HTMLElement, badge: Badge): void {
 export class StatusBar {
   private readonly state = h('span', { class: 'badge' });
   private readonly owner = h('span', { class: 'badge' });
+  private readonly device = h('span', { class: 'badge', hidden: true });
   private readonly link = h('span', { class: 'badge' });
   private readonly alarms = h('span', { class: 'badge alarm-count', hidden: true });
-  readonly element = h('div', { class: 'status', role: 'status', 'aria-label': 'State' }, this.state, this.owner, this.alarms, this.link);
+  readonly element = h('div', { class: 'status', role: 'status', 'aria-label': 'State' }, this.state, this.owner, this.device, this.alarms, this.link);
 
   constructor(private readonly live: Live) {}
 
@@ -23,6 +24,7 @@ export class StatusBar {
     const isLive = this.live.isLive(now_s);
     show(this.state, stateBadge(facts, isLive));
     show(this.owner, ownerBadge(facts, isMine, isLive));
+    show(this.device, deviceBadge(facts, this.live.sampleRate.perSecond(now_s), isLive));
     show(this.alarms, alarmBadge(alarms.list()));
     show(this.link, isLive ? { text: 'live', look: '' } : { text: 'NOT LIVE', look: 'bad' });
   }

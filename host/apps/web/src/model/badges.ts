@@ -23,6 +23,16 @@ export function ownerBadge(facts: Facts, isMine: boolean, isLive: boolean): Badg
   return { text: `motion: ${owner}`, look: isMine ? 'good' : '' };
 }
 
+// The input device: which one leads, or was let go, and why; not shown where there is none.
+export function deviceBadge(facts: Facts, samplesPerSecond: number, isLive: boolean): Badge {
+  const name = facts.device && facts.device !== 'none' ? facts.device : 'device';
+  if (facts.device_reason) return { text: `${name} let go: ${facts.device_reason}`, look: isLive ? 'bad' : 'stale' };
+  if (name === 'device') return { text: '', look: '' };
+  if (!isLive) return { text: `device was: ${name}`, look: 'stale' };
+  if (!(samplesPerSecond > 0)) return { text: `${name}: no samples`, look: 'bad' };
+  return { text: `${name}: ${facts.device_engaged ? 'moves the arm' : 'clutch open'}`, look: facts.device_engaged ? 'good' : '' };
+}
+
 // Alarms whose cause is there and that nobody has seen; when there are none of these, those that are over and unseen.
 export function alarmBadge(alarms: readonly Alarm[]): Badge {
   const unseen = alarms.filter((alarm) => alarm.acknowledgedBy === '');
