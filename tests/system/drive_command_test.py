@@ -65,6 +65,16 @@ class DriveCommand(SystemTest):
         self.assertEqual({(each["vendor"], each["product"]) for each in found}, {(0x4C49, 2)})
         self.assertIn("has csp", self.drive("scan", "--first", "2", "--last", "2").stdout)
 
+    def test_scan_names_the_second_axis_of_a_node(self):
+        with Desk("embedded_two_axes", robot="zhu2022") as desk:
+            done = run("liana", "drive", "scan", "--json", *desk.where())
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = json.loads(done.stdout)
+        both = [node for node in range(1, 8) for _ in (1, 2)]
+        self.assertEqual([each["node"] for each in found], [*both, 8])
+        self.assertEqual([each["axis"] for each in found], [*[1, 2] * 7, 1])
+        self.assertTrue(all(each["modes"] & 0x80 for each in found))
+
     def test_nobody_there_is_exit_code_3(self):
         self.assertEqual(self.drive("scan", "--first", "50", "--last", "60").returncode, 3)
         done = self.drive("read", "--node", "50", "1000")

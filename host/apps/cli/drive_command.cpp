@@ -11,6 +11,7 @@
 #include "host/apps/launcher/errors.hpp"
 #include "host/apps/launcher/tables.hpp"
 #include "host/base/json/json.hpp"
+#include "host/drives/canopen/cob_id.hpp"
 #include "host/model/config/drive_type.hpp"
 #include "host/model/config/field.hpp"
 
@@ -23,7 +24,7 @@ config::ObjectId object_of(const std::string& text) {
 }
 
 Json found_json(DriveSession& session, commissioning::Place at) {
-  Json out = {{"bus", session.buses.buses[static_cast<std::size_t>(at.bus)].name}, {"node", at.node}};
+  Json out = {{"bus", session.buses.buses[static_cast<std::size_t>(at.bus)].name}, {"node", at.node}, {"axis", 1}};
   const commissioning::Answer type = session.desk.read(at, 0x1000, 0);
   if (type.odd_length) out["answer_bytes"] = *type.odd_length;
   const auto add = [&](const char* key, std::uint16_t index, std::uint8_t sub) {
@@ -45,16 +46,36 @@ Json found_json(DriveSession& session, commissioning::Place at) {
   return out;
 }
 
+// Appends a node, once for each axis that has modes: identity and name are the node's.
+void add_found(DriveSession& session, commissioning::Place at, Json& all) {
+  Json found = found_json(session, at);
+  const bool is_drive = found.contains("modes");
+  all.push_back(found);
+  for (std::uint8_t axis = 2; is_drive && axis <= config::kMaxAxes; ++axis) {
+    const commissioning::Answer modes = session.desk.read(at, canopen::on_axis(0x6502, axis), 0);
+    if (!modes.is_done()) return;
+    found["axis"] = axis;
+    found["modes"] = modes.value();
+    all.push_back(found);
+  }
+}
+
+std::string place_of(const Json& found) {
+  const int axis = found["axis"].get<int>();
+  return found["bus"].text() + " node " + std::to_string(found["node"].get<int>()) +
+         (axis > 1 ? ", axis " + std::to_string(axis) : "");
+}
+
 std::string described(const Json& found) {
   const auto number = [&](const char* key) {
     return found.contains(key) ? hex(found[key].get<std::uint32_t>(), 1) : std::string("-");
   };
   const bool has_csp = (found.value<std::uint32_t>("modes", 0) & 0x80) != 0;
   if (found.contains("answer_bytes"))
-    return found["bus"].text() + " node " + std::to_string(found["node"].get<int>()) + ": answers with " +
-           std::to_string(found["answer_bytes"].get<int>()) + " bytes, and an SDO answer has 8 (CiA 301)";
-  return found["bus"].text() + " node " + std::to_string(found["node"].get<int>()) + ": vendor " + number("vendor") +
-         ", product " + number("product") + ", revision " + number("revision") + ", serial " + number("serial") +
+    return place_of(found) + ": answers with " + std::to_string(found["answer_bytes"].get<int>()) +
+           " bytes, and an SDO answer has 8 (CiA 301)";
+  return place_of(found) + ": vendor " + number("vendor") + ", product " + number("product") + ", revision " +
+         number("revision") + ", serial " + number("serial") +
          (found.contains("name") && found["name"].is_string() ? ", \"" + found["name"].text() + "\"" : "") +
          (found.contains("modes") ? (has_csp ? ", has csp" : ", has no csp") : ", is no CiA 402 drive");
 }
@@ -71,7 +92,7 @@ int drive_scan_command(const DriveOptions& options) {
   const auto last = static_cast<std::uint8_t>(parse_whole("--last", options.last, first, kMaxNode));
   DriveSession session(options);
   Json all = Json::array();
-  for (const commissioning::Place at : session.desk.scan(first, last)) all.push_back(found_json(session, at));
+  for (const commissioning::Place at : session.desk.scan(first, last)) add_found(session, at, all);
   if (options.json) {
     std::printf("%s\n", all.dump().c_str());
   } else {
