@@ -4,7 +4,7 @@ import { distance } from '../../host/apps/web/src/model/vector';
 import { ACTIONS, roleBlocked } from '../../host/apps/web/src/steer/actions';
 import { LEAD_S, nextGoal, sumOf, towards } from '../../host/apps/web/src/steer/jog';
 import { actionOf, isField, type Direction } from '../../host/apps/web/src/steer/keyboard';
-import { hasMoved, length_m, pointsOfPlan, tipWay_m, wayText } from '../../host/apps/web/src/steer/planner_offer';
+import { hasMoved, length_m, PlannerOffer, pointsOfPlan, tipWay_m, wayText } from '../../host/apps/web/src/steer/planner_offer';
 import { drivesFor, faultText, kindsFor } from '../../host/apps/web/src/steer/practice_panel';
 import { ARM, MICRO, near } from './support';
 
@@ -106,6 +106,43 @@ test('a planned way is good for where the arm stands, and for nothing else', () 
   assert.equal(hasMoved([1, 2], Float32Array.of(1, 2)), false);
   for (const now of [[1.02, 2], [1, 1.98], [1], []]) assert.equal(hasMoved([1, 2], now), true);
   assert.equal(hasMoved([1, 2], [1.009, 1.991]), false);
+});
+
+// An element without a browser: what it shows, and its listeners.
+class Shown {
+  hidden = false;
+  textContent = '';
+  readonly listeners = new Map<string, () => void>();
+  readonly classList = { contains: () => false, toggle: () => false };
+  append(): void {}
+  setAttribute(name: string): void {
+    this.hidden ||= name === 'hidden';
+  }
+  addEventListener(name: string, listener: () => void): void {
+    this.listeners.set(name, listener);
+  }
+}
+
+test('what comes late about a goal that was given up is not shown', () => {
+  const made: Shown[] = [], asked: { op: string; number: number }[] = [];
+  (globalThis as any).document = { createElement: () => made[made.push(new Shown()) - 1] };
+  const connection = { request: (request: any) => (asked.push(request), Promise.resolve({ op: 'answer', ok: true })) };
+  const planner = new PlannerOffer({ newestEvent: 0, sample: null, events: [] } as any, { robot: ARM } as any, connection as any, () => {}, () => {});
+  delete (globalThis as any).document;
+  const [says, plan, , , , offer] = made;
+  planner.asked([1]);
+  plan.listeners.get('click')!();
+  planner.take({ op: 'plan', number: asked[0].number, phase: 'planning', for_s: 1, text: 'round 1' });
+  assert.match(says.textContent, /round 1/);
+  planner.asked([2]);
+  assert.equal(asked[1].op, 'end_plan');
+  planner.take({ op: 'plan', number: asked[0].number, phase: 'none', text: 'Planning was cancelled.' });
+  assert.ok(offer.hidden);
+  plan.listeners.get('click')!();
+  planner.take({ op: 'plan', number: asked[0].number, phase: 'none', text: 'Planning was cancelled.' });
+  assert.equal(says.textContent, 'Planning.');
+  planner.take({ op: 'plan', number: asked[2].number, phase: 'none', text: 'There is no way.' });
+  assert.equal(says.textContent, 'There is no way.');
 });
 
 test('a plan is carried out only where it has points of this arm', () => {

@@ -203,8 +203,8 @@ class WhatAClientMayDo(GatewayTest):
         owner, other = self.console("owner"), self.console("other")
         owner.enable()
         goal = [angle + 1.0 for angle in owner.state["setpoint_js_deg"]]
-        self.assertEqual(other.ask("plan", goal_deg=goal)["code"], "not_owner")
-        owner.call("plan", goal_deg=goal)
+        self.assertEqual(other.ask("plan", number=1, goal_deg=goal)["code"], "not_owner")
+        owner.call("plan", number=1, goal_deg=goal)
         owner.until(lambda me: any(said.get("phase") == "found" for said in me.complaints))
         way = owner.complaints[-1]
         self.assertLess(max(abs(a - b) for a, b in zip(way["points_deg"][-1], goal)), 1e-9)
@@ -216,7 +216,7 @@ class WhatAClientMayDo(GatewayTest):
         owner.enable()
         pid = self.gateway.process.pid
         children = pathlib.Path(f"/proc/{pid}/task/{pid}/children")
-        owner.call("plan", goal_deg=[0.0] * len(owner.state["setpoint_js_deg"]))
+        owner.call("plan", number=1, goal_deg=[0.0] * len(owner.state["setpoint_js_deg"]))
         owner.close()
         wait_until(lambda: children.read_text() == "", "the end of the planner")
         self.assertIsNone(self.gateway.process.poll())

@@ -20,6 +20,7 @@ using api::RequestError;
 
 constexpr std::array kPlanFields{
     api::RequestField{"goal_deg", api::FieldType::kAngles, "where the way ends"},
+    api::RequestField{"number", api::FieldType::kInteger, "of this goal: each message about it has it", {0}, {1e9}},
 };
 constexpr int kReadLines = 1000;  // of the log
 constexpr api::RequestRow kPlanRow{.op = "plan", .fields = kPlanFields};
@@ -56,8 +57,7 @@ double margin_m(const Json& scene) {
 Json found(const Json& plan, const Json& from_deg) {
   const Json& checked = plan.at("checked");
   const bool is_near = checked.at("nearest") != "";
-  return {{"op", "plan"},
-          {"phase", "found"},
+  return {{"phase", "found"},
           {"from_deg", from_deg},
           {"points_deg", plan.at("waypoints_deg")},
           {"duration_s", checked.at("duration_s")},
@@ -65,7 +65,7 @@ Json found(const Json& plan, const Json& from_deg) {
           {"nearest", checked.at("nearest")}};
 }
 
-Json none(const std::string& text) { return {{"op", "plan"}, {"phase", "none"}, {"text", text}}; }
+Json none(const std::string& text) { return {{"phase", "none"}, {"text", text}}; }
 
 // How the planner's answer is told. Throws JsonError when it is none.
 Json ending(const Json& answer, const Json& from_deg) {
@@ -125,13 +125,14 @@ void Planner::start(const Json& request, const Json& welcome, const Json& state,
     forget();
     throw RequestError("refused", error.what());
   }
+  number_ = fields.integer("number");
   since_s_ = said_s_ = now_s;
 }
 
 void Planner::end(const std::string& why) {
   if (!is_running()) return;
   forget();
-  say_none(why);
+  say(none(why));
 }
 
 void Planner::tick(const Json& state, const std::string& client, double now_s) {
@@ -148,20 +149,24 @@ void Planner::say_progress(double now_s) {
   said_s_ = now_s;
   std::string line = child_->last_lines(1);
   if (line.starts_with("plan: ")) line.erase(0, 6);
-  say_({{"op", "plan"}, {"phase", "planning"}, {"for_s", std::round(now_s - since_s_)}, {"text", line}});
+  say({{"phase", "planning"}, {"for_s", std::round(now_s - since_s_)}, {"text", line}});
 }
 
 void Planner::finish(const launcher::ExitStatus& status) {
   const std::string log = child_->last_lines(kReadLines), last = child_->last_lines(1);
   forget();
   try {
-    say_(ending(answer_in(log), from_deg_));
+    say(ending(answer_in(log), from_deg_));
   } catch (const JsonError&) {
-    say_none("The planner " + how(status) + ": " + last);
+    say(none("The planner " + how(status) + ": " + last));
   }
 }
 
-void Planner::say_none(const std::string& text) { say_(none(text)); }
+void Planner::say(Json message) {
+  message["op"] = "plan";
+  message["number"] = number_;
+  say_(message);
+}
 
 void Planner::forget() {
   child_.reset();

@@ -1,6 +1,7 @@
 // The planner for one client of the console: `liana plan` as a process of its own, one at a time, bounded in time.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -17,7 +18,7 @@ class Planner {
   static constexpr double kBetween_s = 1.0;       // between two messages of its progress
   static constexpr std::size_t kMaxPoints = 500;  // that lianad takes in one path
 
-  // Gets the messages to the client: {"op":"plan","phase":...}, docs/reference/console-protocol.md.
+  // Gets the messages to the client: {"op":"plan","number":...,"phase":...}, docs/reference/console-protocol.md.
   using Say = std::function<void(const Json& message)>;
 
   // `program`: path of `liana`. Removes what gateways that were killed have left.
@@ -27,9 +28,9 @@ class Planner {
   Planner(const Planner&) = delete;
   Planner& operator=(const Planner&) = delete;
 
-  // Plans a way for a request {"goal_deg":[...]}, in the tables of `welcome` and from where the newest `state` of
-  // lianad commands the arm to be. Throws api::RequestError when the request is wrong, a planner runs already, the arm
-  // moves, or `client` does not own its motion.
+  // Plans a way for a request {"goal_deg":[...],"number":N}, in the tables of `welcome` and from where the newest
+  // `state` of lianad commands the arm to be. Throws api::RequestError when the request is wrong, a planner runs
+  // already, the arm moves, or `client` does not own its motion.
   void start(const Json& request, const Json& welcome, const Json& state, const std::string& client, double now_s);
   bool is_running() const { return child_ != nullptr; }
   // Ends the planner and says why; nothing happens where none runs.
@@ -40,7 +41,7 @@ class Planner {
  private:
   void say_progress(double now_s);
   void finish(const launcher::ExitStatus& status);
-  void say_none(const std::string& text);
+  void say(Json message);
   void forget();
 
   std::string program_;
@@ -49,6 +50,7 @@ class Planner {
   launcher::FolderLock lock_;  // of it
   std::unique_ptr<launcher::ChildProcess> child_;
   Json from_deg_;
+  std::int64_t number_ = 0;  // of the goal
   double since_s_ = 0.0, said_s_ = 0.0;
 };
 

@@ -88,7 +88,7 @@ class ThePlanner : public testing::Test {
              "limits":{"tip_speed_m_s":0.1,"tip_rate_deg_s":20,"theta_rate_deg_s":2}},
     "scene":{"name":"room","margins":{"prediction_m":0.007,"refuse_m":0.003}}})");
   Json state_ = Json::parse(R"({"owner":"anna","at_rest":true,"is_busy":false,"setpoint_js_deg":[0.125,-3]})");
-  Json request_ = Json::parse(R"({"op":"plan","goal_deg":[1,2]})");
+  Json request_ = Json::parse(R"({"op":"plan","goal_deg":[1,2],"number":7})");
   std::vector<Json> said_;
 
  private:
@@ -200,6 +200,22 @@ TEST_F(ThePlanner, EndsWhenItIsCancelled) {
   EXPECT_FALSE(planner.is_running());
   EXPECT_EQ(said_.back()["text"], "cancelled");
   EXPECT_TRUE(is_clean());
+}
+
+TEST_F(ThePlanner, EachOfItsMessagesHasTheNumberOfItsGoal) {
+  EXPECT_EQ(planned()["number"], 7);
+  request_["number"] = 8;
+  program("echo plan: round 2; exec sleep 60");
+  Planner planner = made();
+  start(planner);
+  planner.tick(state_, "anna", 11.0);
+  EXPECT_EQ(said_.back()["number"], 8);
+  request_["number"] = 9;
+  EXPECT_EQ(refusal(planner), "busy");
+  planner.end("cancelled");
+  EXPECT_EQ(said_.back()["number"], 8);
+  request_.erase("number");
+  EXPECT_EQ(refusal(planner), "bad_request");
 }
 
 TEST_F(ThePlanner, EndsAfterItsTime) {

@@ -48,7 +48,7 @@ export interface FaultOn {
   can_end: boolean;
 }
 
-export type FromPlanner = { op: 'plan' } & ({ phase: 'planning'; for_s: number; text: string } | { phase: 'none'; text: string } | ({ phase: 'found' } & PlannedWay));
+export type FromPlanner = { op: 'plan'; number: number } & ({ phase: 'planning'; for_s: number; text: string } | { phase: 'none'; text: string } | ({ phase: 'found' } & PlannedWay));
 
 export type FromGateway =
   | { op: 'challenge'; nonce: string; loopback: boolean; proof?: boolean }

@@ -78,6 +78,7 @@ export class PlannerOffer {
   private readonly offer = h('div', { class: 'offer', hidden: true }, this.says, h('div', { class: 'filter' }, this.plan, this.cancel, this.carry));
   private readonly file: HTMLElement;
   private goal_deg: number[] = [];
+  private number = 0; // of the goal: what comes about others is late
   private lastEvent = 0;
   private isAsked = false; // the goal, and it is not yet refused
   private way: PlannedWay | null = null;
@@ -98,6 +99,7 @@ export class PlannerOffer {
   asked(goal_deg: number[]): void {
     if (!this.cancel.hidden && !this.offer.hidden) void this.connection.request({ op: 'end_plan' });
     this.goal_deg = goal_deg;
+    ++this.number;
     this.lastEvent = this.live.newestEvent;
     this.isAsked = this.welcome.robot.kind !== 'serial'; // the planner is for cable arms
     this.step('none');
@@ -117,11 +119,13 @@ export class PlannerOffer {
 
   // A new connection to the gateway knows nothing of what was planned.
   forget(): void {
+    ++this.number;
     this.isAsked = false;
     this.step('none');
   }
 
   take(message: FromPlanner): void {
+    if (message.number !== this.number) return;
     if (message.phase === 'planning') this.step('planning', `Planning for ${message.for_s} s: ${message.text}`);
     if (message.phase === 'none') this.step('refused', message.text);
     if (message.phase !== 'found') return;
@@ -132,9 +136,10 @@ export class PlannerOffer {
   }
 
   private async begin(): Promise<void> {
+    const number = ++this.number;
     this.step('planning', 'Planning.');
-    const answer = await this.connection.request({ op: 'plan', goal_deg: this.goal_deg });
-    if (!answer.ok) this.step('refused', `Not planned: ${answer.message ?? ''}.`);
+    const answer = await this.connection.request({ op: 'plan', number, goal_deg: this.goal_deg });
+    if (!answer.ok && number === this.number) this.step('refused', `Not planned: ${answer.message ?? ''}.`);
   }
 
   private carryOut(): void {
