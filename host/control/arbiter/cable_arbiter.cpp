@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <string_view>
 #include <utility>
 
 #include "host/api/server/request_error.hpp"
@@ -20,6 +21,9 @@ constexpr double kIntervalsAhead = 3.0;
 
 // Of what the hand may ask for, in place of a setpoint that was refused; the last is to stay.
 constexpr std::array kSlowerWays = {0.5, 0.15, 0.0};
+// An arm that its shape's own motion would fold into itself keeps its shape, so that a hand can lead its tip away.
+constexpr double kKeepsShape_s = 1.0;
+constexpr std::int32_t kTipFreedom = 6;
 
 // The goal no farther than the tip comes in its filter's lag with `share` of its speeds, along its own way.
 Pose pulled_in(const cable::RobotParams& table, const Pose& tip, const Pose& goal, double share) {
@@ -157,6 +161,7 @@ void CableArbiter::ask_speed() {
 void CableArbiter::end_shape_transition() {
   guidance_.stop();
   refusal_wait_.forget();
+  keeps_shape_s_ = 0.0;
   ease_ = {};
   ask_speed();
 }
@@ -194,6 +199,7 @@ bool CableArbiter::refused(const std::string& why, bool may_pass_slower) {
 std::optional<cable::Setpoint> CableArbiter::slower(const cable::Outputs& now, const char* limit) {
   if (!was_engaged_ || slower_ways_ == kSlowerWays.size()) return std::nullopt;
   if (slower_ways_ == 0) asked_share_ = ease_.share;
+  if (std::string_view(limit) == "self_contact") keeps_shape_s_ = kKeepsShape_s;
   const double share = kSlowerWays[slower_ways_++];
   refusal_wait_.slow(share, limit);
   ease_ = {share * asked_share_, virtual_fixtures::SlowdownCause::kRefused, 0, limit};
@@ -277,12 +283,20 @@ std::optional<cable::Setpoint> CableArbiter::steered_setpoint(const cable::Outpu
   if (refusal_wait_.speed_share() < ease_.share)
     ease_ = {refusal_wait_.speed_share(), virtual_fixtures::SlowdownCause::kRefused, 0, refusal_wait_.limit()};
   slower_ways_ = 0;
+  keeps_shape_s_ = std::max(0.0, keeps_shape_s_ - interval_s_);
   return led_setpoint(now);
 }
 
 cable::Setpoint CableArbiter::led_setpoint(const cable::Outputs& now) {
   ask_speed();
-  return steer(now, ease_.share < 1.0 ? pulled_in(table(), now.tip_command, led_to_, ease_.share) : led_to_);
+  cable::Setpoint setpoint =
+      steer(now, ease_.share < 1.0 ? pulled_in(table(), now.tip_command, led_to_, ease_.share) : led_to_);
+  if (keeps_shape_s_ > 0.0 && setpoint.held_mask == 0) {
+    const std::int32_t kept = std::max(0, table().theta_count() - kTipFreedom);
+    setpoint.held_mask = (1u << kept) - 1u;
+    setpoint.held_rad = now.theta_command_rad;
+  }
+  return setpoint;
 }
 
 Vec3 CableArbiter::tip_of(const cable::ThetaVector& theta_rad) const {

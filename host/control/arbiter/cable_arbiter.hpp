@@ -122,6 +122,7 @@ class CableArbiter final : public Arbiter<cable::CableArm> {
   Pose led_from_{}, led_to_{};   // last setpoint of the hand: where the tip was commanded to be, and its goal
   std::size_t slower_ways_ = 0;  // that were tried in its interval
   double asked_share_ = 1.0;     // of its first setpoint
+  double keeps_shape_s_ = 0.0;   // how much longer only the last segments follow the hand
   virtual_fixtures::Guidance guidance_;
   virtual_fixtures::Ease ease_;
 };

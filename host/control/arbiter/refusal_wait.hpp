@@ -9,13 +9,15 @@
 namespace liana::arbiter {
 
 // A hand that pushes on would be refused in every interval, and the arm would start and stop each time. It is asked for
-// again at once where it goes another way; else after a while that doubles from refusal to refusal, and slowly. The
+// again at once where it goes another way, and when that is refused waits no longer than at first; else after a while
+// that doubles from refusal to refusal, and slowly. The
 // hand keeps its place beside the tip: nothing of its way is lost.
 class RefusalWait {
  public:
   // A goal was refused, asked for with the tip commanded to `tip`.
   void refuse(const Pose& tip, const Pose& goal) {
     refused_for_ = limit_;
+    if (!goes_on(tip, goal)) wait_s_ = kFirst_s;
     shift_m_ = subtract(goal.position_m, tip.position_m);
     turn_rad_ = turn_between(tip, goal);
     left_s_ = wait_s_;

@@ -426,6 +426,42 @@ TEST_F(Arbitration, AHandThatPushesOnAgainstTheSameLimitHasARefusalThatStands) {
   EXPECT_FALSE(refused_for("joint_angle")) << "it is forgotten";
 }
 
+// The shape's own motion in the null space of the tip is no business of a hand that leads the arm off itself.
+TEST_F(Arbitration, AHandAtAnArmThatWouldTouchItselfLeadsTheLastSegmentsAloneForASecond) {
+  use_hand();
+  steered(0.0);
+  EXPECT_EQ(steered(0.05)->held_mask, 0u);
+  EXPECT_EQ(arbiter_.slower(now_, "sway_tension")->held_mask, 0u);
+  const auto kept = arbiter_.slower(now_, "self_contact");
+  EXPECT_EQ(kept->held_mask, 0xFu) << "six angles are left for the tip";
+  EXPECT_EQ(kept->held_rad, now_.theta_command_rad);
+  int intervals = 0;
+  while (steered(0.05)->held_mask == 0xFu) ASSERT_LT(++intervals, 100);
+  EXPECT_EQ(intervals, 49);
+  arbiter_.slower(now_, "self_contact");
+  steered(0.05, false);
+  steered(0.0);
+  EXPECT_EQ(steered(0.05)->held_mask, 0u) << "who has let go begins anew";
+}
+
+TEST_F(Arbitration, AHandWhoseWayBackIsRefusedWaitsNoLongerThanAtFirst) {
+  use_hand();
+  steered(0.2);
+  steered(0.25);
+  const auto waited = [&](double x) {
+    arbiter_.refused();
+    for (int intervals = 0; intervals < 1000; ++intervals)
+      if (steered(x + 1e-5 * (intervals % 2))) return intervals;  // a hand trembles
+    return 1000;
+  };
+  EXPECT_EQ(waited(0.25), 9);
+  EXPECT_EQ(waited(0.25), 19);
+  for (double x = 0.24; x > 0.15; x -= 0.01) steered(x);
+  EXPECT_TRUE(steered(0.15)) << "it has turned back";
+  EXPECT_EQ(waited(0.15), 9);
+  EXPECT_EQ(waited(0.15), 19);
+}
+
 TEST_F(Arbitration, AHandThatTurnsBackAfterARefusalIsFollowedAtOnce) {
   use_hand();
   steered(0.2);
