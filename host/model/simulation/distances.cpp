@@ -1,7 +1,6 @@
 #include "host/model/simulation/distances.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "host/model/clearance/arm_clearance.hpp"
@@ -10,23 +9,6 @@
 namespace liana::simulation {
 
 namespace {
-
-constexpr std::size_t kMaxPoints = 64;  // of an axis: more than any arm's
-
-// Bodies stay as they are drawn, and the arm's axis goes to them.
-class AxisInDrawing {
- public:
-  AxisInDrawing(clearance::AxisPoints axis_m, const Pose& drawing_in_base) : count_(axis_m.size()) {
-    const Pose base_in_drawing = inverse(drawing_in_base);
-    for (std::size_t i = 0; i < count_; ++i)
-      point_m_[i] = add(rotate(base_in_drawing.quaternion, axis_m[i]), base_in_drawing.position_m);
-  }
-  clearance::AxisPoints points_m() const { return {point_m_.data(), count_}; }
-
- private:
-  std::array<Vec3, kMaxPoints> point_m_;
-  std::size_t count_;
-};
 
 void add_body(config::SceneConfig& scene, const config::SceneSphere& body) { scene.spheres.push_back(body); }
 void add_body(config::SceneConfig& scene, const config::SceneBox& body) { scene.boxes.push_back(body); }
@@ -73,9 +55,15 @@ struct OfScene {
 
 OfScene min_of(const config::SceneConfig& scene, const Pieces& pieces, const Pose& drawing_in_base, const Way& way,
                double enough_m, double step_s) {
+  // Bodies stay as they are drawn, and the arm's axis goes to them.
+  const Pose base_in_drawing = inverse(drawing_in_base);
+  std::vector<Vec3> axis_m(pieces.points);
   const auto look = [&](std::size_t pose) {
-    const AxisInDrawing axis(way.axis(pose).subspan(pieces.first_point, pieces.points), drawing_in_base);
-    return clearance::arm_clearance(axis.points_m(), pieces.radius_m, scene);
+    const auto in_base_m = way.axis(pose).subspan(pieces.first_point, pieces.points);
+    std::transform(in_base_m.begin(), in_base_m.end(), axis_m.begin(), [&](const Vec3& point_m) {
+      return add(rotate(base_in_drawing.quaternion, point_m), base_in_drawing.position_m);
+    });
+    return clearance::arm_clearance(axis_m, pieces.radius_m, scene);
   };
   const auto along = clearance::min_along({way.gone_m(), 1.0, enough_m, kUnseen_m},
                                           [&](std::int32_t pose) { return look(static_cast<std::size_t>(pose)); });

@@ -9,7 +9,7 @@ import sys
 import tempfile
 import unittest
 
-from programs import liana
+from programs import liana, liana_json
 
 LINES = """
 local liana = require "liana"
@@ -99,6 +99,17 @@ class NewArm(unittest.TestCase):
                 done = [step["name"] for step in said["steps"] if step["outcome"] == "success"]
                 self.assertEqual((said["outcome"], len(done)), ("success", 12), f"{said.get('reason')}\n{error}")
             file.unlink()
+
+    def test_arms_of_as_many_modules_as_are_served_are_verified(self):
+        for segments, modules in ((8, 16), (4, 16), (8, 8)):
+            file = self.folder / f"long_{segments}_{modules}.lua"
+            words = ("--segments", segments, "--modules", modules, "--module-length", 0.02, "--theta-limit", 6)
+            code, out, error = liana("robot", "new", file.stem, "--out", file, "--cables", 3, *words)
+            self.assertEqual(code, 0, out + error)
+            way = ("--from-deg", ",".join(["0,0"] * segments), "--to-deg", ",".join(["0.4,0.2"] * segments))
+            with self.subTest(segments=segments, modules=modules):
+                said = liana_json("verify", "--robot", file, "--scene", "lab_box", *way, "--duration=60")
+                self.assertTrue(said["accepted"], said)
 
 
 if __name__ == "__main__":

@@ -17,8 +17,12 @@ namespace {
 using zhu2022::Random;
 
 const std::vector<RobotParams>& tables() {
-  static const std::vector<RobotParams> both = {zhu2022::table(), zhu2022::uneven_table()};
-  return both;
+  static const std::vector<RobotParams> all = [] {
+    std::vector<RobotParams> out = long_tables();
+    out.insert(out.end(), {zhu2022::table(), zhu2022::uneven_table()});
+    return out;
+  }();
+  return all;
 }
 
 // req:A35

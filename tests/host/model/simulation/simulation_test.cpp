@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "firmware_like/cable/arm/kinematics.hpp"
 #include "hil/arm/arm_physics.hpp"
+#include "host/model/clearance/self_clearance.hpp"
 #include "tests/host/model/simulation/simulated_arm.hpp"
 
 namespace liana::simulation {
@@ -168,6 +170,37 @@ TEST(Simulation, ASceneThatStandsBesideItsDrawingIsMetWhereItStands) {
   EXPECT_NEAR(motion.distances.scene_at_end_m, expected.distances.scene_at_end_m, 1e-9);
   EXPECT_NEAR(motion.distances.scene.link, expected.distances.scene.link, 1) << "two links meet in a joint";
   EXPECT_GT(std::fabs(motion.distances.scene.distance_m - drawn_m), 0.003);
+}
+
+// Every link counts: the nearest to the ball is the last one, and both ends of the arm come near each other.
+// req:C7
+TEST(Simulation, ArmsOfAsManyModulesAsTheCoreServesAreMeasuredWhole) {
+  for (const RobotParams& table : long_tables()) {
+    const ArmModel model = model_of(table);
+    StartState start;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(table.theta_count()); k += 2)
+      start.theta_rad[k] = 350.0 * kDegree / (table.segment_count * table.segment[0].modules);
+    const cable::LinkPoints links = link_points(table, start.theta_rad);
+    const auto last = static_cast<std::size_t>(links.count) - 2;
+    config::SceneConfig ball;
+    ball.spheres = {{"ball", links.point_in_base[last + 1], 0.001}};
+    clearance::SelfClearance nearest;
+    const std::int32_t apart = clearance::min_apart(table.segment[0].theta_limit_rad);
+    for (std::int32_t i = 0; i < links.count - 1; ++i) {
+      for (std::int32_t k = i + apart; k < links.count - 1; ++k) {
+        const double here_m = between_m(clearance::link_capsule(links.axis(), i, model.link_radius_m),
+                                        clearance::link_capsule(links.axis(), k, model.link_radius_m));
+        if (here_m < nearest.nearest_m) nearest = {here_m, i, k};
+      }
+    }
+    Simulation simulation(model, ball);
+    const Distances& found = simulation.run(start, {{0.02, {start.theta_rad, start.theta_rad}}, {}, {}}).distances;
+    EXPECT_NEAR(found.scene.distance_m, -0.001 - model.link_radius_m, 1e-9);
+    EXPECT_EQ(found.scene.link, static_cast<std::int32_t>(last));
+    EXPECT_NEAR(found.self.distance_m, nearest.nearest_m, 1e-9);
+    EXPECT_EQ(found.self.link, nearest.link);
+    EXPECT_EQ(found.self.other, nearest.other);
+  }
 }
 
 TEST(Simulation, TheDrumsLagBehindARampByTheirTimeConstant) {
