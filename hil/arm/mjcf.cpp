@@ -4,9 +4,13 @@
 #include <iomanip>
 #include <sstream>
 
+#include "hil/arm/mujoco_model.hpp"
+
 namespace liana::bench {
 
 namespace {
+
+constexpr int kBodiesPerFile = 64;  // MuJoCo 2.2.2 reads no file with elements more than 100 deep
 
 std::ostream& operator<<(std::ostream& out, const Vec3& v) { return out << v.x << ' ' << v.y << ' ' << v.z; }
 
@@ -99,23 +103,24 @@ void write_tendons(std::ostream& out, const RobotConfig& robot) {
   out << "</tendon>\n";
 }
 
-}  // namespace
-
-std::string make_mjcf(const RobotConfig& robot, const SceneConfig& scene, bool with_tendons) {
+// The links, one in the other; part i lies in the last body of part i - 1.
+std::vector<std::string> bodies(const RobotConfig& robot, bool with_tendons) {
+  std::vector<std::string> parts;
   std::ostringstream out;
   out << std::setprecision(17);
-  out << "<mujoco><compiler angle='radian' autolimits='true'/><size nconmax='2000' njmax='1'/><option gravity='0 0 "
-         "0'/>\n";
-  write_meshes(out, scene);
-  out << "<worldbody>\n";
-  write_scene(out, scene);
   double offset_m = 0.0;
   int link = 0;
-  int bodies = 0;
-  if (robot.base) write_carriage(out, *robot.base), ++bodies;
+  int in_part = 0;
+  const auto end_part = [&] {
+    parts.push_back(out.str());
+    out.str("");
+    in_part = 0;
+  };
+  if (robot.base) write_carriage(out, *robot.base), ++in_part;
   for (std::size_t s = 0; s < robot.segments.size(); ++s) {
     const SegmentConfig& segment = robot.segments[s];
-    for (int i = 0; i < segment.modules; ++i, ++link, ++bodies) {
+    for (int i = 0; i < segment.modules; ++i, ++link, ++in_part) {
+      if (in_part == kBodiesPerFile) end_part();
       // The disc before a joint belongs to the link before it: world or carriage for the first.
       if (with_tendons) write_sites(out, robot, "n", link, offset_m - segment.face_offset_m);
       const bool last = s + 1 == robot.segments.size() && i + 1 == segment.modules;
@@ -124,11 +129,33 @@ std::string make_mjcf(const RobotConfig& robot, const SceneConfig& scene, bool w
       offset_m = segment.module_length_m;
     }
   }
-  for (int i = 0; i < bodies; ++i) out << "</body>";
-  out << "</worldbody>\n";
+  const int in_last = in_part;
+  end_part();
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    const bool last = part + 1 == parts.size();
+    if (!last) parts[part] += "<include file='" + mjcf_name(part + 1) + "'/>";
+    for (int i = 0; i < (last ? in_last : kBodiesPerFile); ++i) parts[part] += "</body>";
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<std::string> make_mjcf(const RobotConfig& robot, const SceneConfig& scene, bool with_tendons) {
+  std::vector<std::string> files = bodies(robot, with_tendons);
+  for (std::size_t i = 1; i < files.size(); ++i) files[i] = "<mujoco>" + files[i] + "</mujoco>\n";
+  std::ostringstream out;
+  out << std::setprecision(17);
+  out << "<mujoco><compiler angle='radian' autolimits='true'/><size nconmax='2000' njmax='1'/><option gravity='0 0 "
+         "0'/>\n";
+  write_meshes(out, scene);
+  out << "<worldbody>\n";
+  write_scene(out, scene);
+  out << files.front() << "</worldbody>\n";
   if (with_tendons) write_tendons(out, robot);
   out << "</mujoco>\n";
-  return out.str();
+  files.front() = out.str();
+  return files;
 }
 
 }  // namespace liana::bench

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "hil/config/robot_config.hpp"
 #include "hil/config/scene_config.hpp"
@@ -12,7 +13,7 @@ namespace liana::bench {
 // of the links, two per link; one body per module with inertia of a solid cylinder. Arm geoms touch
 // the scene and never each other; the last link does not touch the rod. The scene's shapes are world geoms, the rod is
 // named "rod". `with_tendons` adds one spatial tendon per cable through sites at the holes (the independent check of
-// the cable lengths; slow).
-std::string make_mjcf(const RobotConfig& robot, const SceneConfig& scene, bool with_tendons);
+// the cable lengths; slow). As files for a MujocoModel: a long arm is in several.
+std::vector<std::string> make_mjcf(const RobotConfig& robot, const SceneConfig& scene, bool with_tendons);
 
 }  // namespace liana::bench

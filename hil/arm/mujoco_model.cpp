@@ -6,13 +6,15 @@
 
 namespace liana::bench {
 
-MujocoModel::MujocoModel(const std::string& xml) {
+MujocoModel::MujocoModel(const std::vector<std::string>& files) {
   const auto vfs = std::make_unique<mjVFS>();
   mj_defaultVFS(vfs.get());
-  mj_makeEmptyFileVFS(vfs.get(), "arm.xml", static_cast<int>(xml.size()));
-  std::memcpy(vfs->filedata[0], xml.data(), xml.size());
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    mj_makeEmptyFileVFS(vfs.get(), mjcf_name(i).c_str(), static_cast<int>(files[i].size()));
+    std::memcpy(vfs->filedata[i], files[i].data(), files[i].size());
+  }
   char error[500] = "";
-  model = mj_loadXML("arm.xml", vfs.get(), error, sizeof error);
+  model = mj_loadXML(mjcf_name(0).c_str(), vfs.get(), error, sizeof error);
   mj_deleteVFS(vfs.get());
   if (model == nullptr)
     throw std::runtime_error(std::string("physics: MuJoCo refuses the model of robot and scene: ") + error);

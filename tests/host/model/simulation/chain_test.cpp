@@ -41,6 +41,33 @@ TEST(Chain, LinksAreWhereTheCoresClosedFormHasThem) {
   }
 }
 
+// MuJoCo takes them in several files.
+// req:A35
+TEST(Chain, TheBenchPutsArmsOfAsManyModulesAsTheCoreServesThere) {
+  Random random(3);
+  for (const RobotParams& table : long_tables()) {
+    bench::RobotConfig robot = bench::load_robot(CLOSED_LOOP_DATA "/robot.json");
+    robot.segments.resize(static_cast<std::size_t>(table.segment_count), robot.segments.front());
+    for (bench::SegmentConfig& segment : robot.segments) {
+      segment.modules = table.segment[0].modules;
+      segment.module_length_m = table.segment[0].module_length_m;
+      segment.face_offset_m = table.segment[0].face_offset_m;
+    }
+    bench::Chain hinges(robot, bench::load_scene(CLOSED_LOOP_DATA "/scene.json"));
+    const ThetaVector theta_rad = random.theta(table, 5.0);
+    bench::Theta at{};
+    std::copy_n(theta_rad.begin(), at.size(), at.begin());
+    hinges.place(at);
+    const LinkPoints core = link_points(table, theta_rad);
+    ASSERT_EQ(hinges.link_count() + 1, static_cast<std::size_t>(core.count));
+    for (std::size_t k = 0; k <= hinges.link_count(); ++k) {
+      const bench::Vec3 point_m = hinges.joint_center_m(k);
+      const Vec3 there_m{point_m.x, point_m.y, point_m.z};
+      EXPECT_LT(norm(subtract(there_m, core.point_in_base[k])), 1e-9) << "point " << k;
+    }
+  }
+}
+
 void expect_mass_of_hinges(const ArmModel& model, const std::string& robot_file, double max_deg, double share) {
   bench::Chain hinges(bench::load_robot(robot_file), bench::load_scene(CLOSED_LOOP_DATA "/scene.json"));
   Random random(2);
