@@ -22,6 +22,10 @@ class FeederBox(Messages, unittest.TestCase):
         self.assertEqual([step["outcome"] for step in report["steps"]], ["success"] * 3)
         self.assertGreater(report["min_clearance_m"], 0.005)
 
+    def test_the_tour_for_a_tracker_is_for_arms_on_a_base_too(self):
+        code, _, error = liana("check", "tracker_tour", "--robot", "feeder", "--scene", "none", timeout_s=900)
+        self.assertEqual(code, 0, error)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])
