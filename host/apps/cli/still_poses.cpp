@@ -111,8 +111,9 @@ std::vector<calibration::StillPose> still_poses(const Stays& run,
   if (out.size() < calibration::kMinTrackerPoses)
     throw std::runtime_error(calibration::text(
         "the arm stood still %zu times for 1.5 s or more, the marker was seen at rest in %zu of them: allowed at least "
-        "%zu: stop in more poses, and keep the marker in sight",
-        run.stays.size(), out.size(), calibration::kMinTrackerPoses));
+        "%zu: stop in more poses, keep the marker in sight, and export %.0f rows a second or more (here %.1f)",
+        run.stays.size(), out.size(), calibration::kMinTrackerPoses, calibration::kMinTrackerRate_hz,
+        static_cast<double>(tracked.size() - 1) / (tracked.back().time_s - tracked.front().time_s)));
   return out;
 }
 

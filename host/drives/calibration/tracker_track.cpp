@@ -81,7 +81,7 @@ class Table {
       const config::Range& range = i == 0 ? kTime : i < 4 ? kPlace : kPart;
       if (read.ec != std::errc{} || read.ptr != cell.end() || !range.contains(out[i]))
         refuse(kColumns[i], std::string(cell.substr(0, 40)), "a number " + range.text(),
-               "leave out rows in which the tracker did not see the marker");
+               "write seconds and metres, and leave out rows in which the tracker did not see the marker");
     }
     const Quat q{out[4], out[5], out[6], out[7]};
     const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);

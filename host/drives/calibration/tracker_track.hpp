@@ -35,6 +35,7 @@ double clock_offset_s(const std::vector<TimedPoint>& tip, const std::vector<Trac
 
 // The mean pose between two times of the tracker's clock; nothing where it has fewer than kMinSamples there, or moves.
 constexpr std::size_t kMinSamples = 5;
+constexpr double kMinTrackerRate_hz = 5.0;  // gives them in a stay of 1.5 s, less what the clocks' offset is off by
 std::optional<Pose> mean_pose(const std::vector<TrackedPose>& tracked, double from_s, double to_s);
 
 }  // namespace liana::calibration

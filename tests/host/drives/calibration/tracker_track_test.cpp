@@ -72,6 +72,7 @@ TEST(TrackerTrack, EveryBadFileIsRefusedWithLineColumnAndValue) {
   };
   for (const auto& one : bad) EXPECT_TRUE(refusal(one.text).starts_with(one.begins)) << refusal(one.text);
   EXPECT_EQ(refusal(kHeader + good + "2,0,0,0,1,0,0,0\n"), "");
+  EXPECT_NE(refusal(kHeader + good + "2,0,1200,0,1,0,0,0\n").find("metres"), std::string::npos);
   EXPECT_THROW(read_tracker("/nowhere/poses.csv"), std::runtime_error);
   EXPECT_THROW(read_tracker(std::filesystem::temp_directory_path()), std::runtime_error);
   const File pipe("");
