@@ -283,6 +283,13 @@ void warn_of_refusal(const planner::PlanRequest& request, const planner::PlanRes
       prediction_m + kBeyondPrediction_m);
 }
 
+// `liana run` knows a plan by the end of its name.
+void check_out_file(const std::string& file) {
+  launcher::check_output("--out", file);
+  if (!file.ends_with(".json"))
+    throw launcher::BadInput("--out: '" + file + "': allowed: a name that ends in .json: name the plan's file so");
+}
+
 int exit_code(planner::PlanOutcome outcome) {
   if (outcome == planner::PlanOutcome::solved) return launcher::kExitOk;
   return outcome == planner::PlanOutcome::cancelled ? launcher::kExitInterrupted : launcher::kExitNotConverged;
@@ -295,7 +302,7 @@ int plan_command(const PlanOptions& options) {
   planner::PlanControl control;
   if (!options.max_iterations.empty())
     control.max_iterations = static_cast<std::int32_t>(parse_whole("--iterations", options.max_iterations, 1, 100000));
-  if (!options.out_file.empty()) launcher::check_output("--out", options.out_file);
+  if (!options.out_file.empty()) check_out_file(options.out_file);
   const planner::PlanRequest request = request_of(options);
   launcher::Silence silence(kSilent_s, [&request](double since_s) {
     std::fprintf(stderr, "plan: computing for %.0f s, %d waypoints; Ctrl-C ends it\n", since_s, request.waypoints);

@@ -143,14 +143,15 @@ std::string refusal_of_pose(const config::RobotConfig& robot, const std::string&
   const bool is_low = planned.min_N < limits.floor_motor_N;
   if (!is_low && planned.max_N <= limits.ceiling_free_N) return {};
   char text[240];
-  std::snprintf(
-      text, sizeof text,
-      ": tensions of %.1f to %.1f N are planned (%s): allowed %g to %g N: choose another pose, let it carry less, or "
-      "raise tension.ceiling_free_N",
-      planned.min_N, planned.max_N,
-      config::DriveNames(robot.table).cable(is_low ? planned.min_cable : planned.max_cable).c_str(),
-      limits.floor_motor_N, limits.ceiling_free_N);
-  return "pose " + name + text;
+  std::snprintf(text, sizeof text,
+                ": tensions of %.1f to %.1f N are planned (%s): allowed %g to %g N: choose another pose, ",
+                planned.min_N, planned.max_N,
+                config::DriveNames(robot.table).cable(is_low ? planned.min_cable : planned.max_cable).c_str(),
+                limits.floor_motor_N, limits.ceiling_free_N);
+  return "pose " + name + text +
+         (is_low
+              ? "or other places of the holes (cables.face_offset_m, hole_radius_m, phase_deg): a cable would be slack"
+              : "let it carry less, or raise tension.ceiling_free_N");
 }
 
 PoseTension tension_at(const RobotParams& table, const ThetaVector& theta_rad) {

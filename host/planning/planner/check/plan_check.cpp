@@ -244,9 +244,10 @@ std::string tension_refusal(const RobotParams& table, const PlanCheck& check, do
   const bool is_low = check.min_tension_N < floor_N;
   if (!is_low && check.max_tension_N <= ceiling_N) return {};
   const config::DriveNames names(table);
-  return text("%s would be pulled with %.1f N; allowed are %.1f to %.1f N: ask for another pose, or let it carry less",
+  return text("%s would be pulled with %.1f N; allowed are %.1f to %.1f N: ask for another pose%s",
               names.cable(static_cast<Index>(is_low ? check.min_tension_cable : check.max_tension_cable)).c_str(),
-              is_low ? check.min_tension_N : check.max_tension_N, floor_N, ceiling_N);
+              is_low ? check.min_tension_N : check.max_tension_N, floor_N, ceiling_N,
+              is_low ? ": it would be slack" : ", or let it carry less");
 }
 
 CheckedTip plain_tip(const RobotParams& table, const ThetaVector& theta_rad) {

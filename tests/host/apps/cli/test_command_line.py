@@ -689,6 +689,13 @@ class Help(Messages, unittest.TestCase):
             self.assertEqual((code, out, error.count("\n")), (2, "", 1), words)
             self.assertIn("'-': allowed: a file", error)
 
+    def test_a_plan_is_written_only_by_a_name_that_run_knows(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "s3.plan"
+            code, out, error = liana("plan", f"--from-deg={ZERO}", f"--to-deg={ZERO}", "--out", file)
+            self.assertEqual((code, out, error.count("\n"), file.exists()), (2, "", 1, False), error)
+            self.assert_names(error, "--out", str(file), ".json")
+
     def test_a_scene_needs_a_slit_only_where_the_slit_is_used(self):
         self.assertEqual(
             liana("plan", "--scene=none", "--from-deg=0,0,0,0,0,0,0,0,0,0", "--to-deg=1,0,0,0,0,0,0,0,0,0")[0], 0

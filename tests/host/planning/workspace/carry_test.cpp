@@ -87,6 +87,29 @@ TEST(Carry, AnArmThatIsTooHeavyUnloadedIsSaidToBe) {
   EXPECT_GT(one.share.back(), 0.5);
 }
 
+TEST(Carry, APoseOverTheCeilingAndOneWithASlackCableAreToldWhatHelpsEach) {
+  const auto says = [](const std::string& why, const char* field) { return why.find(field) != std::string::npos; };
+  config::RobotConfig heavy = lab_1g(), slack = lab_1g();
+  heavy.table.tension.ceiling_free_N = 31.0;
+  for (auto& segment : slack.table.segment) segment.face_offset_m = 1e-5;
+  int over = 0, below = 0;
+  for (const auto& [name, angles_deg] : heavy.named_poses_deg) {
+    const double ceiling_N = heavy.table.tension.ceiling_free_N, floor_N = slack.table.tension.floor_motor_N;
+    const PoseTension of_heavy = tension_at(heavy, name), of_slack = tension_at(slack, name);
+    if (of_heavy.max_N > ceiling_N && of_heavy.min_N >= floor_N) {
+      ++over;
+      EXPECT_TRUE(says(refusal_of_pose(heavy, name), "tension.ceiling_free_N"));
+    }
+    if (of_slack.min_N < floor_N) {
+      ++below;
+      EXPECT_TRUE(says(refusal_of_pose(slack, name), "cables.face_offset_m"));
+      EXPECT_FALSE(says(refusal_of_pose(slack, name), "tension.ceiling_free_N"));
+    }
+  }
+  EXPECT_GT(over, 0);
+  EXPECT_GT(below, 0);
+}
+
 TEST(Carry, ThePictureHasAPanelOfEveryMounting) {
   const config::RobotConfig robot = lab_1g();
   std::vector<Carried> all;
