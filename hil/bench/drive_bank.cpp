@@ -42,7 +42,7 @@ CableValues DriveBank::payouts_m() const {
 }
 
 double DriveBank::permille(double tension_N) const {
-  return 1000.0 * tension_N * robot_.drum_radius_m / (robot_.gear * robot_.rated_torque_Nm);
+  return 1000.0 * tension_N * robot_.drum_radius_m / robot_.rated_torque_Nm;
 }
 
 void DriveBank::creep() {

@@ -28,7 +28,7 @@ DriveSettings drive_settings(const Robot& robot, const BusesConfig& buses, std::
   settings.revision = settings.dictionary.revision.value_or(robot.revision);
   settings.serial = robot.drives[i].serial;
   settings.counts_per_turn = robot.counts_per_turn;
-  settings.rated_torque_mNm = static_cast<std::uint32_t>(std::lround(1000.0 * robot.rated_torque_Nm));
+  settings.rated_torque_mNm = 1000.0 * robot.rated_torque_Nm / robot.gear;
   settings.gear = robot.gear;
   settings.fastest_counts_per_s = robot.fastest_counts_per_s;
   settings.servo_time_constant_s = robot.servo_time_constant_s;

@@ -19,7 +19,7 @@ struct DriveSettings {
   std::uint32_t revision = 0;
   std::uint32_t serial = 0;
   std::uint32_t counts_per_turn = 65536;
-  std::uint32_t rated_torque_mNm = 9000;
+  double rated_torque_mNm = 9000;     // before the gear
   double gear = 1.0;                  // motor turns per turn behind the gear, to three decimals
   double fastest_counts_per_s = 0.0;  // that it will be told; 0: not known
   double servo_time_constant_s = 0.03;

@@ -22,7 +22,7 @@ bool Drive::is_torque_controlled() const { return motor_.mode() == MotorMode::kT
 
 double Drive::rad_per_count() const { return kTwoPi / (settings_.counts_per_turn * settings_.gear); }
 
-double Drive::Nm_per_permille() const { return kMilli * kMilli * settings_.rated_torque_mNm; }
+double Drive::Nm_per_permille() const { return kMilli * kMilli * settings_.rated_torque_mNm * settings_.gear; }
 
 TorqueGains Drive::torque_gains() const {
   const auto milli = [this](std::uint8_t sub) { return kMilli * static_cast<double>(objects_.get(0x3001, sub)); };

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "bench_harness.hpp"
+#include "hil/bench/drives.hpp"
 #include "hil/bus/embedded_bus.hpp"
 #include "hil/bus/packets.hpp"
 #include "hil/bus/socketcan_bus.hpp"
@@ -50,6 +51,23 @@ TEST(WholeBench, BootsEnablesAndWritesOneTruthRowPerSlot) {
   EXPECT_EQ(summary.at("drives").size(), 15U);
   EXPECT_EQ(summary.at("drives")[3].at("sdo_aborts"), 0);
   EXPECT_GT(summary.at("drives")[14].at("rpdos").get<int>(), 100);
+}
+
+TEST(WholeBench, AGearChangesCountsAndTheMotorsRatedTorqueAndNoReading) {
+  for (const double gear : {5.0, 0.2}) {
+    BenchOptions options = options_of(1);
+    options.robot.gear = gear;
+    options.truth_path = temporary("geared.bin");
+    EXPECT_DOUBLE_EQ(drive_settings(options.robot, options.buses, 0).rated_torque_mNm, 9000.0 / gear);
+    Bench bench(options);
+    ScriptedBus bus(200, 0);
+    bench.run(bus);
+    const Truth truth = read_truth(options.truth_path);
+    for (std::size_t i = 0; i < 15; ++i) {
+      EXPECT_GT(bus.torque_permille[i] * 0.6, 0.97 * truth.at(199, "tension_motor_min_N") - 0.6) << gear;
+      EXPECT_LT(bus.torque_permille[i] * 0.6, 1.03 * truth.at(199, "tension_motor_max_N") + 0.6) << gear;
+    }
+  }
 }
 
 TEST(WholeBench, TwoRunsWithOneSeedAreIdenticalAndAnotherSeedIsNot) {

@@ -41,7 +41,7 @@ ExpectedDrive common_expectation(const Robot& robot, const config::BusesConfig& 
   common.product = robot.identity.product;
   common.revision = robot.identity.revision;
   common.counts_per_turn = robot.counts_per_turn;
-  common.rated_torque_mNm = robot.rated_torque_Nm * 1000.0;
+  common.rated_torque_mNm = robot.rated_torque_Nm * 1000.0 / robot.gear;
   set_gear(common, robot.gear);
   common.period = config::interpolation_period(buses.period_us());
   common.rpdo_deadline_ms = static_cast<std::uint16_t>((kDeadlinePeriods * buses.period_us() + 999) / 1000);

@@ -35,7 +35,7 @@ struct ExpectedDrive {
   std::uint32_t counts_per_turn = 0;    // 608F:1, per motor turn
   std::uint32_t gear_motor_turns = 1;   // 6091:1
   std::uint32_t gear_drum_turns = 1;    // 6091:2
-  double rated_torque_mNm = 0.0;        // 6076; a small motor has a fraction of one more
+  double rated_torque_mNm = 0.0;        // 6076, before the gear; a small motor has a fraction of one more
   std::optional<std::uint32_t> serial;  // 1018:4; without it, any: but the one found first has to stay
   DriveProfile demand;                  // 607D, 607F, 6080, 60C5, 6085
   // Is written.

@@ -99,6 +99,16 @@ class EveryRobot(Messages, unittest.TestCase):
                 code, out, error = liana("calibrate", "--robot", robot, "--json")
                 self.assertEqual(code, 0, out + error)
 
+    def test_an_arm_whose_drives_have_a_gear_does_its_tour(self):
+        for gear in (5, 0.2):
+            with self.subTest(gear):
+                table = json.loads(liana("robot", "export", "lab_1g")[1])
+                table["drives"].update(gear=gear, counts_per_turn=round(16384 / gear))
+                file = self.folder / "geared.json"
+                file.write_text(json.dumps(table))
+                mission, scene, _ = SHIPPED["lab_1g"]
+                self.crosses(file, mission, scene)
+
     def test_what_does_not_fit_is_named(self):
         table = json.loads(liana("robot", "export", "three_segment_lab")[1])
         table["cables"]["phase_deg"][1] = table["cables"]["phase_deg"][0]

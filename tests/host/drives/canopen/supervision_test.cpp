@@ -178,7 +178,7 @@ TEST(Expectations, FollowFromRobotAndBusTable) {
   config::RobotConfig unknown = robot_with_three_cables();
   unknown.drive_serials.clear();
   EXPECT_EQ(drive_expectations(unknown, buses_at(250))[2].serial, std::nullopt);
-  EXPECT_EQ(drives[0].rated_torque_mNm, 9000U);
+  EXPECT_EQ(drives[0].rated_torque_mNm, 2000U) << "of the motor, before the gear";
   EXPECT_EQ(drives[0].gear_motor_turns, 9U);
   EXPECT_EQ(drives[0].gear_drum_turns, 2U);
   EXPECT_EQ(drives[0].rpdo_deadline_ms, 12);

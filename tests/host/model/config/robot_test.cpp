@@ -96,6 +96,16 @@ TEST(Robot, IsRefusedWithFileFieldValueRangeAndAdvice) {
   }
 }
 
+TEST(Robot, AGearMakesCountsFinerAndTorqueAtTheDrumStaysWhatItIs) {
+  Json table = good_table("robot", "zhu2022");
+  for (const double gear : {1.0, 5.0, 0.2}) {
+    table["drives"]["gear"] = gear;
+    const cable::DriveParams drive = parse_robot(table.dump(), "r", "nominal", buses()).table.drive[0];
+    EXPECT_DOUBLE_EQ(drive.metres_per_count * gear, 0.015 * 360 * kDeg / 65536);
+    EXPECT_DOUBLE_EQ(drive.newtons_per_permille, 0.6);
+  }
+}
+
 TEST(Robot, SegmentsHaveTheLoadOfAllUnlessTheySayOtherwise) {
   Json table = good_table("robot", "zhu2022");
   const RobotConfig weightless = parse_robot(table.dump(), "r", "nominal", buses());
