@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "firmware_like/cable/arm/feed_monitor.hpp"
 #include "firmware_like/cable/arm/static_load.hpp"
 #include "firmware_like/math/trig.hpp"
 #include "host/base/random/random.hpp"
@@ -30,7 +31,17 @@ PoseTension tension_at(const RobotParams& table, const CableLayout& layout, cons
   const std::span<const double> tension_N = of_cables(table, plan.motor_N);
   const auto [least, most] = std::minmax_element(tension_N.begin(), tension_N.end());
   const auto index = [&](auto at) { return static_cast<Index>(&*at - plan.motor_N.data()); };
-  return {*most, *least, index(most), index(least), plan.balanced};
+  PoseTension out{*most, *least, index(most), index(least), plan.balanced};
+  if (table.feed_count() == 0) return out;
+  const ArmTrig trig = arm_trig(table, theta_rad);
+  const ThetaVector load_Nm = static_load_Nm(table, theta_rad, trig, forward_kinematics(table, trig));
+  for (std::int32_t axis = 0; axis < table.feed_count(); ++axis) {
+    const double force_N = std::fabs(feed_force_N(table, axis, load_Nm[static_cast<Index>(axis)]));
+    if (force_N <= std::max(table.tension.hard_limit_N, out.max_N)) continue;
+    out.max_N = force_N;
+    out.max_cable = static_cast<Index>(axis);
+  }
+  return out;
 }
 
 // Above 1 over the ceiling, or below the floor.
@@ -143,6 +154,13 @@ std::string refusal_of_pose(const config::RobotConfig& robot, const std::string&
   const bool is_low = planned.min_N < limits.floor_motor_N;
   if (!is_low && planned.max_N <= limits.ceiling_free_N) return {};
   char text[240];
+  if (planned.max_cable < static_cast<Index>(robot.table.feed_count())) {
+    std::snprintf(text, sizeof text,
+                  ": the %s of the base holds %.0f N: allowed up to tension.hard_limit_N, %g N (5002): mount the arm "
+                  "otherwise, let it or its carriage weigh less, or widen base.roll_radius_m for the roll",
+                  config::DriveNames(robot.table).cable(planned.max_cable).c_str(), planned.max_N, limits.hard_limit_N);
+    return "pose " + name + text;
+  }
   std::snprintf(text, sizeof text,
                 ": tensions of %.1f to %.1f N are planned (%s): allowed %g to %g N: choose another pose, ",
                 planned.min_N, planned.max_N,

@@ -19,7 +19,7 @@ namespace liana::workspace {
 enum class TensionBand : std::uint8_t { kFree, kOverCeiling, kOverAlarm, kBeyond };
 constexpr std::size_t kTensionBands = 4;
 
-// The plan at one pose, nothing having slipped.
+// The plan at one pose, nothing having slipped. A drive of a base counts where it holds more than the hard limit.
 struct PoseTension {
   double max_N = 0.0;  // at the motors
   double min_N = 0.0;

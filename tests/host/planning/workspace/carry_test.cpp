@@ -110,6 +110,33 @@ TEST(Carry, APoseOverTheCeilingAndOneWithASlackCableAreToldWhatHelpsEach) {
   EXPECT_GT(below, 0);
 }
 
+// A drive of a base holds up to the hard limit, as fault 5002 judges it: the slide its weight along x, the roll what
+// its small wheel makes of the arm's.
+TEST(Carry, ABaseWhoseDriveHoldsMoreThanTheHardLimitIsRefusedWithItsAxis) {
+  const auto feeder = [] {
+    return config::parse_robot(config::good_table("robot", "feeder").dump(), "r", "nominal",
+                               config::parse_buses(config::bench_buses(14), "b"));
+  };
+  const config::RobotConfig fits = feeder();
+  EXPECT_EQ(refusal_of_pose(fits, "zero"), "");
+  config::RobotConfig slide = feeder();
+  slide.table.gravity_m_s2 = {9.80665, 0.0, 0.0};
+  slide.table.segment[0].module_mass_kg = 1.01 * slide.table.tension.hard_limit_N / 9.80665;
+  const Carried carries = what_it_carries(slide, mountings(slide.table)[0], 50, 1);
+  EXPECT_EQ(carries.worst.max_cable, 0u);
+  EXPECT_FALSE(carries.all.unloaded);
+  EXPECT_NEAR(carries.share.back(), 1.0, 1e-9);
+  EXPECT_NE(refusal_of_pose(slide, "zero").find("slide"), std::string::npos);
+  slide.table.segment[0].module_mass_kg *= 0.5;
+  const Carried lighter = what_it_carries(slide, mountings(slide.table)[0], 50, 1);
+  EXPECT_GT(lighter.worst.max_cable, 1u);
+  config::RobotConfig roll = feeder();
+  roll.table.segment[0].roll_radius_m = 1e-4;
+  cable::ThetaVector aside_rad{};
+  for (std::size_t k = 2; k < static_cast<std::size_t>(roll.table.theta_count()); k += 2) aside_rad[k] = 0.1;
+  EXPECT_EQ(tension_at(roll.table, aside_rad).max_cable, 1u);
+}
+
 TEST(Carry, ThePictureHasAPanelOfEveryMounting) {
   const config::RobotConfig robot = lab_1g();
   std::vector<Carried> all;
