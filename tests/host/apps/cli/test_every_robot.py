@@ -127,6 +127,22 @@ class EveryRobot(Messages, unittest.TestCase):
         code, out, _ = liana("robot", "check", file)
         self.assertEqual((code, out.splitlines()[-1]), (1, "does NOT fit as it is"))
 
+    def test_readings_that_are_too_coarse_for_the_cable_are_named_with_what_is_allowed(self):
+        for field, value, fits, kind in (
+            ("counts_per_turn", 256, False, "problems"),
+            ("rated_torque_Nm", 400, False, "problems"),
+            ("rated_torque_Nm", None, True, "notes"),
+        ):
+            with self.subTest(field, value=value):
+                table = json.loads(liana("robot", "export", "lab_1g")[1])
+                half = 4500 * table["drives"]["drum_radius_m"]  # 4.5 N a permille, of 7 that are a jump
+                table["drives"][field] = value or half
+                file = self.folder / "coarse.json"
+                file.write_text(json.dumps(table))
+                checked = liana_json("robot", "check", file, expected=(0 if fits else 1,))
+                self.assert_names("\n".join(checked[kind]), "cables.monitor.jump_N", "5005", field)
+                self.assertGreater(checked["N_per_count"] + checked["N_per_permille"], 3.5 if fits else 7)
+
     def test_what_an_arm_can_carry_is_the_same_for_check_and_reach_and_its_picture_is_drawn(self):
         picture = self.folder / "carry.svg"
         reach = liana_json("reach", "--robot", "lab_1g", "--carry", "--samples=2000", "--svg", picture)["carries"]
