@@ -171,7 +171,7 @@ void look_at_steps(const cable::RobotParams& table, const Json& checked, Json& p
                count_N, permille_N, faults ? "allowed" : "better", faults ? 2.0 * allowed_N : allowed_N,
                faults ? "all" : "half") +
           (count_N > permille_N ? "more drives.counts_per_turn, a smaller drum_radius_m or a longer cables.lead_m"
-                                : "drives of a smaller rated_torque_Nm, or a larger drum_radius_m"));
+                                : "a smaller drives.rated_torque_Nm, or a larger drum_radius_m"));
 }
 
 // Cables that move too little between any two poses do not tell their drives' directions.

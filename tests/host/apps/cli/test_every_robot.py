@@ -104,7 +104,7 @@ class EveryRobot(Messages, unittest.TestCase):
             with self.subTest(gear):
                 table = json.loads(liana("robot", "export", "lab_1g")[1])
                 table["drives"].update(gear=gear, counts_per_turn=round(16384 / gear))
-                file = self.folder / "geared.json"
+                file = self.folder / f"gear_{gear}.json"
                 file.write_text(json.dumps(table))
                 mission, scene, _ = SHIPPED["lab_1g"]
                 self.crosses(file, mission, scene)
@@ -140,7 +140,7 @@ class EveryRobot(Messages, unittest.TestCase):
                 file = self.folder / "coarse.json"
                 file.write_text(json.dumps(table))
                 checked = liana_json("robot", "check", file, expected=(0 if fits else 1,))
-                self.assert_names("\n".join(checked[kind]), "cables.monitor.jump_N", "5005", field)
+                self.assert_names("\n".join(checked[kind]), "cables.monitor.jump_N", "5005", f"drives.{field}")
                 self.assertGreater(checked["N_per_count"] + checked["N_per_permille"], 3.5 if fits else 7)
 
     def test_what_an_arm_can_carry_is_the_same_for_check_and_reach_and_its_picture_is_drawn(self):
