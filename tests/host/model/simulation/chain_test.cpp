@@ -102,6 +102,7 @@ TEST(Chain, TheReducedMassMatrixHasTheToolInIt) {
   expect_mass_of_hinges(arm_model(lab), CLOSED_LOOP_DATA "/lab_1g.json", 15.0, 1e-4);
 }
 
+// Sums of as many as 128 modules, in another order.
 TEST(CablePaths, LengthsChangeWithTheAnglesAsTheCoreSays) {
   Random random(3);
   for (const RobotParams& table : tables()) {
@@ -113,7 +114,7 @@ TEST(CablePaths, LengthsChangeWithTheAnglesAsTheCoreSays) {
       for (std::size_t c = 0; c < static_cast<std::size_t>(table.cable_count()); ++c) {
         const auto row = static_cast<Eigen::Index>(c);
         for (std::size_t k = 0; k < static_cast<std::size_t>(table.theta_count()); ++k)
-          EXPECT_NEAR(paths.jacobian_m_rad(row, static_cast<Eigen::Index>(k)), core.jacobian_m_rad[c][k], 1e-12);
+          EXPECT_NEAR(paths.jacobian_m_rad(row, static_cast<Eigen::Index>(k)), core.jacobian_m_rad[c][k], 1e-11);
         EXPECT_NEAR(paths.stiffness_N_per_m[row], table.cable_EA_N / (core.length_m[c] + table.lead_m), 1e-3);
       }
     }
