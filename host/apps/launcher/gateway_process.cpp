@@ -111,7 +111,7 @@ std::optional<std::string> GatewayProcess::look(HealthCheck& health) {
   if (health.silent_s(timing::steady_s()) < kMaxSilence_s) return std::nullopt;
   const std::optional<pid_t> stopped = child_->stopped();
   child_->end(0.0);
-  return "answered nothing for 15 s and was ended" +
+  return "answered nothing for " + std::to_string(static_cast<int>(kMaxSilence_s)) + " s and was ended" +
          (stopped ? ": its process " + std::to_string(*stopped) + " was stopped (SIGSTOP, a debugger)" : std::string());
 }
 

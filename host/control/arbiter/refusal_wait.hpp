@@ -10,8 +10,8 @@ namespace liana::arbiter {
 
 // A hand that pushes on would be refused in every interval, and the arm would start and stop each time. It is asked for
 // again at once where it goes another way, and when that is refused waits no longer than at first; else after a while
-// that doubles from refusal to refusal, and slowly. The
-// hand keeps its place beside the tip: nothing of its way is lost.
+// that doubles from refusal to refusal, and slowly. The hand keeps its place beside the tip, and loses nothing of its
+// way.
 class RefusalWait {
  public:
   // A goal was refused, asked for with the tip commanded to `tip`.
